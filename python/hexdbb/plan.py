@@ -19,8 +19,8 @@ from hexdbb.validation import BadValueError, FileModel, load_toml
 
 __all__ = ["Circle", "CircleRun", "Gauge", "Mount", "Plan", "check_ids", "load_plan", "shipped_plans"]
 
-Mounts = Annotated[tuple[Mount, ...], Field(strict=False, min_length=1, alias="mount")]
-Circles = Annotated[tuple[Circle, ...], Field(strict=False, min_length=1, alias="circle")]
+Mounts = Annotated[tuple[Mount, ...], Field(strict=False, min_length=1)]
+Circles = Annotated[tuple[Circle, ...], Field(strict=False, min_length=1)]
 Overshoot = Annotated[float, Field(ge=0.0, le=360.0, allow_inf_nan=False)]
 
 
@@ -51,8 +51,8 @@ class Plan(FileModel):
     overshoot_deg: Overshoot
     """Angle run before and after the captured laps, at full feed."""
     gauge: Gauge
-    mounts: Mounts
-    circles: Circles
+    mounts: Mounts = Field(alias="mount")
+    circles: Circles = Field(alias="circle")
 
     @model_validator(mode="after")
     def _consistent(self) -> Plan:

@@ -1,0 +1,29 @@
+"""`hexdbb convert`: a record from one form into another."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hexdbb.record import read_record, write_record
+
+
+@click.command(name="convert")
+@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
+@click.option("--overwrite", is_flag=True, help="Replace OUT if it exists.")
+def command(source: Path, target: Path, overwrite: bool) -> None:
+    r"""Convert a record between its forms, by suffix.
+
+    A record is a Parquet file (.parquet). Its text form is NAME.csv with NAME.toml beside it, and is written
+    together with the machine file, NAME.machine.toml.
+
+    \b
+    Examples:
+      hexdbb convert demo.parquet demo.csv
+      hexdbb convert measured.csv measured.parquet
+    """
+    record = read_record(source)
+    write_record(record, target, overwrite)
+    click.echo(f"{target}: {len(record)} samples, {len(record.sweeps())} sweeps")

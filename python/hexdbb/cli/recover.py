@@ -1,0 +1,38 @@
+"""`hexdbb recover`: a record from an interrupted capture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hexdbb.errors import InputError
+from hexdbb.record import journal_path, recover, write_record
+
+
+@click.command(name="recover")
+@click.argument("journal", metavar="JOURNAL", type=click.Path(path_type=Path))
+@click.option(
+    "-o", "--output", metavar="RECORD", type=click.Path(path_type=Path), help="Default: JOURNAL's own record."
+)
+@click.option("--overwrite", is_flag=True, help="Replace RECORD if it exists.")
+def command(journal: Path, output: Path | None, overwrite: bool) -> None:
+    r"""Make a record of what an interrupted capture left in its journal.
+
+    The record is marked incomplete. It holds every sample up to a second or less before the interruption, or up to
+    the first that is wrong. The journal stays, and may be removed once the record is good.
+
+    \b
+    Examples:
+      hexdbb recover demo.parquet.journal
+      hexdbb recover demo.parquet.journal -o saved.parquet
+    """
+    if output is None:
+        output = journal.with_suffix("")
+        if journal_path(output) != journal:
+            raise InputError(f"{journal}: not named RECORD.journal (expected -o RECORD with such a name)")
+    record = recover(journal)
+    write_record(record, output, overwrite)
+    last_s = record.columns["t_s"][-1]
+    click.echo(f"{output}: {len(record)} samples, the last at {last_s:.3f} s, marked incomplete")
+    click.echo(f"reason: {record.metadata['incomplete_because']}")

@@ -1,0 +1,19 @@
+"""Records of circular tests: in memory, as Parquet, as text (CSV and TOML), and as the journal of a running capture."""
+
+from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, TARGET_COLUMNS
+from hexdbb.record.formats import read_record, write_record
+from hexdbb.record.journal import Journal, journal_path
+from hexdbb.record.record import Record
+from hexdbb.record.recovery import recover
+
+__all__ = [
+    "REQUIRED_COLUMNS",
+    "SLIDER_COLUMNS",
+    "TARGET_COLUMNS",
+    "Journal",
+    "Record",
+    "journal_path",
+    "read_record",
+    "recover",
+    "write_record",
+]

@@ -1,0 +1,121 @@
+"""The columns of a record: names, types, units in the names, and the cast of whatever a file holds to them.
+
+| column | type | meaning |
+|---|---|---|
+| `t_s` | float64 | time of the sample |
+| `circle`, `sweep`, `lap` | int32 | circle's id; uninterrupted capture; turn inside it |
+| `direction` | int8 | +1 counter-clockwise seen from above the circle's plane, -1 clockwise |
+| `angle_deg` | float64 | commanded polar angle |
+| `feed_mm_min` | float64 | commanded feed |
+| `s1_mm` ... `s6_mm` | float64 | slider coordinates as the encoders report them |
+| `reading_um` | float64 | ball-bar length minus nominal length |
+| `temperature_c` | float64 | optional |
+| `target1_mm` ... `target6_mm` | float64 | optional: slider coordinates as commanded |
+| `status` | int32 | optional: state of the capture at the sample |
+
+Other columns are kept as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.errors import InputError
+from hexdbb.validation import format_value
+
+Columns = dict[str, NDArray[Any]]
+
+SLIDER_COLUMNS = tuple(f"s{k}_mm" for k in range(1, 7))
+TARGET_COLUMNS = tuple(f"target{k}_mm" for k in range(1, 7))
+REQUIRED_COLUMNS: dict[str, type[np.generic]] = {
+    "t_s": np.float64,
+    "circle": np.int32,
+    "sweep": np.int32,
+    "direction": np.int8,
+    "lap": np.int32,
+    "angle_deg": np.float64,
+    "feed_mm_min": np.float64,
+    **dict.fromkeys(SLIDER_COLUMNS, np.float64),
+    "reading_um": np.float64,
+}
+COLUMN_TYPES: dict[str, type[np.generic]] = {
+    **REQUIRED_COLUMNS,
+    "temperature_c": np.float64,
+    **dict.fromkeys(TARGET_COLUMNS, np.float64),
+    "status": np.int32,
+}
+
+
+class BadRowError(InputError):
+    """A sample is wrong; `row` counts from 0, the message from 1."""
+
+    def __init__(self, message: str, row: int) -> None:
+        super().__init__(message)
+        self.row = row
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where rows come from, to name a bad one as its reader would look for it."""
+
+    name: str
+    """The file."""
+    line_of: Callable[[int], int] | None = None
+    """Line of the file a row (from 0) stands on, for files that have lines."""
+
+    def bad(self, row: int, column: str, value: object, expected: str) -> BadRowError:
+        """Make the error of one cell."""
+        line = f" (line {self.line_of(row)})" if self.line_of is not None else ""
+        shown = value if isinstance(value, str) else format_value(value)
+        return BadRowError(f"{self.name}: row {row + 1}{line}: {column}: {shown} (expected {expected})", row)
+
+
+def normalise(columns: Mapping[str, Any], origin: Origin) -> Columns:
+    """Cast columns to the types of a record, required ones first, other columns kept after them.
+
+    Parameters
+    ----------
+    columns : mapping of str to array_like, each of shape (n,)
+    origin : Origin
+        Names the file in errors.
+
+    Raises
+    ------
+    InputError
+        A column is missing or of another length, or a value has no place in its column.
+    """
+    missing = [name for name in REQUIRED_COLUMNS if name not in columns]
+    if missing:
+        present = ", ".join(columns) or "none"
+        raise InputError(f"{origin.name}: missing column {', '.join(missing)} (columns present: {present})")
+    ordered = [*(name for name in COLUMN_TYPES if name in columns), *(n for n in columns if n not in COLUMN_TYPES)]
+    arrays = {name: np.atleast_1d(np.asarray(columns[name])) for name in ordered}
+    count = len(arrays["t_s"])
+    for name, values in arrays.items():
+        if values.shape != (count,):
+            raise InputError(f"{origin.name}: column {name}: shape {values.shape} (expected ({count},), as t_s has)")
+    return {name: _cast(name, values, origin) for name, values in arrays.items()}
+
+
+def _cast(name: str, values: NDArray[Any], origin: Origin) -> NDArray[Any]:
+    kind = COLUMN_TYPES.get(name)
+    if kind is None or values.dtype == kind:
+        return values
+    if not (np.issubdtype(values.dtype, np.number) or values.dtype == np.bool_):
+        raise InputError(f"{origin.name}: column {name}: of type {values.dtype} (expected numbers)")
+    if np.issubdtype(kind, np.integer):
+        _check_whole(name, values, np.iinfo(kind), origin)
+    return values.astype(kind)
+
+
+def _check_whole(name: str, values: NDArray[Any], limits: np.iinfo[Any], origin: Origin) -> None:
+    wrong = ~(np.isfinite(values) & (values >= limits.min) & (values <= limits.max))
+    wrong[~wrong] = values[~wrong] != np.round(values[~wrong])
+    if wrong.any():
+        row = int(np.argmax(wrong))
+        raise origin.bad(row, name, values[row].item(), f"a whole number from {limits.min} to {limits.max}")

@@ -1,0 +1,34 @@
+"""The record file: one Parquet file, zstd, that stands alone; pandas, polars, DuckDB and MATLAB read it as it is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from hexdbb.atomic_file import refuse_existing, replacing
+from hexdbb.errors import InputError
+from hexdbb.record.checks import check_record
+from hexdbb.record.columns import Origin
+from hexdbb.record.record import Record
+from hexdbb.record.tables import from_table, to_table
+
+
+def read_parquet(path: Path) -> Record:
+    """Read and check a Parquet record; `InputError` names what is wrong."""
+    try:
+        table = pq.read_table(path)
+    except (pa.ArrowException, OSError) as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f"{path}: not a whole Parquet file: {reason} (expected a record of hexdbb)") from None
+    record = from_table(table, path)
+    check_record(record, Origin(str(path)))
+    return record
+
+
+def write_parquet(record: Record, path: Path, overwrite: bool) -> None:
+    """Write a Parquet record, whole or not at all."""
+    refuse_existing(path, overwrite)
+    with replacing(path) as temporary:
+        pq.write_table(to_table(record), temporary, compression="zstd")

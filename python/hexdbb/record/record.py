@@ -1,0 +1,122 @@
+"""A record in memory: samples by column, and all that is needed to understand them."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.circle import Circle, Gauge, Mount
+from hexdbb.errors import InputError
+from hexdbb.machine import MachineFile
+from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, Origin, normalise
+from hexdbb.record.measurement import Measurement
+from hexdbb.validation import dump_toml, format_value
+
+DIMENSIONS = ("base", "platform", "legs", "sliders")
+"""Sections of a machine file that make it this machine and no other."""
+
+
+@dataclass
+class Record:
+    """Samples of one or more circular tests of one machine.
+
+    Columns are cast to their types (`hexdbb.record.columns`) when a record is made; their values are checked when it is
+    read or written.
+
+    Raises
+    ------
+    InputError
+        A column is missing or of another length, or a value has no place in its column.
+    """
+
+    columns: Columns
+    """Samples, each of shape (n,), by name."""
+    gauge: Gauge
+    mounts: tuple[Mount, ...]
+    circles: tuple[Circle, ...]
+    machine: MachineFile
+    metadata: dict[str, Any] = field(default_factory=dict)
+    """What else is known, as JSON can hold it: software version, CAN set-up, why a capture stopped."""
+    path: Path | None = None
+    """The file it was read from or written to."""
+    complete: bool = True
+    """False where the capture was interrupted."""
+
+    def __post_init__(self) -> None:
+        self.columns = normalise(self.columns, Origin(self.name))
+
+    def __len__(self) -> int:
+        return len(self.columns["t_s"])
+
+    @property
+    def name(self) -> str:
+        """What errors call it: its path, or ``record`` for one that is in memory only."""
+        return str(self.path) if self.path is not None else "record"
+
+    @property
+    def sliders_mm(self) -> NDArray[np.float64]:
+        """Slider coordinates as the encoders report them, shape (n, 6)."""
+        return np.column_stack([self.columns[name] for name in SLIDER_COLUMNS])
+
+    @property
+    def reading_mm(self) -> NDArray[np.float64]:
+        """Ball-bar length minus nominal length, shape (n,)."""
+        reading_mm: NDArray[np.float64] = self.columns["reading_um"] / 1000.0
+        return reading_mm
+
+    def circle(self, identity: int) -> Circle:
+        """Give the circle of an id."""
+        return next(circle for circle in self.circles if circle.id == identity)
+
+    def mount(self, identity: int) -> Mount:
+        """Give the mount of an id."""
+        return next(mount for mount in self.mounts if mount.id == identity)
+
+    def sweeps(self) -> list[NDArray[np.intp]]:
+        """Give the rows of each uninterrupted capture, in the order in which the captures begin."""
+        _, first, member = np.unique(self.columns["sweep"], return_index=True, return_inverse=True)
+        return [np.flatnonzero(member == which) for which in np.argsort(first)]
+
+    def measurement(self, machine: str) -> Measurement:
+        """Give gauge, mounts and circles as the file that names its machine `machine`."""
+        complete = None if self.complete else False
+        return Measurement(machine=machine, complete=complete, gauge=self.gauge, mount=self.mounts, circle=self.circles)
+
+    def content_hash(self) -> str:
+        """SHA-256 of required columns, gauge, mounts, circles and machine; the same in every form of the record."""
+        digest = hashlib.sha256()
+        for name, kind in REQUIRED_COLUMNS.items():
+            digest.update(name.encode())
+            digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
+        digest.update(dump_toml(self.measurement("machine")).encode())
+        digest.update(dump_toml(self.machine).encode())
+        return digest.hexdigest()
+
+    def require_machine(self, machine: MachineFile, origin: str) -> None:
+        """Refuse a machine of other dimensions than the record's own.
+
+        Parameters
+        ----------
+        machine : MachineFile
+            For example the machine of a model.
+        origin : str
+            File the machine comes from, for the error.
+
+        Raises
+        ------
+        InputError
+            Naming the first dimension that differs, with both values.
+        """
+        for section in DIMENSIONS:
+            own, other = getattr(self.machine, section).model_dump(), getattr(machine, section).model_dump()
+            for key, value in own.items():
+                if other[key] != value:
+                    raise InputError(
+                        f"{origin}: {section}.{key}: {format_value(other[key])}"
+                        f" (expected {format_value(value)}, as in {self.name}: they do not belong together)"
+                    )

@@ -1,0 +1,89 @@
+"""The text form of a record, which other programs write and read: `NAME.csv` and `NAME.toml`.
+
+Columns stand in any order, extra ones are kept; floats are written so that they read back to the last bit.
+"""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.csv
+
+from hexdbb.atomic_file import refuse_existing, replacing
+from hexdbb.errors import InputError
+from hexdbb.machine import machine_beside
+from hexdbb.record.cells import first_bad_cell, line_of_row
+from hexdbb.record.checks import check_record
+from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, Origin
+from hexdbb.record.measurement import Measurement
+from hexdbb.record.record import Record
+from hexdbb.record.tables import to_columns
+from hexdbb.validation import dump_toml, load_toml
+
+
+def read_text_form(path: Path) -> Record:
+    """Read and check `NAME.csv` with the `NAME.toml` beside it; `InputError` names what is wrong."""
+    measurement_path = path.with_suffix(".toml")
+    if not measurement_path.is_file():
+        raise InputError(f"{path}: no such file {measurement_path} (expected gauge, mounts and circles beside the CSV)")
+    measurement = load_toml(measurement_path, Measurement)
+    record = Record(
+        columns=_read_columns(path),
+        gauge=measurement.gauge,
+        mounts=measurement.mounts,
+        circles=measurement.circles,
+        machine=machine_beside(measurement.machine, measurement_path),
+        path=path,
+        complete=measurement.complete is not False,
+    )
+    check_record(record, Origin(str(path), lambda row: line_of_row(path, row)))
+    return record
+
+
+def _read_columns(path: Path) -> Columns:
+    names = _header(path)
+    types = {name: pa.float64() for name in names if name in COLUMN_TYPES}
+    try:
+        table = pa.csv.read_csv(
+            path,
+            read_options=pa.csv.ReadOptions(column_names=names, skip_rows=1),
+            convert_options=pa.csv.ConvertOptions(column_types=types, null_values=[""]),
+        )
+    except pa.ArrowInvalid as error:
+        # Arrow says what is wrong, but not where.
+        raise first_bad_cell(path, names, error) from None
+    return to_columns(table)
+
+
+def _header(path: Path) -> list[str]:
+    """Read the names of the columns, and refuse a file whose first line does not have them."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            names = [name.strip() for name in next(csv.reader(file), [])]
+    except UnicodeDecodeError as error:
+        raise InputError(f"{path}: byte {error.start} is not UTF-8 (expected UTF-8 text)") from None
+    if not names:
+        raise InputError(f"{path}: empty file (expected a first line of column names: {', '.join(REQUIRED_COLUMNS)})")
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            raise InputError(f"{path}: column {name}: stands twice (expected each name once)")
+    if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
+        raise InputError(f"{path}: line 1: one column {names[0]!r} (expected columns separated by commas)")
+    return names
+
+
+def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
+    """Write `NAME.csv`, `NAME.toml` and `NAME.machine.toml`, the CSV last."""
+    measurement_path, machine_path = path.with_suffix(".toml"), path.with_suffix(".machine.toml")
+    for file in (path, measurement_path, machine_path):
+        refuse_existing(file, overwrite)
+    with replacing(machine_path) as temporary:
+        temporary.write_text(dump_toml(record.machine), encoding="utf-8")
+    with replacing(measurement_path) as temporary:
+        temporary.write_text(dump_toml(record.measurement(machine_path.name)), encoding="utf-8")
+    with replacing(path) as temporary, temporary.open("wb") as stream:
+        stream.write((",".join(record.columns) + "\n").encode())
+        options = pa.csv.WriteOptions(include_header=False)
+        pa.csv.write_csv(pa.table({name: pa.array(values) for name, values in record.columns.items()}), stream, options)
