@@ -33,7 +33,7 @@ FloatArray = npt.NDArray[np.float64]
 
 EDITION = "ISO 230-4:2005"
 FULL_TURN_RAD = 2.0 * np.pi
-MAX_GAP_RAD = np.deg2rad(10.0)
+MAX_GAP_RAD = float(np.deg2rad(15.0))
 """Largest arc without a sample that still counts as a full circle."""
 
 

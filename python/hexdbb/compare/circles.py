@@ -1,0 +1,151 @@
+"""One circle at one feed: its samples, its mean paths measured and predicted, its residual in either direction.
+
+Convention: residual = measured - predicted. Radial deviation of a path = reading + bar length - nominal radius.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from hexdbb import iso230
+from hexdbb.circle import Circle
+from hexdbb.compare.quantities import Quantities, evaluate_quantities
+from hexdbb.iso230 import FloatArray, Path
+from hexdbb.record import Record
+
+IndexArray = npt.NDArray[np.int64]
+
+DIRECTION_NAMES: Mapping[int, str] = {1: "counter-clockwise", -1: "clockwise"}
+
+
+@dataclass(frozen=True)
+class DirectionComparison:
+    """One direction of one circle at one feed.
+
+    Attributes
+    ----------
+    direction : int
+        +1 counter-clockwise, -1 clockwise, seen from above the circle's plane.
+    rows : (n,) int array
+        Its samples in the record, so that any other column can be set against the residual.
+    angle_rad : (n,) array
+        Commanded polar angle as recorded.
+    residual_mm : (n,) array
+        Measured minus predicted reading.
+    measured, predicted : Path
+        Mean path over the laps.
+    measured_quantities, predicted_quantities : Quantities
+        ISO 230-4, in mm.
+    """
+
+    direction: int
+    rows: IndexArray
+    angle_rad: FloatArray
+    residual_mm: FloatArray
+    measured: Path
+    predicted: Path
+    measured_quantities: Quantities
+    predicted_quantities: Quantities
+
+    @property
+    def rms_mm(self) -> float:
+        """Root mean square of the residual."""
+        return root_mean_square(self.residual_mm)
+
+    @property
+    def peak_to_valley_mm(self) -> float:
+        """Largest minus smallest residual."""
+        return float(np.ptp(self.residual_mm))
+
+
+@dataclass(frozen=True)
+class CircleComparison:
+    """One circle of one record at one feed: `directions` holds counter-clockwise first, then clockwise."""
+
+    record_name: str
+    circle: Circle
+    feed_mm_min: float
+    directions: tuple[DirectionComparison, ...]
+
+    @property
+    def rms_mm(self) -> float:
+        """Root mean square of the residual of all its samples."""
+        return root_mean_square(np.concatenate([part.residual_mm for part in self.directions]))
+
+    @property
+    def set_up_centre_mm(self) -> FloatArray | None:
+        """Centre offset (2,) of the measured paths, least squares; None where no direction is a full circle."""
+        full = [part.measured for part in self.directions if part.measured.is_full_circle]
+        return iso230.set_up_centre_mm(*full) if full else None
+
+
+def root_mean_square(values: FloatArray) -> float:
+    """Root mean square, not corrected for degrees of freedom."""
+    return float(np.sqrt(np.mean(np.square(values))))
+
+
+def compare_circles(record: Record, name: str, predicted_mm: FloatArray) -> list[CircleComparison]:
+    """Split one record by circle and feed and compare each part.
+
+    Parameters
+    ----------
+    record : Record
+        At least one sample.
+    name : str
+        What the record is called in tables and sentences.
+    predicted_mm : (n,) array
+        Predicted reading of each sample.
+    """
+    columns = record.columns
+    parts = np.unique(np.column_stack([columns["circle"], columns["feed_mm_min"]]), axis=0)
+    return [_compare_circle(record, name, predicted_mm, int(circle), float(feed)) for circle, feed in parts]
+
+
+def _compare_circle(
+    record: Record, name: str, predicted_mm: FloatArray, circle_id: int, feed_mm_min: float
+) -> CircleComparison:
+    columns = record.columns
+    circle = record.circle(circle_id)
+    here = (columns["circle"] == circle_id) & (columns["feed_mm_min"] == feed_mm_min)
+    rows = {
+        direction: found
+        for direction in DIRECTION_NAMES
+        if len(found := np.flatnonzero(here & (columns["direction"] == direction)))
+    }
+    measured = {d: _mean_path(record, circle, found, record.reading_mm) for d, found in rows.items()}
+    predicted = {d: _mean_path(record, circle, found, predicted_mm) for d, found in rows.items()}
+    measured_quantities, predicted_quantities = evaluate_quantities(measured), evaluate_quantities(predicted)
+    directions = tuple(
+        DirectionComparison(
+            direction=direction,
+            rows=found,
+            angle_rad=np.radians(columns["angle_deg"][found]),
+            residual_mm=record.reading_mm[found] - predicted_mm[found],
+            measured=measured[direction],
+            predicted=predicted[direction],
+            measured_quantities=measured_quantities[direction],
+            predicted_quantities=predicted_quantities[direction],
+        )
+        for direction, found in rows.items()
+    )
+    return CircleComparison(name, circle, feed_mm_min, directions)
+
+
+def _mean_path(record: Record, circle: Circle, rows: IndexArray, reading_mm: FloatArray) -> Path:
+    """Mean path over the laps (and repeated sweeps) of the given samples."""
+    columns = record.columns
+    angle_rad = np.radians(columns["angle_deg"][rows])
+    deviation_mm = reading_mm[rows] + (record.gauge.bar_length_mm - circle.radius_mm)
+    turns = np.column_stack([columns["sweep"][rows], columns["lap"][rows]])
+    _, turn_of = np.unique(turns, axis=0, return_inverse=True)
+    turn_of = turn_of.ravel()
+    return iso230.mean_path(
+        [
+            iso230.make_path(angle_rad[turn_of == turn], deviation_mm[turn_of == turn], circle.radius_mm)
+            for turn in range(int(turn_of.max()) + 1)
+        ]
+    )

@@ -1,0 +1,164 @@
+"""The pages of a comparison: one per circle with a row for each feed, and an overview where there are several circles.
+
+Figures are made without pyplot, so drawing keeps no state and opens no window.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import cast
+
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.projections.polar import PolarAxes
+
+from hexdbb import iso230
+from hexdbb.atomic_file import replacing
+from hexdbb.circle import Circle
+from hexdbb.compare import CircleComparison, Comparison
+from hexdbb.plots.magnification import choose_scale
+from hexdbb.plots.panels import draw_quantities, draw_residual
+from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
+
+OVERVIEW_COLUMNS = 4
+PNG_DPI = 150
+
+
+@dataclass(frozen=True)
+class Page:
+    """One picture: `suffix` to add to the files' stem, and the function that draws it."""
+
+    suffix: str
+    draw: Callable[[], Figure]
+
+
+def comparison_pages(comparison: Comparison) -> list[Page]:
+    """List the pages of a comparison: one circle makes one page, several make an overview and a page each."""
+    grouped: dict[tuple[str, int], list[CircleComparison]] = {}
+    for circle in comparison.circles:
+        grouped.setdefault((circle.record_name, circle.circle.id), []).append(circle)
+    if len(grouped) == 1:
+        return [Page("", partial(circle_page, comparison.circles))]
+    several_records = len({record for record, _ in grouped}) > 1
+    pages = [Page("", partial(overview_page, comparison))]
+    for (record, identity), circles in grouped.items():
+        prefix = f"-{Path(record).stem}" if several_records else ""
+        pages.append(Page(f"{prefix}-circle{identity}", partial(circle_page, circles)))
+    return pages
+
+
+def circle_page(circles: Sequence[CircleComparison]) -> Figure:
+    """Draw one circle: for each feed a polar plot, the residual against angle and the quantities."""
+    figure = Figure(figsize=(11.5, 5.9 * len(circles) + 0.8), layout="constrained")
+    rows = figure.subfigures(len(circles), 1, squeeze=False)[:, 0]
+    for circle, row in zip(circles, rows, strict=True):
+        row.suptitle(f"{circle.feed_mm_min:g} mm/min", fontsize=10, fontweight="bold")
+        left, right = row.subfigures(1, 2, width_ratios=[1.0, 1.0])
+        scale = choose_scale(circle.circle.radius_mm, largest_drawn_mm([circle]))
+        polar = cast(PolarAxes, left.subplots(subplot_kw={"projection": "polar"}))
+        draw_polar(polar, circle, scale, fine=True)
+        polar.set_xlabel(f"{scale.label}\n{_offset_note(circle)}", fontsize=8)
+        residual, table = right.subplots(2, 1, height_ratios=[1.0, 1.25])
+        draw_residual(residual, circle)
+        draw_quantities(table, circle)
+    figure.suptitle(f"{circles[0].record_name}, {describe_circle(circles[0].circle)}", fontsize=11)
+    _add_legend(
+        figure,
+        f"quantities of {iso230.EDITION}; F with the set-up's centre offset removed (least squares) unless stated; "
+        "residual: every angle in light, mean of 3 deg in dark",
+    )
+    return figure
+
+
+def overview_page(comparison: Comparison) -> Figure:
+    """Draw every circle at every feed small, all at one magnification."""
+    circles = comparison.circles
+    rows = -(-len(circles) // OVERVIEW_COLUMNS)
+    scale = choose_scale(max(circle.circle.radius_mm for circle in circles), largest_drawn_mm(circles))
+    figure = Figure(figsize=(11.5, 3.25 * rows + 1.2), layout="constrained")
+    grid = figure.subplots(rows, OVERVIEW_COLUMNS, squeeze=False, subplot_kw={"projection": "polar"})
+    several_records = len({circle.record_name for circle in circles}) > 1
+    for axes, circle in zip(grid.flat, circles, strict=False):
+        draw_polar(axes, circle, scale, fine=False)
+        record = f"{circle.record_name}\n" if several_records else ""
+        axes.set_title(
+            f"{record}circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min\n"
+            f"{_both_directions(circle)}residual rms {1000.0 * circle.rms_mm:.2f} µm",
+            fontsize=8,
+        )
+    for axes in grid.flat[len(circles) :]:
+        axes.set_axis_off()
+    name = "several records" if several_records else circles[0].record_name
+    rms_um, peak_um = 1000.0 * comparison.rms_mm, 1000.0 * comparison.peak_to_valley_mm
+    figure.suptitle(
+        f"{name}, measured and predicted: residual rms {rms_um:.2f} µm, peak to valley {peak_um:.2f} µm\n"
+        f"{scale.label}; centre offset of each set-up removed (least squares)",
+        fontsize=11,
+    )
+    _add_legend(figure, f"G(b): bi-directional circular deviation, {iso230.EDITION}, measured / predicted")
+    return figure
+
+
+def describe_circle(circle: Circle) -> str:
+    """Say in words how a circle is set up."""
+    plane, platform = (
+        "/".join(f"{value + 0.0:g}" for value in rpy) for rpy in (circle.plane_rpy_deg, circle.platform_rpy_deg)
+    )
+    return (
+        f"circle {circle.id}: radius {circle.radius_mm:g} mm, mount {circle.mount}, "
+        f"roll/pitch/yaw of plane {plane} deg, of platform {platform} deg"
+    )
+
+
+def save_figure(figure: Figure, stem: Path) -> list[Path]:
+    """Write a figure as STEM.png and STEM.svg; the same figure gives the same bytes.
+
+    Raises
+    ------
+    RunError
+        A file cannot be written; what stood in its place is untouched.
+    """
+    FigureCanvasAgg(figure)
+    written = []
+    for suffix, options in ((".png", {"dpi": PNG_DPI}), (".svg", {"metadata": {"Date": None}})):
+        drawn = io.BytesIO()
+        with mpl.rc_context({"svg.hashsalt": "hexdbb", "svg.fonttype": "none"}):
+            figure.savefig(drawn, format=suffix[1:], **options)
+        path = stem.with_name(stem.name + suffix)
+        with replacing(path) as temporary:
+            temporary.write_bytes(drawn.getvalue())
+        written.append(path)
+    return written
+
+
+def _offset_note(circle: CircleComparison) -> str:
+    centre = circle.set_up_centre_mm
+    if centre is None:
+        return "not a full circle: centre offset not removed"
+    x_um, y_um = 1000.0 * centre
+    return f"centre offset of the set-up removed (least squares): {x_um:+.2f}, {y_um:+.2f} µm"
+
+
+def _both_directions(circle: CircleComparison) -> str:
+    part, key = circle.directions[0], "bidirectional_circular_deviation"
+    measured_mm, predicted_mm = part.measured_quantities[key], part.predicted_quantities[key]
+    if measured_mm is None or predicted_mm is None:
+        return ""
+    return f"G(b) {1000.0 * measured_mm:.1f} / {1000.0 * predicted_mm:.1f} µm, "
+
+
+def _add_legend(figure: Figure, note: str) -> None:
+    figure.legend(
+        handles=legend_handles(),
+        loc="outside lower center",
+        ncols=5,
+        fontsize=8,
+        frameon=False,
+        title=note,
+        title_fontsize=8,
+    )

@@ -1,0 +1,90 @@
+"""What stands beside a polar plot: the residual against angle and the table of ISO 230-4 quantities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.transforms import Bbox
+
+from hexdbb.compare import QUANTITIES, CircleComparison
+from hexdbb.compare.circles import DIRECTION_NAMES
+from hexdbb.iso230 import FloatArray, Path
+from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
+
+SMOOTHED_OVER_DEG = 3
+"""Arc over which the dark residual line is averaged; a divisor of 360."""
+SHORT_DIRECTION_NAMES = {1: "ccw", -1: "cw"}
+
+
+def draw_residual(axes: Axes, circle: CircleComparison) -> None:
+    """Draw measured minus predicted reading (um) against commanded polar angle, per direction.
+
+    In light the mean of the laps at every angle, in dark its mean over arcs of `SMOOTHED_OVER_DEG`.
+    """
+    axes.axhline(0.0, color="0.35", linewidth=0.8, zorder=1)
+    for part in circle.directions:
+        measured, predicted = part.measured, part.predicted
+        residual = Path(measured.angle_rad, measured.deviation_mm - predicted.deviation_mm, measured.nominal_radius_mm)
+        angle, residual_um = curve(residual)
+        axes.plot(np.degrees(angle), residual_um, color=MEASURED_COLOURS[part.direction], linewidth=0.5, alpha=0.6)
+        axes.plot(
+            *_smoothed(residual),
+            color=PREDICTED_COLOURS[part.direction],
+            linewidth=1.3,
+            zorder=4,
+            label=f"{DIRECTION_NAMES[part.direction]}, rms {1000.0 * part.rms_mm:.2f} µm",
+        )
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(np.arange(0, 361, 45))
+    axes.set_xlabel("commanded polar angle, deg", fontsize=8)
+    axes.set_ylabel("measured - predicted, µm", fontsize=8)
+    axes.tick_params(labelsize=8)
+    axes.grid(color="0.88", linewidth=0.6)
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=8, frameon=False)
+
+
+def _smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
+    """Middle angle (deg) and mean (um) of each arc; nan where an arc has no sample, so that the line breaks there."""
+    count = 360 // SMOOTHED_OVER_DEG
+    arc = np.minimum((np.degrees(residual.angle_rad) // SMOOTHED_OVER_DEG).astype(np.int64), count - 1)
+    samples = np.bincount(arc, minlength=count)
+    total_um = 1000.0 * np.bincount(arc, weights=residual.deviation_mm, minlength=count)
+    mean_um = np.full(count, np.nan)
+    np.divide(total_um, samples, out=mean_um, where=samples > 0)
+    return (np.arange(count, dtype=np.float64) + 0.5) * SMOOTHED_OVER_DEG, mean_um
+
+
+def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
+    """Write the ISO 230-4 quantities, measured and predicted, as a table."""
+    axes.set_axis_off()
+    rows = list(quantity_rows(circle))
+    table = axes.table(
+        cellText=[[_text(measured), _text(predicted)] for _, measured, predicted in rows],
+        rowLabels=[f"  {label}  " for label, _, _ in rows],
+        colLabels=["measured, µm", "predicted, µm"],
+        cellLoc="right",
+        rowLoc="left",
+        bbox=Bbox.from_bounds(0.36, 0.0, 0.64, 1.0),
+    )
+    table.auto_set_font_size(False)
+    table.set_fontsize(8)
+    for cell in table.get_celld().values():
+        cell.set_linewidth(0.4)
+        cell.set_edgecolor("0.8")
+
+
+def quantity_rows(circle: CircleComparison) -> Iterator[tuple[str, float | None, float | None]]:
+    """Give label, measured and predicted value (mm) of each quantity: once per direction, or once for both."""
+    for quantity in QUANTITIES:
+        parts = circle.directions[:1] if quantity.of_both else circle.directions
+        for part in parts:
+            label = (
+                quantity.symbol if quantity.of_both else f"{quantity.symbol}, {SHORT_DIRECTION_NAMES[part.direction]}"
+            )
+            yield label, part.measured_quantities[quantity.key], part.predicted_quantities[quantity.key]
+
+
+def _text(value_mm: float | None) -> str:
+    return "-" if value_mm is None else f"{1000.0 * value_mm:.2f}"

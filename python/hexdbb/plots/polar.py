@@ -1,0 +1,107 @@
+"""One polar plot: the nominal circle, measured and predicted paths of both directions, magnified deviations.
+
+The radial axis is the deviation in micrometres; its origin is the deviation `Scale.centre_um`, so that the nominal
+circle (deviation 0) has its true radius at the stated magnification. The set-up's centre offset, as measured (least
+squares, both directions together), is taken out of the measured **and** the predicted paths, so that a difference
+between the two stays visible.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.lines import Line2D
+from matplotlib.projections.polar import PolarAxes
+
+from hexdbb.compare import CircleComparison
+from hexdbb.compare.circles import DIRECTION_NAMES
+from hexdbb.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
+from hexdbb.plots.magnification import Scale
+
+MEASURED_COLOURS = {1: "#56B4E9", -1: "#E69F00"}
+"""Okabe and Ito's colour-blind safe palette: light blue counter-clockwise, orange clockwise."""
+PREDICTED_COLOURS = {1: "#004B76", -1: "#8C3A00"}
+"""The same two hues, dark enough to be seen on the measured path they should cover."""
+NOMINAL_COLOUR = "0.35"
+GRID_COLOUR = "0.85"
+GRID_LABEL_ANGLE_DEG = 67.5
+
+
+def drawn_paths(circle: CircleComparison) -> list[tuple[int, Path, Path]]:
+    """Give direction, measured and predicted path, the measured set-up centre taken out of both."""
+    centre = circle.set_up_centre_mm
+    return [
+        (part.direction, part.measured, part.predicted)
+        if centre is None
+        else (part.direction, part.measured.about(centre), part.predicted.about(centre))
+        for part in circle.directions
+    ]
+
+
+def largest_drawn_mm(circles: Iterable[CircleComparison]) -> float:
+    """Largest absolute deviation that the plots of these circles show."""
+    return max(
+        float(np.abs(path.deviation_mm).max())
+        for circle in circles
+        for _, *paths in drawn_paths(circle)
+        for path in paths
+    )
+
+
+def curve(path: Path) -> tuple[FloatArray, FloatArray]:
+    """Angle (rad) and deviation (um) of a path as a line: closed, and broken where samples are missing."""
+    angle = np.append(path.angle_rad, path.angle_rad[0] + FULL_TURN_RAD)
+    deviation_um = 1000.0 * np.append(path.deviation_mm, path.deviation_mm[0])
+    gaps = np.flatnonzero(np.diff(angle) > MAX_GAP_RAD) + 1
+    return np.insert(angle, gaps, np.nan), np.insert(deviation_um, gaps, np.nan)
+
+
+def draw_polar(axes: PolarAxes, circle: CircleComparison, scale: Scale, fine: bool) -> None:
+    """Draw one circle at one feed.
+
+    Parameters
+    ----------
+    axes : PolarAxes
+        Empty axes of projection ``polar``.
+    circle : CircleComparison
+        What to draw.
+    scale : Scale
+        Magnification and division.
+    fine : bool
+        A large plot with labelled grid; otherwise a small one of many, its labels left out.
+    """
+    _draw_grid(axes, scale, fine)
+    width = 1.0 if fine else 0.7
+    for direction, measured, predicted in drawn_paths(circle):
+        axes.plot(*curve(measured), color=MEASURED_COLOURS[direction], linewidth=2.6 * width, zorder=3)
+        axes.plot(*curve(predicted), color=PREDICTED_COLOURS[direction], linewidth=1.0 * width, dashes=(5, 2), zorder=4)
+
+
+def legend_handles() -> list[Artist]:
+    """Give one legend entry for each line of a polar plot."""
+    handles: list[Artist] = []
+    for direction, name in DIRECTION_NAMES.items():
+        handles.append(Line2D([], [], color=MEASURED_COLOURS[direction], linewidth=2.6, label=f"measured, {name}"))
+        handles.append(
+            Line2D([], [], color=PREDICTED_COLOURS[direction], linewidth=1.0, dashes=(5, 2), label=f"predicted, {name}")
+        )
+    handles.append(Line2D([], [], color=NOMINAL_COLOUR, linewidth=1.0, label="nominal circle"))
+    return handles
+
+
+def _draw_grid(axes: PolarAxes, scale: Scale, fine: bool) -> None:
+    steps = np.arange(-scale.divisions, scale.divisions + 1)
+    ticks_um = scale.division_um * steps
+    axes.set_ylim(scale.centre_um, ticks_um[-1] + 0.25 * scale.division_um)
+    axes.set_yticks(ticks_um, [f"{tick:+g}" if tick else "0 µm" for tick in ticks_um] if fine else [""] * len(steps))
+    axes.set_rlabel_position(GRID_LABEL_ANGLE_DEG)
+    axes.set_xticks(np.radians(np.arange(0, 360, 45 if fine else 90)))
+    for label in axes.get_yticklabels():
+        label.set(fontsize=7, zorder=5, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6})
+    axes.tick_params(axis="x", labelsize=8 if fine else 6, pad=2 if fine else -2)
+    axes.grid(color=GRID_COLOUR, linewidth=0.6)
+    axes.spines["polar"].set_visible(False)
+    turn = np.linspace(0.0, FULL_TURN_RAD, 361)
+    axes.plot(turn, np.zeros_like(turn), color=NOMINAL_COLOUR, linewidth=1.0 if fine else 0.6, zorder=2)
