@@ -1,0 +1,43 @@
+#include "bindings.hpp"
+#include "hexdbb/machine.hpp"
+
+namespace hexdbb::bindings {
+
+namespace py = pybind11;
+
+void bind_machine(py::module_& module) {
+  py::class_<Machine>(module, "Machine", "Nominal dimensions of a HexGlider.")
+      .def(py::init([](double base_inradius_mm, double platform_circumradius_mm, double joint_plane_height_mm,
+                       double leg_length_mm, double travel_min_mm, double travel_max_mm, double min_gap_mm,
+                       double screw_lead_mm, double moved_mass_kg) {
+             return Machine{base_inradius_mm, platform_circumradius_mm, joint_plane_height_mm,
+                            leg_length_mm,    travel_min_mm,            travel_max_mm,
+                            min_gap_mm,       screw_lead_mm,            moved_mass_kg};
+           }),
+           py::kw_only(), py::arg("base_inradius_mm"), py::arg("platform_circumradius_mm"),
+           py::arg("joint_plane_height_mm"), py::arg("leg_length_mm"), py::arg("travel_min_mm"),
+           py::arg("travel_max_mm"), py::arg("min_gap_mm"), py::arg("screw_lead_mm"), py::arg("moved_mass_kg"))
+      .def_readonly("base_inradius_mm", &Machine::base_inradius_mm)
+      .def_readonly("platform_circumradius_mm", &Machine::platform_circumradius_mm)
+      .def_readonly("joint_plane_height_mm", &Machine::joint_plane_height_mm)
+      .def_readonly("leg_length_mm", &Machine::leg_length_mm)
+      .def_readonly("travel_min_mm", &Machine::travel_min_mm)
+      .def_readonly("travel_max_mm", &Machine::travel_max_mm)
+      .def_readonly("min_gap_mm", &Machine::min_gap_mm)
+      .def_readonly("screw_lead_mm", &Machine::screw_lead_mm)
+      .def_readonly("moved_mass_kg", &Machine::moved_mass_kg);
+  module.def("guideway_vertex", &guideway_vertex, py::arg("machine"), py::arg("guideway"),
+             "V of guideway 0..2, mm, base frame.");
+  module.def("guideway_direction", &guideway_direction, py::arg("guideway"), "d of guideway 0..2, unit vector.");
+  module.def("guideway_midpoint", &guideway_midpoint, py::arg("machine"), py::arg("guideway"),
+             "Point of guideway 0..2 nearest to the base centre, mm, base frame.");
+  module.def("guideway_axes", &guideway_axes, py::arg("guideway"),
+             "Local axes of guideway 0..2 as columns: outward, -d, up.");
+  module.def("platform_joint", &platform_joint, py::arg("machine"), py::arg("guideway"),
+             "Nominal ball joint 0..2, mm, platform frame.");
+  module.def("rotation_from_rpy", &rotation_from_rpy, py::arg("roll_rad"), py::arg("pitch_rad"), py::arg("yaw_rad"),
+             "Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).");
+  module.def("rpy_from_rotation", &rpy_from_rotation, py::arg("rotation"), "(roll, pitch, yaw) in rad.");
+}
+
+}  // namespace hexdbb::bindings

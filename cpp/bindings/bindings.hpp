@@ -1,0 +1,17 @@
+// One function per concept; module.cpp calls them in order.
+#pragma once
+
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace hexdbb::bindings {
+
+void bind_machine(pybind11::module_& module);
+void bind_kinematics(pybind11::module_& module);
+void bind_effects(pybind11::module_& module);
+void bind_prediction(pybind11::module_& module);
+void bind_diagnosis(pybind11::module_& module);
+
+}  // namespace hexdbb::bindings

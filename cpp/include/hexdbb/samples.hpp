@@ -1,0 +1,33 @@
+// The state of a record's samples, one row each: what effects and prediction may depend on.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "hexdbb/ball_bar.hpp"
+
+namespace hexdbb {
+
+struct Samples {
+  Eigen::Matrix<double, Eigen::Dynamic, kLegs> sliders_mm;  // as the drives' encoders report them
+  Eigen::VectorXi set_up;                                   // index into set_ups
+  Eigen::VectorXi mount;                                    // 0-based fixing of the tool cup
+  std::vector<SetUp> set_ups;
+
+  Eigen::Index size() const { return sliders_mm.rows(); }
+
+  /// Throws std::invalid_argument naming the column and row where lengths differ or an index is out of range.
+  void validate() const;
+};
+
+/// Rows [first, first + count) of some samples.
+struct SampleBlock {
+  const Samples& samples;
+  Eigen::Index first;
+  Eigen::Index count;
+
+  auto slider_mm(int k) const { return samples.sliders_mm.col(k).segment(first, count); }
+  int mount(Eigen::Index row) const { return samples.mount[first + row]; }
+};
+
+}  // namespace hexdbb

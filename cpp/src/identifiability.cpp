@@ -1,0 +1,35 @@
+#include "hexdbb/identifiability.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace hexdbb {
+
+Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double relative, double absolute) {
+  Identifiability out;
+  const Eigen::Index unknowns = scaled_jacobian.cols();
+  if (unknowns == 0) return out;
+  // The triangular factor has the same singular values and directions as the tall matrix, at a fraction of the work.
+  const Eigen::Index rows = std::min(scaled_jacobian.rows(), unknowns);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled_jacobian);
+  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  square.topRows(rows) = qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
+  out.singular_values = svd.singularValues();
+  out.directions = svd.matrixV();
+  const double limit = std::max(relative * out.singular_values[0], absolute);
+  while (out.rank < unknowns && out.singular_values[out.rank] > limit) ++out.rank;
+  if (out.rank > 0) out.condition = out.singular_values[0] / out.singular_values[out.rank - 1];
+  return out;
+}
+
+RowMajorMatrix project_out(const RowMajorMatrix& jacobian, const RowMajorMatrix& nuisance) {
+  if (nuisance.cols() == 0) return jacobian;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(nuisance);
+  qr.setThreshold(1e-12);
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(nuisance.rows(), qr.rank());
+  return jacobian - basis * (basis.transpose() * jacobian);
+}
+
+}  // namespace hexdbb

@@ -1,0 +1,51 @@
+#include "hexdbb/mechanism.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace hexdbb {
+
+NominalGeometry::NominalGeometry(const Machine& machine_in) : machine(machine_in) {
+  for (int k = 0; k < kLegs; ++k) {
+    vertex.col(k) = guideway_vertex(machine, guideway_of(k));
+    direction.col(k) = guideway_direction(guideway_of(k));
+    platform_joint.col(k) = hexdbb::platform_joint(machine, guideway_of(k));
+  }
+}
+
+PlatformTriangle::PlatformTriangle(const Matrix3& joints_in) : joints(joints_in) {
+  const Vector3 x = joints.col(1) - joints.col(0);
+  const Vector3 y = joints.col(2) - joints.col(0);
+  side_squared << x.squaredNorm(), (x - y).squaredNorm(), y.squaredNorm();
+  shortest_side_mm = std::sqrt(side_squared.minCoeff());
+  Matrix3 frame;
+  frame << x, y, x.cross(y);
+  frame_inverse = frame.inverse();
+}
+
+Mechanism assemble(const NominalGeometry& nominal, const Vector6& sliders_mm, const Ports& push) noexcept {
+  Mechanism out;
+  for (int k = 0; k < kLegs; ++k) {
+    const double along = sliders_mm[k] + push.slider()[k];
+    out.slider_joint.col(k) = nominal.vertex.col(k) + along * nominal.direction.col(k) + push.slider_joint(k);
+    out.leg_length[k] = nominal.machine.leg_length_mm + push.leg()[k];
+    out.platform_joint.col(k) = nominal.platform_joint.col(k) + push.platform_joint(k);
+  }
+  return out;
+}
+
+bool joints_are_shared(const Mechanism& mechanism) noexcept {
+  for (int i = 0; i < kGuideways; ++i) {
+    if (mechanism.platform_joint.col(2 * i) != mechanism.platform_joint.col(2 * i + 1)) return false;
+  }
+  return true;
+}
+
+Matrix3 shared_joints(const Mechanism& mechanism) noexcept {
+  Matrix3 joints;
+  joints << mechanism.platform_joint.col(0), mechanism.platform_joint.col(2), mechanism.platform_joint.col(4);
+  return joints;
+}
+
+}  // namespace hexdbb

@@ -1,0 +1,29 @@
+#include "hexdbb/samples.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace hexdbb {
+
+void Samples::validate() const {
+  const auto require_length = [this](const char* column, Eigen::Index length) {
+    if (length != size()) {
+      throw std::invalid_argument(std::string(column) + " has " + std::to_string(length) + " rows, expected " +
+                                  std::to_string(size()) + " as in sliders_mm");
+    }
+  };
+  require_length("set_up", set_up.size());
+  require_length("mount", mount.size());
+  for (Eigen::Index row = 0; row < size(); ++row) {
+    if (set_up[row] < 0 || set_up[row] >= static_cast<int>(set_ups.size())) {
+      throw std::invalid_argument("set_up[" + std::to_string(row) + "] is " + std::to_string(set_up[row]) +
+                                  ", expected 0 to " + std::to_string(static_cast<int>(set_ups.size()) - 1));
+    }
+    if (mount[row] < 0) throw std::invalid_argument("mount[" + std::to_string(row) + "] is negative");
+    if (!sliders_mm.row(row).allFinite()) {
+      throw std::invalid_argument("sliders_mm[" + std::to_string(row) + "] is not finite");
+    }
+  }
+}
+
+}  // namespace hexdbb
