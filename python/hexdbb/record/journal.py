@@ -19,7 +19,7 @@ from typing import Any, BinaryIO, Self
 import numpy as np
 import pyarrow as pa
 
-from hexdbb.atomic_file import refuse_existing
+from hexdbb.atomic_file import refuse_existing, sync_directory
 from hexdbb.circle import Circle, Gauge, Mount
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
@@ -77,13 +77,12 @@ class Journal:
             raise InputError(f"{self.journal_path}: left by an interrupted capture (expected {expected})")
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
         self._header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
-        self._file: BinaryIO = self.journal_path.open("wb", buffering=0)
-        fcntl.flock(self._file, fcntl.LOCK_EX)
+        self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
         self._waiting: list[Columns] = []
         self._lock, self._stop = threading.Lock(), threading.Event()
-        self._failure: OSError | None = None
+        self._failure: Exception | None = None
         self._thread = threading.Thread(target=self._write_until_stopped, name="hexdbb-journal", daemon=True)
         self._thread.start()
 
@@ -120,11 +119,17 @@ class Journal:
             self._waiting.append(columns)
 
     def close(self) -> None:
-        """Write what waits and leave the journal as it is, to be recovered."""
-        if not self._file.closed:
-            self._stop.set()
-            self._thread.join()
+        """Write what waits and leave the journal to be recovered; one without samples is removed."""
+        if self._file.closed:
+            return
+        self._stop.set()
+        self._thread.join()
+        try:
             self._file.close()
+        except OSError as error:
+            self._failure = self._failure or error
+        if self._stream is None:
+            self.journal_path.unlink()
 
     def finish(self, complete: bool = True, reason: str | None = None) -> Record:
         """Make the Parquet record and remove the journal.
@@ -139,10 +144,12 @@ class Journal:
         Raises
         ------
         RunError
-            The journal or the record could not be written; the journal stays.
+            The journal or the record could not be written, and the journal stays; or there are no samples.
         """
         self.close()
         self._raise_failure()
+        if self._stream is None:
+            raise RunError(f"{self.path}: not written: no samples were captured")
         record, dropped = read_journal(self.journal_path, complete, reason)
         record.path = self.path
         write_record(record, self.path, overwrite=self._overwrite)
@@ -152,7 +159,8 @@ class Journal:
 
     def _raise_failure(self) -> None:
         if self._failure is not None:
-            raise RunError(f"{self.journal_path}: cannot be written: {self._failure.strerror or self._failure}")
+            kept = f"what was written before is kept: hexdbb recover {self.journal_path}"
+            raise RunError(f"{self.journal_path}: cannot be written: {self._failure} ({kept})")
 
     def _write_until_stopped(self) -> None:
         try:
@@ -161,8 +169,8 @@ class Journal:
             self._write_waiting()
             if self._stream is not None:
                 self._stream.close()
-                os.fsync(self._file.fileno())
-        except OSError as error:
+                self._sync()
+        except (OSError, pa.ArrowException) as error:
             self._failure = error
 
     def _write_waiting(self) -> None:
@@ -176,4 +184,22 @@ class Journal:
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
         self._stream.write_table(table)
+        self._sync()
+
+    def _sync(self) -> None:
+        self._file.flush()
         os.fsync(self._file.fileno())
+
+
+def _open_alone(path: Path) -> BinaryIO:
+    """Open a journal for this process alone, and empty it once that is sure."""
+    try:
+        file = path.open("ab")
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise InputError(f"{path}: a running capture writes it (expected another record name)") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+    file.truncate(0)
+    sync_directory(path.parent)
+    return file

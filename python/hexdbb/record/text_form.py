@@ -16,7 +16,7 @@ from hexdbb.errors import InputError
 from hexdbb.machine import machine_beside
 from hexdbb.record.cells import first_bad_cell, line_of_row
 from hexdbb.record.checks import check_record
-from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, Origin
+from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, Origin, normalise
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
 from hexdbb.record.tables import to_columns
@@ -29,8 +29,9 @@ def read_text_form(path: Path) -> Record:
     if not measurement_path.is_file():
         raise InputError(f"{path}: no such file {measurement_path} (expected gauge, mounts and circles beside the CSV)")
     measurement = load_toml(measurement_path, Measurement)
+    origin = Origin(str(path), lambda row: line_of_row(path, row))
     record = Record(
-        columns=_read_columns(path),
+        columns=normalise(_read_columns(path), origin),
         gauge=measurement.gauge,
         mounts=measurement.mounts,
         circles=measurement.circles,
@@ -38,7 +39,7 @@ def read_text_form(path: Path) -> Record:
         path=path,
         complete=measurement.complete is not False,
     )
-    check_record(record, Origin(str(path), lambda row: line_of_row(path, row)))
+    check_record(record, origin)
     return record
 
 
