@@ -106,11 +106,11 @@ inline void cramer_step(const Loops<T>& loops, T (&step)[3]) {
   }
 }
 
-/// Turn an angle held as cosine and sine by atan(t): exact to third order in t, and never leaves the unit circle.
+/// Turn an angle held as cosine and sine by atan(t), which is t to third order, and put it back on the unit circle.
 template <class T>
 inline void turn(const T& t, T& c, T& s) {
   using std::sqrt;
-  const T scale = 1.0 / sqrt(t * t + 1.0);
+  const T scale = 1.0 / sqrt((t * t + 1.0) * (c * c + s * s));
   const T turned = scale * (c - s * t);
   s = scale * (s + c * t);
   c = turned;

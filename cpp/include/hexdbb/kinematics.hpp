@@ -35,8 +35,8 @@ InverseResult inverse(const NominalGeometry& nominal, const Pose& pose, const Po
 /// The three RSSR angles as cosines and sines: where a solution starts, and the start of the next.
 struct RssrAngles {
   // Level platform half-way up: every ball joint leans inward by 0.41 rad from above its guideway.
-  Vector3 cosine = Vector3::Constant(0.9174);
-  Vector3 sine = Vector3::Constant(0.3979);
+  Vector3 cosine = Vector3::Constant(0.917120822816605);
+  Vector3 sine = Vector3::Constant(0.398609327984423);
 
   /// theta, delta, phi in rad, as the thesis counts them (positive: leaning inward).
   Vector3 angle_rad() const;
