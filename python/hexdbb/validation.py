@@ -32,7 +32,7 @@ Vector3 = Annotated[tuple[Number, Number, Number], Field(strict=False)]
 """Three finite floats."""
 
 UNITS = {
-    *("m", "cm", "mm", "um", "µm", "nm", "in", "inch", "deg", "rad", "mrad", "s", "ms", "us", "min", "hz", "khz", "kg"),
+    *("m", "cm", "mm", "um", "nm", "in", "inch", "deg", "rad", "mrad", "s", "ms", "us", "min", "hz", "khz", "kg"),
     *("g", "n", "mm_s", "mm_s2", "mm_s3", "mm_min", "m_min", "m_s", "bit_s", "kbit_s", "c"),
 }
 """Suffixes taken as units when a key is not known, to tell a wrong unit from a misspelt name."""
