@@ -20,6 +20,7 @@ from hexdbb.record import Record
 IndexArray = npt.NDArray[np.int64]
 
 DIRECTION_NAMES: Mapping[int, str] = {1: "counter-clockwise", -1: "clockwise"}
+SHORT_DIRECTION_NAMES: Mapping[int, str] = {1: "ccw", -1: "cw"}
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from hexdbb.atomic_file import replacing
 from hexdbb.circle import Circle
 from hexdbb.compare import CircleComparison, Comparison
 from hexdbb.plots.magnification import choose_scale
-from hexdbb.plots.panels import draw_quantities, draw_residual
+from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
 from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
 
 OVERVIEW_COLUMNS = 4
@@ -44,10 +44,11 @@ def comparison_pages(comparison: Comparison) -> list[Page]:
         grouped.setdefault((circle.record_name, circle.circle.id), []).append(circle)
     if len(grouped) == 1:
         return [Page("", partial(circle_page, comparison.circles))]
-    several_records = len({record for record, _ in grouped}) > 1
+    names = list(dict.fromkeys(record for record, _ in grouped))
     pages = [Page("", partial(overview_page, comparison))]
     for (record, identity), circles in grouped.items():
-        prefix = f"-{Path(record).stem}" if several_records else ""
+        # The number keeps records apart whose names differ only in their directory or suffix.
+        prefix = f"-{names.index(record) + 1}-{Path(record).stem}" if len(names) > 1 else ""
         pages.append(Page(f"{prefix}-circle{identity}", partial(circle_page, circles)))
     return pages
 
@@ -69,8 +70,8 @@ def circle_page(circles: Sequence[CircleComparison]) -> Figure:
     figure.suptitle(f"{circles[0].record_name}, {describe_circle(circles[0].circle)}", fontsize=11)
     _add_legend(
         figure,
-        f"quantities of {iso230.EDITION}; F with the set-up's centre offset removed (least squares) unless stated; "
-        "residual: every angle in light, mean of 3 deg in dark",
+        f"quantities of {iso230.EDITION}; F: centre offset removed (least squares), F*: kept; "
+        f"residual: every angle in light, mean of {SMOOTHED_OVER_DEG} deg in dark",
     )
     return figure
 

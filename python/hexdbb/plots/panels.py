@@ -9,13 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
 from hexdbb.compare import QUANTITIES, CircleComparison
-from hexdbb.compare.circles import DIRECTION_NAMES
+from hexdbb.compare.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
 from hexdbb.iso230 import FloatArray, Path
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
 
 SMOOTHED_OVER_DEG = 3
 """Arc over which the dark residual line is averaged; a divisor of 360."""
-SHORT_DIRECTION_NAMES = {1: "ccw", -1: "cw"}
 
 
 def draw_residual(axes: Axes, circle: CircleComparison) -> None:

@@ -92,16 +92,23 @@ def legend_handles() -> list[Artist]:
 
 
 def _draw_grid(axes: PolarAxes, scale: Scale, fine: bool) -> None:
-    steps = np.arange(-scale.divisions, scale.divisions + 1)
-    ticks_um = scale.division_um * steps
+    ticks_um = [scale.division_um * step for step in range(-scale.divisions, scale.divisions + 1)]
     axes.set_ylim(scale.centre_um, ticks_um[-1] + 0.25 * scale.division_um)
-    axes.set_yticks(ticks_um, [f"{tick:+g}" if tick else "0 µm" for tick in ticks_um] if fine else [""] * len(steps))
-    axes.set_rlabel_position(GRID_LABEL_ANGLE_DEG)
+    axes.set_yticks(ticks_um, [""] * len(ticks_um))
     axes.set_xticks(np.radians(np.arange(0, 360, 45 if fine else 90)))
-    for label in axes.get_yticklabels():
-        label.set(fontsize=7, zorder=5, bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6})
     axes.tick_params(axis="x", labelsize=8 if fine else 6, pad=2 if fine else -2)
+    if fine:
+        _label_grid(axes, ticks_um)
     axes.grid(color=GRID_COLOUR, linewidth=0.6)
     axes.spines["polar"].set_visible(False)
     turn = np.linspace(0.0, FULL_TURN_RAD, 361)
     axes.plot(turn, np.zeros_like(turn), color=NOMINAL_COLOUR, linewidth=1.0 if fine else 0.6, zorder=2)
+
+
+def _label_grid(axes: PolarAxes, ticks_um: list[float]) -> None:
+    """Label the divisions as text of its own, because tick labels would be hidden under the paths."""
+    backing = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
+    for tick_um in ticks_um:
+        label = f"{tick_um:+g}" if tick_um else "0 µm"
+        angle_rad = np.radians(GRID_LABEL_ANGLE_DEG)
+        axes.text(angle_rad, tick_um, label, fontsize=7, ha="center", va="center", bbox=backing, zorder=6)

@@ -1,0 +1,96 @@
+"""A comparison as text: one table per direction, one for both directions, and where the prediction fails worst."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rich import box
+from rich.console import Group, RenderableType
+from rich.table import Table
+
+from hexdbb import iso230
+from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
+from hexdbb.compare.comparison import UM_PER_MM, Comparison
+from hexdbb.compare.quantities import QUANTITIES, Quantity
+
+
+def comparison_text(comparison: Comparison) -> RenderableType:
+    """Lay a comparison out for a terminal, all lengths in micrometres."""
+    rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
+    parts: list[RenderableType] = [
+        f"Residual (measured - predicted): rms {rms_um:.2f} µm, peak to valley {peak_um:.1f} µm",
+        "",
+        _directions_table(comparison),
+        _both_table(comparison),
+        *_notes(comparison),
+        "",
+        "Where the prediction fails worst:",
+        *(f"  {UM_PER_MM * place.rms_mm:8.2f} µm rms  {place.where}" for place in comparison.worst),
+    ]
+    return Group(*parts)
+
+
+def _directions_table(comparison: Comparison) -> Table:
+    """Two lines per direction: measured with the residual, and predicted."""
+    own = [quantity for quantity in QUANTITIES if not quantity.of_both]
+    table = _table("Each direction (ccw counter-clockwise, cw clockwise), µm", comparison)
+    table.add_column("direction", no_wrap=True, min_width=13)
+    for heading in (*(quantity.symbol for quantity in own), "resid.\nrms", "resid.\np-v"):
+        table.add_column(heading, justify="right", min_width=6)
+    for circle in comparison.circles:
+        for part in circle.directions:
+            way = SHORT_DIRECTION_NAMES[part.direction]
+            residual = (f"{UM_PER_MM * part.rms_mm:.2f}", f"{UM_PER_MM * part.peak_to_valley_mm:.1f}")
+            measured = (_number(part.measured_quantities[quantity.key]) for quantity in own)
+            predicted = (_number(part.predicted_quantities[quantity.key]) for quantity in own)
+            set_up = _set_up(circle, comparison)
+            table.add_row(*set_up, f"{way} measured", *measured, *residual)
+            table.add_row(*("" for _ in set_up), f"{way} predicted", *predicted)
+    return table
+
+
+def _both_table(comparison: Comparison) -> Table:
+    both = [quantity for quantity in QUANTITIES if quantity.of_both]
+    table = _table("Both directions, µm (measured / predicted)", comparison)
+    for quantity in both:
+        table.add_column(quantity.symbol, justify="right")
+    for circle in comparison.circles:
+        cells = (_pair(circle.directions[0], quantity) for quantity in both)
+        table.add_row(*_set_up(circle, comparison), *cells)
+    return table
+
+
+def _notes(comparison: Comparison) -> Iterator[str]:
+    yield f"Quantities of {iso230.EDITION}:"
+    yield from (f"  {quantity.symbol}: {quantity.name}" for quantity in QUANTITIES)
+    quantities = (part.measured_quantities for circle in comparison.circles for part in circle.directions)
+    if any(None in values.values() for values in quantities):
+        yield "-: cannot be evaluated, because a direction is missing or its capture is not a full circle."
+
+
+def _table(title: str, comparison: Comparison) -> Table:
+    table = Table(
+        title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD, padding=0, show_edge=False
+    )
+    if _several_records(comparison):
+        table.add_column("record")
+    table.add_column("circle", justify="right", min_width=6)
+    table.add_column("feed\nmm/min", justify="right", min_width=6)
+    return table
+
+
+def _set_up(circle: CircleComparison, comparison: Comparison) -> list[str]:
+    record = [circle.record_name] if _several_records(comparison) else []
+    return [*record, str(circle.circle.id), f"{circle.feed_mm_min:g}"]
+
+
+def _several_records(comparison: Comparison) -> bool:
+    return len({circle.record_name for circle in comparison.circles}) > 1
+
+
+def _pair(part: DirectionComparison, quantity: Quantity) -> str:
+    return f"{_number(part.measured_quantities[quantity.key])} / {_number(part.predicted_quantities[quantity.key])}"
+
+
+def _number(value_mm: float | None) -> str:
+    return "-" if value_mm is None else f"{UM_PER_MM * value_mm:.1f}"
