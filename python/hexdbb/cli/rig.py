@@ -1,0 +1,126 @@
+"""`hexdbb rig`: the simulated rig as a process of its own."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import sys
+from pathlib import Path
+
+import click
+
+from hexdbb.errors import InputError
+from hexdbb.machine import load_machine, shipped_machine
+from hexdbb.rig.bus import Frame, Rig
+from hexdbb.rig.faults import FAULTS, parse_fault
+from hexdbb.rig.socketcand import SocketcandServer
+from hexdbb.rig.truth import RANDOM_SEED, TruthFile, random_truth
+from hexdbb.validation import dump_toml, load_toml
+
+READY = "hexdbb rig: listening on 127.0.0.1:{port}"
+"""The one line on stdout; programs that start the rig wait for it."""
+
+_FAULT_HELP = "\n".join(f"  {name:<20}{kind.text}" for name, kind in FAULTS.items())
+_HELP = f"""Serve a simulated HexGlider with a ball bar as a CAN bus (socketcand on 127.0.0.1).
+
+\b
+Nodes 1-6 are CiA 402 drives, node 7 a CiA 404 gauge. SYNC is the only clock of the physics.
+Any python-can program connects with interface socketcand, channel can0, tcp_tune.
+
+\b
+Examples:
+  hexdbb rig --port 29536
+  hexdbb rig --truth truth.toml --fault drive-fault:3@2.5=0x2310
+  hexdbb rig --seed 7 --write-truth hidden.toml
+  hexdbb-run --plan thesis --bus socketcand:can0@127.0.0.1:29536 -o demo.parquet
+
+\b
+Faults, KIND[:node][@time_s][=value], time counted from the moment all drives are enabled:
+{_FAULT_HELP}
+"""
+
+
+@click.command("rig", help=_HELP)
+@click.option(
+    "--machine", "machine_path", type=click.Path(path_type=Path), help="Machine file; default: the shipped one."
+)
+@click.option("--truth", "truth_path", type=click.Path(path_type=Path), help="Truth file; default: a random machine.")
+@click.option("--write-truth", type=click.Path(path_type=Path), help="Write the truth in use to this file.")
+@click.option("--seed", type=click.IntRange(min=0), help="Of the random machine, or of a truth file's noise.")
+@click.option("--port", type=click.IntRange(0, 65535), default=0, show_default=True, help="TCP port; 0: a free one.")
+@click.option("--fault", "faults", multiple=True, metavar="SPEC", help="Fault to inject; may be repeated.")
+@click.option("--once", is_flag=True, help="End when the last client has disconnected.")
+@click.option("--exit-with-parent", is_flag=True, help="End when the process that started the rig has gone.")
+@click.option(
+    "--stall-tolerance",
+    "stall_tolerance_s",
+    type=click.FloatRange(min=0.0),
+    default=1.0,
+    show_default=True,
+    help="Seconds added to the drives' heartbeat and RPDO timeouts, for controllers on a desktop system.",
+)
+@click.option("-v", "--verbose", is_flag=True, help="Log state changes to stderr.")
+def command(
+    machine_path: Path | None,
+    truth_path: Path | None,
+    write_truth: Path | None,
+    seed: int | None,
+    port: int,
+    faults: tuple[str, ...],
+    once: bool,
+    exit_with_parent: bool,
+    stall_tolerance_s: float,
+    verbose: bool,
+) -> None:
+    """Serve the rig until told to stop."""
+    logging.basicConfig(stream=sys.stderr, format="hexdbb rig: %(message)s")
+    logging.getLogger("hexdbb").setLevel(logging.DEBUG if verbose else logging.WARNING)
+    machine = load_machine(machine_path) if machine_path is not None else shipped_machine()
+    truth = _truth(truth_path, seed)
+    outlet: list[SocketcandServer] = []
+
+    def transmit(frames: list[Frame]) -> None:
+        for server in outlet:
+            server.transmit(frames)
+
+    rig = Rig(machine, truth, transmit, [parse_fault(spec) for spec in faults], stall_tolerance_s)
+    if write_truth is not None:
+        _write(write_truth, truth)
+    _serve(rig, port, outlet, once=once, exit_with_parent=exit_with_parent)
+
+
+def _serve(rig: Rig, port: int, outlet: list[SocketcandServer], *, once: bool, exit_with_parent: bool) -> None:
+    parent = os.getppid()
+
+    def poll(now_s: float) -> None:
+        rig.poll(now_s)
+        if exit_with_parent and os.getppid() != parent:
+            server.stop()
+
+    def last_client_gone() -> None:
+        rig.controller_gone()
+        if once:
+            server.stop()
+
+    server = SocketcandServer(port, rig.receive, poll, last_client_gone)
+    outlet.append(server)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: server.stop())
+    click.echo(READY.format(port=server.port))
+    sys.stdout.flush()
+    server.serve()
+
+
+def _truth(path: Path | None, seed: int | None) -> TruthFile:
+    if path is None:
+        return random_truth(RANDOM_SEED if seed is None else seed)
+    truth = load_toml(path, TruthFile)
+    return truth if seed is None else truth.model_copy(update={"seed": seed})
+
+
+def _write(path: Path, truth: TruthFile) -> None:
+    try:
+        path.write_text(dump_toml(truth), encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror}") from None

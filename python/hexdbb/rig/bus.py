@@ -1,0 +1,235 @@
+"""The rig: nodes, machine and faults on one bus, clocked by SYNC.
+
+Model of one SYNC: every node samples this instant and sends its TPDO; the frames leave at once; then every drive takes
+its last target and moves for one communication cycle, and the true machine follows, while the controller is already at
+work on the frames.
+Assumption: between SYNCs time stands still. Where drives must stop and no SYNC comes any more, their ramps are run
+through at once.
+Source: CiA 301 (predefined connection set, SYNC, NMT).
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from hexdbb.errors import InputError, RunError
+from hexdbb.machine import MachineFile, shipped
+from hexdbb.rig.drive import DriveNode, DriveSetup
+from hexdbb.rig.faults import Injection
+from hexdbb.rig.gauge import GaugeNode, GaugeSetup
+from hexdbb.rig.geometry import Array, rotation_rpy, true_geometry
+from hexdbb.rig.node import HEARTBEAT_BASE, SDO_REQUEST_BASE, Node
+from hexdbb.rig.plant import Plant
+from hexdbb.rig.truth import TruthFile
+
+log = logging.getLogger(__name__)
+
+Frame = tuple[int, bytes]
+NMT, SYNC = 0x000, 0x080
+COAST_AFTER_S = 0.1
+"""A drive that must stop waits this long for a SYNC to move in."""
+COAST_LIMIT_S = 10.0
+
+
+class Rig:
+    """Seven nodes and a machine.
+
+    Parameters
+    ----------
+    machine : MachineFile
+        Nominal machine and bus set-up.
+    truth : TruthFile
+        What it really is.
+    transmit : callable
+        Takes a list of frames for the bus, all at once.
+    injections : list of Injection
+        Faults to come.
+    stall_tolerance_s : float
+        See `Node`.
+
+    Raises
+    ------
+    InputError
+        An EDS is not there, the start pose is out of reach, a fault names a node that is not there.
+    """
+
+    def __init__(
+        self,
+        machine: MachineFile,
+        truth: TruthFile,
+        transmit: Callable[[list[Frame]], None],
+        injections: list[Injection] | None = None,
+        stall_tolerance_s: float = 0.0,
+    ) -> None:
+        self._transmit = transmit
+        self._outbox: list[Frame] = []
+        self._injections = list(injections or [])
+        position, rotation = np.array(truth.start.position_mm), rotation_rpy(*np.radians(truth.start.rpy_deg))
+        start = true_geometry(machine).sliders_for(position, rotation)
+        low, high = machine.sliders.travel_mm
+        if np.any(start < low) or np.any(start > high):
+            raise InputError(
+                f"start pose: sliders {np.round(start, 3).tolist()} mm (expected within {low:g} to {high:g})"
+            )
+        self.plant = Plant(
+            true_geometry(machine, truth.geometry.errors()),
+            truth.setup.errors(),
+            [table.stepper() for table in truth.mechanism],
+            position,
+            rotation,
+        )
+        self.drives = self._make_drives(machine, truth, start, stall_tolerance_s)
+        self.gauge = self._make_gauge(machine, truth, stall_tolerance_s)
+        self.nodes: dict[int, Node] = {node.node_id: node for node in (*self.drives, self.gauge)}
+        for injection in self._injections:
+            injection.check(self)
+        for node in self.nodes.values():
+            node.on_routes_changed = self._route
+        self.dt_s = machine.can_setup.cycle_s
+        self.enabled_s: float | None = None
+        self._broken = False
+        self._last_sync_s = 0.0
+        self._route()
+        self._step_plant(0.0)
+        self._inject()
+
+    def _make_drives(
+        self, machine: MachineFile, truth: TruthFile, start_mm: Array, stall_tolerance_s: float
+    ) -> list[DriveNode]:
+        can, drives = machine.can_setup, []
+        for node_id, name, slider_mm in zip(can.drive_nodes, can.drive_eds, start_mm, strict=True):
+            setup = DriveSetup(
+                can.counts_per_mm,
+                machine.sliders.travel_mm,
+                machine.sliders.screw_lead_mm,
+                float(slider_mm),
+                truth.drive.lag_s,
+                truth.drive.velocity_feedforward,
+            )
+            drives.append(DriveNode(node_id, eds_path(machine, name), self._send, setup, stall_tolerance_s))
+        return drives
+
+    def _make_gauge(self, machine: MachineFile, truth: TruthFile, stall_tolerance_s: float) -> GaugeNode:
+        can, gauge = machine.can_setup, truth.gauge
+        setup = GaugeSetup(gauge.noise_um, gauge.resolution_um, gauge.range_um, truth.seed)
+        return GaugeNode(can.gauge_node, eds_path(machine, can.gauge_eds), self._send, setup, stall_tolerance_s)
+
+    # frames
+
+    def receive(self, cob_id: int, data: bytes) -> None:
+        """Take one frame from the bus."""
+        if cob_id == SYNC:
+            self._on_sync()
+        elif (node := self._rpdo_nodes.get(cob_id)) is not None:
+            node.handle_rpdo(data, time.monotonic())
+        elif cob_id == NMT:
+            self._on_nmt(data)
+        elif HEARTBEAT_BASE < cob_id <= HEARTBEAT_BASE + 127:
+            for listener in self.nodes.values():
+                listener.heard_heartbeat(cob_id - HEARTBEAT_BASE, time.monotonic())
+        elif (node := self.nodes.get(cob_id - SDO_REQUEST_BASE)) is not None:
+            node.handle_sdo(data)
+        self.flush()
+
+    def flush(self) -> None:
+        """Put what the nodes have sent on the bus."""
+        if self._outbox:
+            frames, self._outbox = self._outbox, []
+            self._transmit(frames)
+
+    def _send(self, cob_id: int, data: bytes) -> None:
+        self._outbox.append((cob_id, data))
+
+    def _route(self) -> None:
+        self._rpdo_nodes = {
+            node.rpdo.cob_id: node for node in self.nodes.values() if node.rpdo is not None and node.rpdo.valid
+        }
+
+    def _on_nmt(self, data: bytes) -> None:
+        if len(data) < 2:
+            return
+        command, addressed = data[0], data[1]
+        for node in self.nodes.values():
+            if addressed in (0, node.node_id):
+                node.handle_nmt(command)
+
+    def _on_sync(self) -> None:
+        self._last_sync_s = time.monotonic()
+        for node in self.nodes.values():
+            node.sample()
+        self.flush()
+        self._advance()
+
+    # time
+
+    @property
+    def running_s(self) -> float | None:
+        """SYNC time since all six drives were first enabled; None before."""
+        return None if self.enabled_s is None else self.plant.time_s - self.enabled_s
+
+    def _advance(self) -> None:
+        period_us = self.drives[0].dictionary.number(0x1006)
+        if period_us:
+            self.dt_s = period_us * 1e-6
+        for node in self.nodes.values():
+            node.apply(self.dt_s)
+        self._step_plant(self.dt_s)
+        if self.enabled_s is None and all(drive.enabled for drive in self.drives):
+            self.enabled_s = self.plant.time_s
+        self._inject()
+
+    def _step_plant(self, dt_s: float) -> None:
+        mounted = self.gauge.mounted
+        try:
+            self.plant.step(np.array([drive.axis.position_mm for drive in self.drives]), dt_s)
+        except RunError as error:
+            if not self._broken:
+                log.error("%s", error)
+            self._broken = True
+        known = mounted is not None and not self._broken
+        self.gauge.true_reading_um = self.plant.reading_mm(mounted) * 1e3 if known and mounted is not None else None
+
+    def _inject(self) -> None:
+        due = [injection for injection in self._injections if injection.due(self.running_s)]
+        for injection in due:
+            self._injections.remove(injection)
+            log.warning("fault injected: %s", injection)
+            injection.apply(self)
+
+    def poll(self, now_s: float) -> None:
+        """Do what wall-clock time asks for; call every few milliseconds."""
+        for node in self.nodes.values():
+            node.poll(now_s)
+        if now_s - self._last_sync_s > COAST_AFTER_S and any(drive.stopping for drive in self.drives):
+            self.coast()
+        self.flush()
+
+    def controller_gone(self) -> None:
+        """Nobody is on the bus any more: drives stop by themselves."""
+        for drive in self.drives:
+            drive.on_connection_lost("nobody on the bus")
+        self.coast()
+        self._outbox.clear()
+
+    def coast(self) -> None:
+        """Run the stops through without SYNC, and say where the drives stand."""
+        moving = [drive for drive in self.drives if drive.stopping]
+        begun_s = self.plant.time_s
+        while any(drive.stopping for drive in self.drives) and self.plant.time_s - begun_s < COAST_LIMIT_S:
+            for drive in self.drives:
+                if not drive.enabled:
+                    drive.on_cycle(self.dt_s)
+            self._step_plant(self.dt_s)
+        for drive in moving:
+            log.warning("node %d: stands at %.4f mm, %s", drive.node_id, drive.axis.position_mm, drive.state.name)
+
+
+def eds_path(machine: MachineFile, name: str) -> Path:
+    """Find a node's EDS: beside the machine file, else among the shipped ones."""
+    beside = machine.path.parent / name if machine.path is not None else Path(name)
+    return beside if beside.is_file() else shipped("eds", name)

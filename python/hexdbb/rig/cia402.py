@@ -1,0 +1,90 @@
+"""The power drive state machine of CiA 402 as a table.
+
+Model: a controlword is decoded into one command; each row of `TRANSITIONS` takes one state and command to the next
+state. Commands that skip a state (shutdown straight to enable) run through the table once per state.
+Source: CiA 402-2, state machine with transitions 0 to 16, coding of controlword 6040h and statusword 6041h.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+
+class State(Enum):
+    """States; the value is the statusword's coding (bits 0-3, 5 and 6)."""
+
+    NOT_READY = 0x0000
+    SWITCH_ON_DISABLED = 0x0040
+    READY_TO_SWITCH_ON = 0x0021
+    SWITCHED_ON = 0x0023
+    OPERATION_ENABLED = 0x0027
+    QUICK_STOP_ACTIVE = 0x0007
+    FAULT_REACTION_ACTIVE = 0x000F
+    FAULT = 0x0008
+
+
+STATUS_MASK = 0x006F
+"""Bits of the statusword that code the state."""
+
+VOLTAGE_ENABLED, REMOTE, INTERNAL_LIMIT, FOLLOWS_COMMAND, FOLLOWING_ERROR, REFERENCED = (
+    1 << 4,
+    1 << 9,
+    1 << 11,
+    1 << 12,
+    1 << 13,
+    1 << 15,
+)
+
+FAULT_RESET_BIT = 1 << 7
+
+
+class Command(Enum):
+    """Device control commands as (mask, value) of the controlword, in the order they are tried."""
+
+    DISABLE_VOLTAGE = (0x0002, 0x0000)
+    QUICK_STOP = (0x0006, 0x0002)
+    SHUTDOWN = (0x0007, 0x0006)
+    SWITCH_ON = (0x000F, 0x0007)
+    ENABLE_OPERATION = (0x000F, 0x000F)
+
+
+_S, _C = State, Command
+TRANSITIONS: dict[tuple[State, Command], tuple[int, State]] = {
+    (_S.SWITCH_ON_DISABLED, _C.SHUTDOWN): (2, _S.READY_TO_SWITCH_ON),
+    (_S.READY_TO_SWITCH_ON, _C.SWITCH_ON): (3, _S.SWITCHED_ON),
+    (_S.READY_TO_SWITCH_ON, _C.ENABLE_OPERATION): (3, _S.SWITCHED_ON),
+    (_S.SWITCHED_ON, _C.ENABLE_OPERATION): (4, _S.OPERATION_ENABLED),
+    (_S.OPERATION_ENABLED, _C.SWITCH_ON): (5, _S.SWITCHED_ON),
+    (_S.SWITCHED_ON, _C.SHUTDOWN): (6, _S.READY_TO_SWITCH_ON),
+    (_S.READY_TO_SWITCH_ON, _C.QUICK_STOP): (7, _S.SWITCH_ON_DISABLED),
+    (_S.READY_TO_SWITCH_ON, _C.DISABLE_VOLTAGE): (7, _S.SWITCH_ON_DISABLED),
+    (_S.OPERATION_ENABLED, _C.SHUTDOWN): (8, _S.READY_TO_SWITCH_ON),
+    (_S.OPERATION_ENABLED, _C.DISABLE_VOLTAGE): (9, _S.SWITCH_ON_DISABLED),
+    (_S.SWITCHED_ON, _C.DISABLE_VOLTAGE): (10, _S.SWITCH_ON_DISABLED),
+    (_S.SWITCHED_ON, _C.QUICK_STOP): (10, _S.SWITCH_ON_DISABLED),
+    (_S.OPERATION_ENABLED, _C.QUICK_STOP): (11, _S.QUICK_STOP_ACTIVE),
+    (_S.QUICK_STOP_ACTIVE, _C.DISABLE_VOLTAGE): (12, _S.SWITCH_ON_DISABLED),
+    (_S.QUICK_STOP_ACTIVE, _C.ENABLE_OPERATION): (16, _S.OPERATION_ENABLED),
+}
+"""(state, command) -> (number of the transition in CiA 402, next state); what is not named is no transition."""
+
+FAULT_TRANSITIONS = {"fault": 13, "reaction completed": 14, "reset": 15}
+"""Transitions that no controlword command makes: any state to the reaction, its end, and the rising edge of bit 7."""
+
+_COMMANDS: list[Command | None] = [
+    next((command for command in Command if word & command.value[0] == command.value[1]), None) for word in range(16)
+]
+
+
+def decode(controlword: int) -> Command | None:
+    """Give the command a controlword's bits 0 to 3 make; None where they make none."""
+    return _COMMANDS[controlword & 0x0F]
+
+
+def next_state(state: State, controlword: int) -> State | None:
+    """Give the state one transition further on, or None where the controlword moves nothing in this state."""
+    command = decode(controlword)
+    if command is None:
+        return None
+    found = TRANSITIONS.get((state, command))
+    return found[1] if found is not None else None

@@ -1,0 +1,169 @@
+"""The object dictionary of a simulated node: every entry of an EDS with its present value.
+
+Model: `canopen` parses the EDS; each entry keeps its value as a Python number, so that PDOs are packed without going
+through bytes.
+Source: CiA 301 (data types, SDO abort codes), CiA 306 (EDS).
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import canopen
+from canopen.objectdictionary import ODVariable
+from canopen.sdo import SdoAbortedError
+
+from hexdbb.errors import InputError
+
+Value = bool | int | float | bytes
+WriteHook = Callable[[Value], None]
+"""Called with the new value before an SDO download is stored; raises `SdoAbortedError` to refuse it."""
+
+ABORT_READ_WRITE_ONLY = 0x06010001
+ABORT_WRITE_READ_ONLY = 0x06010002
+ABORT_NO_OBJECT = 0x06020000
+ABORT_NOT_MAPPABLE = 0x06040041
+ABORT_PDO_TOO_LONG = 0x06040042
+ABORT_LENGTH = 0x06070010
+ABORT_NO_SUBINDEX = 0x06090011
+ABORT_VALUE_RANGE = 0x06090030
+ABORT_VALUE_HIGH = 0x06090031
+ABORT_VALUE_LOW = 0x06090032
+ABORT_DEVICE_STATE = 0x08000022
+
+_STRUCT_CODES = {1: "?", 2: "b", 3: "h", 4: "i", 5: "B", 6: "H", 7: "I", 8: "f", 0x11: "d", 0x15: "q", 0x1B: "Q"}
+"""struct code per CiA 301 data type; types not named here (strings, domains) are kept as bytes."""
+
+
+class Entry:
+    """One entry of the dictionary: what the EDS says of it, and its value."""
+
+    __slots__ = ("_codec", "access", "code", "high", "index", "low", "mappable", "name", "size", "subindex", "value")
+
+    def __init__(self, variable: ODVariable) -> None:
+        self.index: int = variable.index
+        self.subindex: int = variable.subindex
+        self.name: str = variable.name
+        self.access: str = variable.access_type
+        self.mappable: bool = variable.pdo_mappable
+        self.low: int | None = variable.min
+        self.high: int | None = variable.max
+        self.code: str | None = _STRUCT_CODES.get(variable.data_type)
+        self._codec = struct.Struct("<" + self.code) if self.code else None
+        self.size: int = self._codec.size if self._codec else 0
+        default = variable.default if variable.default is not None else (0 if self.code else b"")
+        self.value: Value = float(default) if self.code in ("f", "d") else default
+
+    @property
+    def readable(self) -> bool:
+        """Whether an SDO may read it."""
+        return self.access != "wo"
+
+    @property
+    def writable(self) -> bool:
+        """Whether an SDO may write it."""
+        return self.access in ("rw", "rww", "rwr", "wo")
+
+    def encode(self) -> bytes:
+        """Give the value as it travels on the bus."""
+        if self._codec is None:
+            return self.value if isinstance(self.value, bytes) else b""
+        return self._codec.pack(self.value)
+
+    def decode(self, data: bytes) -> Value:
+        """Read a value from the bus.
+
+        Raises
+        ------
+        SdoAbortedError
+            Wrong length, or a value outside the limits the EDS states.
+        """
+        if self._codec is None:
+            return bytes(data)
+        if len(data) != self.size:
+            raise SdoAbortedError(ABORT_LENGTH)
+        (value,) = self._codec.unpack(data)
+        if self.low is not None and value < self.low:
+            raise SdoAbortedError(ABORT_VALUE_LOW)
+        if self.high is not None and value > self.high:
+            raise SdoAbortedError(ABORT_VALUE_HIGH)
+        checked: Value = value
+        return checked
+
+
+class Dictionary:
+    """All entries of one node.
+
+    Parameters
+    ----------
+    eds : Path
+        The EDS file.
+    node_id : int
+        Resolves ``$NODEID`` in the defaults.
+
+    Raises
+    ------
+    InputError
+        The file is not there or not an EDS.
+    """
+
+    def __init__(self, eds: Path, node_id: int) -> None:
+        if not eds.is_file():
+            raise InputError(f"{eds}: no such file (expected the EDS of node {node_id})")
+        with eds.open(encoding="latin-1") as file:
+            self.od = canopen.import_od(file, node_id)
+        self.hooks: dict[tuple[int, int], WriteHook] = {}
+        self._entries: dict[tuple[int, int], Entry] = {}
+        for item in self.od.values():
+            for variable in [item] if isinstance(item, ODVariable) else item.values():
+                self._entries[variable.index, variable.subindex] = Entry(variable)
+        if (0x1000, 0) not in self._entries:
+            raise InputError(f"{eds}: object 1000h is missing (expected the EDS of a CANopen device)")
+        self._indices = {index for index, _ in self._entries}
+
+    def __iter__(self) -> Iterator[Entry]:
+        return iter(self._entries.values())
+
+    def __contains__(self, key: tuple[int, int]) -> bool:
+        return key in self._entries
+
+    def entry(self, index: int, subindex: int = 0) -> Entry:
+        """Give one entry.
+
+        Raises
+        ------
+        SdoAbortedError
+            There is no such object or sub-index.
+        """
+        found = self._entries.get((index, subindex))
+        if found is None:
+            raise SdoAbortedError(ABORT_NO_SUBINDEX if index in self._indices else ABORT_NO_OBJECT)
+        return found
+
+    def number(self, index: int, subindex: int = 0) -> int:
+        """Give the value of an integer entry."""
+        return int(self.entry(index, subindex).value)
+
+    def real(self, index: int, subindex: int = 0) -> float:
+        """Give the value of a number entry as a float."""
+        return float(self.entry(index, subindex).value)
+
+    def upload(self, index: int, subindex: int) -> bytes:
+        """Answer an SDO upload; raises `SdoAbortedError` where it is not allowed."""
+        entry = self.entry(index, subindex)
+        if not entry.readable:
+            raise SdoAbortedError(ABORT_READ_WRITE_ONLY)
+        return entry.encode()
+
+    def download(self, index: int, subindex: int, data: bytes) -> None:
+        """Take an SDO download; raises `SdoAbortedError` where it is not allowed."""
+        entry = self.entry(index, subindex)
+        if not entry.writable:
+            raise SdoAbortedError(ABORT_WRITE_READ_ONLY)
+        value = entry.decode(data)
+        hook = self.hooks.get((index, subindex))
+        if hook is not None:
+            hook(value)
+        entry.value = value

@@ -1,0 +1,237 @@
+"""A CiA 402 drive of one slider: state machine, cyclic synchronous position mode, limits, following error, stops.
+
+Model: every cycle the drive obeys the controlword, watches its limits and moves its servo axis for one communication
+cycle. Enabled in mode 8 it follows the target; in every other state it brakes to a stand and holds.
+Assumption: absolute encoder, so the drive is referenced at power-on; only mode 8 is offered.
+Source: CiA 402-2; reactions by 6007h, 605Ah, 605Eh; EMCY codes by CiA 402's error code table.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+
+from canopen.sdo import SdoAbortedError
+
+from hexdbb.rig import cia402
+from hexdbb.rig.cia402 import State
+from hexdbb.rig.dictionary import ABORT_VALUE_RANGE, Value
+from hexdbb.rig.node import CURRENT, GENERIC, PROFILE, Node, Send
+from hexdbb.rig.servo import ServoAxis
+
+log = logging.getLogger(__name__)
+
+CSP_MODE = 8
+ERROR_OVERCURRENT, ERROR_FOLLOWING, ERROR_LIMIT_SWITCH = 0x2310, 0x8611, 0x8612
+NEGATIVE_LIMIT, POSITIVE_LIMIT = 1, 2
+"""Bits of the digital inputs 60FDh."""
+STAY_IN_QUICK_STOP = (5, 6)
+"""Quick stop option codes 605Ah that end in quick stop active; the others end in switch on disabled."""
+ABORT_FAULT, ABORT_DISABLE, ABORT_QUICK_STOP = 1, 2, 3
+"""Abort connection option codes 6007h."""
+_POWERED = (State.OPERATION_ENABLED, State.QUICK_STOP_ACTIVE, State.FAULT_REACTION_ACTIVE)
+
+
+@dataclass(frozen=True)
+class DriveSetup:
+    """What a drive does not learn from its EDS.
+
+    `counts_per_mm` may be negative; `travel_mm` becomes the software position limit 607Dh.
+    """
+
+    counts_per_mm: float
+    travel_mm: tuple[float, float]
+    screw_lead_mm: float
+    start_mm: float
+    lag_s: float
+    feedforward: float
+
+
+class DriveNode(Node):
+    """One drive on the bus; see `Node` for the parameters not named here.
+
+    Parameters
+    ----------
+    setup : DriveSetup
+        Scale, travel, dynamics.
+    """
+
+    device_name = b"simulated CiA 402 drive"
+
+    def __init__(self, node_id: int, eds: Path, send: Send, setup: DriveSetup, stall_tolerance_s: float = 0.0) -> None:
+        self.setup = setup
+        self.axis = ServoAxis(setup.start_mm, setup.lag_s, setup.feedforward)
+        self.referenced = True
+        super().__init__(node_id, eds, send, stall_tolerance_s)
+
+    def on_power_up(self) -> None:
+        """Set up scale, limits and target for where the axis stands."""
+        entry = self.dictionary.entry
+        self.state = State.SWITCH_ON_DISABLED
+        self.limit_inputs = 0
+        self._limited = False
+        self._previous_controlword = 0
+        self._late_s = 0.0
+        self.dictionary.hooks[0x6060, 0] = self._check_mode
+        self._controlword, self._statusword = entry(0x6040), entry(0x6041)
+        self._target, self._position = entry(0x607A), entry(0x6064)
+        self._velocity, self._error = entry(0x606C), entry(0x60F4)
+        self._mode, self._mode_display = entry(0x6060), entry(0x6061)
+        self._inputs, self._error_code = entry(0x60FD), entry(0x603F)
+        self._window, self._window_ms, self._max_velocity = entry(0x6065), entry(0x6066), entry(0x607F)
+        self._interpolation = entry(0x60C2, 1), entry(0x60C2, 2)
+        self._limits = entry(0x607D, 1), entry(0x607D, 2)
+        scale = self.setup.counts_per_mm
+        for limit, counts in zip(self._limits, sorted(round(mm * scale) for mm in self.setup.travel_mm), strict=True):
+            limit.value = counts
+        for index in (0x608F, 0x6092):
+            entry(index, 1).value = round(abs(scale) * self.setup.screw_lead_mm)
+        self.axis.hold_here()
+        self._target.value = round(self.axis.position_mm * scale)
+        self.on_sample()
+
+    @property
+    def enabled(self) -> bool:
+        """Whether the drive follows or may follow targets."""
+        return self.state is State.OPERATION_ENABLED
+
+    @property
+    def stopping(self) -> bool:
+        """Whether the drive is on its way to a stand of its own accord."""
+        return not self.enabled and not self.axis.standing
+
+    # values of this instant
+
+    def on_sample(self) -> None:
+        """Write position, velocity, following error and statusword of this instant."""
+        scale = self.setup.counts_per_mm
+        self._position.value = round(self.axis.position_mm * scale)
+        self._velocity.value = round(self.axis.velocity_mm_s * scale)
+        self._error.value = round(self.axis.following_error_mm * scale)
+        self._inputs.value = self.limit_inputs
+        word = self.state.value | cia402.VOLTAGE_ENABLED | cia402.REMOTE
+        if self.referenced:
+            word |= cia402.REFERENCED
+        if self._limited or self.limit_inputs:
+            word |= cia402.INTERNAL_LIMIT
+        if self._late_s > 0.0:
+            word |= cia402.FOLLOWING_ERROR
+        if self.enabled and self._mode_display.value == CSP_MODE and not self._limited:
+            word |= cia402.FOLLOWS_COMMAND
+        self._statusword.value = word
+
+    # one cycle
+
+    def on_cycle(self, dt_s: float) -> None:
+        """Obey the controlword, move, watch the following error."""
+        self._obey_controlword()
+        if self._mode.value in (0, CSP_MODE):
+            self._mode_display.value = self._mode.value
+        if self.enabled and self._mode_display.value == CSP_MODE:
+            self._follow(dt_s)
+        else:
+            self._limited = False
+            self.axis.brake(dt_s, self.dictionary.number(0x6085) / abs(self.setup.counts_per_mm))
+            self._end_stop()
+        self._watch_following_error(dt_s)
+
+    def _follow(self, dt_s: float) -> None:
+        scale = self.setup.counts_per_mm
+        low, high = self._limits
+        target = int(self._target.value)
+        clamped = min(max(target, int(low.value)), int(high.value))
+        period, exponent = self._interpolation
+        interpolation_s = int(period.value) * 10.0 ** int(exponent.value)
+        held_back = self.axis.follow(clamped / scale, interpolation_s, dt_s, int(self._max_velocity.value) / abs(scale))
+        self._limited = held_back or clamped != target
+
+    def _obey_controlword(self) -> None:
+        word = int(self._controlword.value)
+        rising, changed = word & ~self._previous_controlword, word != self._previous_controlword
+        self._previous_controlword = word
+        if self.state is State.FAULT and rising & cia402.FAULT_RESET_BIT:
+            self._enter(State.SWITCH_ON_DISABLED)
+            self._error_code.value = 0
+            self.emergency(0)
+        for _ in range(2):  # ready to switch on -> switched on -> operation enabled in one command
+            following = cia402.next_state(self.state, word)
+            if following is None:
+                return
+            if self.state is State.QUICK_STOP_ACTIVE and following is State.OPERATION_ENABLED and not changed:
+                return  # a stop of the drive's own is not undone by a controller that has not noticed it
+            if following is State.OPERATION_ENABLED and self.state is State.SWITCHED_ON and not self._bumpless():
+                self.trip(ERROR_FOLLOWING, PROFILE)
+                return
+            self._enter(following)
+
+    def _bumpless(self) -> bool:
+        """Whether enabling would move nothing by more than the following error window."""
+        if self._mode.value != CSP_MODE:
+            return True
+        position = round(self.axis.position_mm * self.setup.counts_per_mm)
+        return abs(int(self._target.value) - position) <= int(self._window.value)
+
+    def _enter(self, state: State) -> None:
+        if state is State.OPERATION_ENABLED:
+            self.axis.hold_here()
+        if state is not self.state:
+            log.debug("node %d: %s -> %s", self.node_id, self.state.name, state.name)
+        self.state = state
+
+    def _end_stop(self) -> None:
+        if not self.axis.standing:
+            return
+        if self.state is State.QUICK_STOP_ACTIVE and self.dictionary.number(0x605A) not in STAY_IN_QUICK_STOP:
+            self._enter(State.SWITCH_ON_DISABLED)
+        elif self.state is State.FAULT_REACTION_ACTIVE:
+            self._enter(State.FAULT)
+
+    def _watch_following_error(self, dt_s: float) -> None:
+        scale = abs(self.setup.counts_per_mm)
+        outside = abs(self.axis.following_error_mm) * scale > int(self._window.value)
+        self._late_s = self._late_s + dt_s if outside and self.enabled else 0.0
+        if self._late_s * 1000.0 > int(self._window_ms.value):
+            self.trip(ERROR_FOLLOWING, PROFILE)
+
+    # stops
+
+    def trip(self, code: int = ERROR_OVERCURRENT, register: int = CURRENT) -> None:
+        """Fault: EMCY, stop, state fault."""
+        self._error_code.value = code
+        self.emergency(code, register)
+        self._enter(State.FAULT_REACTION_ACTIVE if self.state in _POWERED else State.FAULT)
+
+    def quick_stop(self) -> None:
+        """Stop on the quick stop ramp, as the controlword command does."""
+        if self.enabled:
+            self._enter(State.QUICK_STOP_ACTIVE)
+
+    def disable(self) -> None:
+        """Take the power away: switch on disabled."""
+        if self.state in (State.READY_TO_SWITCH_ON, State.SWITCHED_ON, *_POWERED):
+            self._enter(State.SWITCH_ON_DISABLED)
+
+    def hit_limit_switch(self, inputs: int) -> None:
+        """Report a limit switch and stop."""
+        self.limit_inputs |= inputs
+        self.emergency(ERROR_LIMIT_SWITCH, PROFILE)
+        self.quick_stop()
+
+    def on_connection_lost(self, reason: str) -> None:
+        """React as the abort connection option code 6007h says."""
+        if not self.enabled:
+            return
+        log.warning("node %d: %s, stopping at %.4f mm", self.node_id, reason, self.axis.position_mm)
+        option = self.dictionary.number(0x6007)
+        reactions = {ABORT_FAULT: self._trip_generic, ABORT_DISABLE: self.disable, ABORT_QUICK_STOP: self.quick_stop}
+        reaction = reactions.get(option)
+        if reaction is not None:
+            reaction()
+
+    def _trip_generic(self) -> None:
+        self.trip(int(self.dictionary.entry(0x1003, 1).value) & 0xFFFF or ERROR_OVERCURRENT, GENERIC)
+
+    def _check_mode(self, value: Value) -> None:
+        if int(value) not in (0, CSP_MODE):
+            raise SdoAbortedError(ABORT_VALUE_RANGE)

@@ -1,0 +1,91 @@
+"""The CiA 404 length gauge of the ball bar.
+
+Model: reading = true length minus nominal length plus noise, rounded to the resolution, in micrometres; outside the
+measuring range the value is clamped and the status says so. Object 2100h tells which set-up the operator has mounted;
+without one there is nothing to read.
+Source: CiA 404 (6130h, 6131h, 6132h, 6150h, 9130h); CiA 303-2 for the unit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hexdbb.rig.dictionary import Value
+from hexdbb.rig.node import Node, Send
+from hexdbb.rig.plant import Mounted
+
+NOT_VALID, POSITIVE_OVERLOAD, NEGATIVE_OVERLOAD = 1, 2, 4
+"""Bits of the AI status 6150h."""
+
+
+@dataclass(frozen=True)
+class GaugeSetup:
+    """Properties of the gauge itself."""
+
+    noise_um: float
+    resolution_um: float
+    range_um: float
+    seed: int
+
+
+class GaugeNode(Node):
+    """The gauge on the bus; see `Node` for the parameters not named here.
+
+    Parameters
+    ----------
+    setup : GaugeSetup
+        Noise, resolution, range, seed of the noise.
+    """
+
+    device_name = b"simulated CiA 404 ball bar gauge"
+
+    def __init__(self, node_id: int, eds: Path, send: Send, setup: GaugeSetup, stall_tolerance_s: float = 0.0) -> None:
+        self.setup = setup
+        self.true_reading_um: float | None = None
+        self.frozen = False
+        self.broken = False
+        self.offset_um = 0.0
+        super().__init__(node_id, eds, send, stall_tolerance_s)
+
+    def on_power_up(self) -> None:
+        """Nothing is mounted; the noise starts from its seed."""
+        entry = self.dictionary.entry
+        self.mounted: Mounted | None = None
+        self._noise = np.random.default_rng(self.setup.seed)
+        self.dictionary.hooks[0x2100, 1] = self._mount
+        entry(0x2101, 1).value, entry(0x2101, 2).value = -self.setup.range_um, self.setup.range_um
+        entry(0x6126, 1).value = 1.0
+        self._value, self._integer, self._status = entry(0x6130, 1), entry(0x9130, 1), entry(0x6150, 1)
+        self._digits = entry(0x6132, 1)
+        self._status.value = NOT_VALID
+
+    def _mount(self, value: Value) -> None:
+        number = int(value)
+        x = [self.dictionary.real(0x2100, k) for k in range(2, 9)]
+        self.mounted = Mounted(number - 1, (x[0], x[1], x[2]), (x[3], x[4], x[5]), x[6]) if number else None
+        # Noise starts anew with each set-up, whatever the number of cycles spent waiting before.
+        self._noise = np.random.default_rng([self.setup.seed, number])
+
+    def on_sample(self) -> None:
+        """Write reading and status of this instant."""
+        if self.frozen:
+            return
+        if self.true_reading_um is None or self.broken:
+            self._write(0.0, NOT_VALID)
+            return
+        noisy_um = self.true_reading_um + self.offset_um + self.setup.noise_um * float(self._noise.standard_normal())
+        limit_um = self.setup.range_um
+        if noisy_um > limit_um:
+            self._write(limit_um, NOT_VALID | POSITIVE_OVERLOAD)
+        elif noisy_um < -limit_um:
+            self._write(-limit_um, NOT_VALID | NEGATIVE_OVERLOAD)
+        else:
+            step_um = self.setup.resolution_um
+            self._write(round(noisy_um / step_um) * step_um if step_um > 0.0 else noisy_um, 0)
+
+    def _write(self, value_um: float, status: int) -> None:
+        self._value.value, self._status.value = value_um, status
+        self._integer.value = round(value_um * 10 ** int(self._digits.value))

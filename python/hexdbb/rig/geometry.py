@@ -1,0 +1,153 @@
+"""The true machine's points: guideways, joints and leg lengths under geometric errors, as exact point transforms.
+
+Model: a guideway is a line of slider joint centres. In the guideway's local axes (x outward from the base centre, y
+towards the vertex V_i, z up, origin at its midpoint) its points are (0, sqrt(3) BR - s, 0). Errors move them in this
+order: rotation about local z (xy), rotation about local x (yz), both through the midpoint; rotation about z through
+the base centre; translation in local axes. The joint triangle gets its three true sides, keeps its centroid, and is
+turned in its plane so that it fits the nominal triangle best (Procrustes).
+Source: thesis section 3.2, transforms instead of its linearised equations.
+Units: mm, rad. Frames: base frame for guideways, platform frame for joints.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.errors import InputError
+from hexdbb.machine import MachineFile
+
+Array = NDArray[np.float64]
+SQRT3 = math.sqrt(3.0)
+
+
+def rotation_x(angle_rad: float) -> Array:
+    """Rotation about x, shape (3, 3)."""
+    c, s = math.cos(angle_rad), math.sin(angle_rad)
+    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+
+
+def rotation_y(angle_rad: float) -> Array:
+    """Rotation about y, shape (3, 3)."""
+    c, s = math.cos(angle_rad), math.sin(angle_rad)
+    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+
+
+def rotation_z(angle_rad: float) -> Array:
+    """Rotation about z, shape (3, 3)."""
+    c, s = math.cos(angle_rad), math.sin(angle_rad)
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def rotation_rpy(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Array:
+    """R = Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3)."""
+    return rotation_z(yaw_rad) @ rotation_y(pitch_rad) @ rotation_x(roll_rad)
+
+
+def _zeros(*shape: int) -> Array:
+    return np.zeros(shape)
+
+
+@dataclass(frozen=True)
+class GeometryErrors:
+    """The 33 error parameters; mm and rad, zero where not given."""
+
+    leg_length_mm: Array = field(default_factory=lambda: _zeros(6))
+    slider_offset_mm: Array = field(default_factory=lambda: _zeros(6))
+    guideway_translation_mm: Array = field(default_factory=lambda: _zeros(3, 3))
+    """Shape (3, 3): x, y, z of guideways 1 to 3, local axes."""
+    guideway_rotation_xy_rad: Array = field(default_factory=lambda: _zeros(3))
+    guideway_rotation_yz_rad: Array = field(default_factory=lambda: _zeros(3))
+    guideway_rotation_centre_rad: Array = field(default_factory=lambda: _zeros(3))
+    platform_side_mm: Array = field(default_factory=lambda: _zeros(3))
+    """|Q1Q2|, |Q2Q3|, |Q3Q1| longer by this."""
+
+
+@dataclass(frozen=True)
+class TrueGeometry:
+    """Points of a machine.
+
+    Attributes
+    ----------
+    anchors_mm : (6, 3) array
+        Where slider joint k stands at slider coordinate 0, base frame (slider offset included).
+    directions : (6, 3) array
+        Unit vectors of growing slider coordinate.
+    lengths_mm : (6,) array
+        Distance between the joints of leg k.
+    joints_mm : (6, 3) array
+        Ball joint at the platform end of leg k, platform frame.
+    """
+
+    anchors_mm: Array
+    directions: Array
+    lengths_mm: Array
+    joints_mm: Array
+
+    def slider_joints_mm(self, sliders_mm: Array) -> Array:
+        """Slider joint centres, shape (6, 3), for slider coordinates of shape (6,)."""
+        return self.anchors_mm + sliders_mm[:, None] * self.directions
+
+    def sliders_for(self, position_mm: Array, rotation: Array) -> Array:
+        """Slider coordinates that hold a pose, shape (6,).
+
+        Raises
+        ------
+        InputError
+            A leg does not reach its guideway.
+        """
+        joints = self.joints_mm @ rotation.T + position_mm
+        reach = joints - self.anchors_mm
+        foot = np.einsum("ij,ij->i", reach, self.directions)
+        square = self.lengths_mm**2 - np.einsum("ij,ij->i", reach, reach) + foot**2
+        if np.any(square < 0.0):
+            leg = int(np.argmin(square)) + 1
+            raise InputError(
+                f"start pose {np.round(position_mm, 3).tolist()} mm: leg {leg} does not reach its guideway"
+            )
+        return foot + np.array([-1.0, 1.0] * 3) * np.sqrt(square)
+
+
+def true_geometry(machine: MachineFile, errors: GeometryErrors | None = None) -> TrueGeometry:
+    """Apply errors to a nominal machine."""
+    errors = errors if errors is not None else GeometryErrors()
+    anchors, directions = np.empty((6, 3)), np.empty((6, 3))
+    for i in range(3):
+        point, direction = _guideway(machine.base.inradius_mm, i, errors)
+        for k in (2 * i, 2 * i + 1):
+            directions[k] = direction
+            anchors[k] = point + errors.slider_offset_mm[k] * direction
+    return TrueGeometry(
+        anchors,
+        directions,
+        machine.legs.length_mm + errors.leg_length_mm,
+        np.repeat(_joint_triangle(machine, errors.platform_side_mm), 2, axis=0),
+    )
+
+
+def _guideway(inradius_mm: float, i: int, errors: GeometryErrors) -> tuple[Array, Array]:
+    """Point at slider coordinate 0 and direction of guideway i (0 to 2), base frame."""
+    local_to_base = rotation_z(2.0 * math.pi / 3.0 * i)
+    turn = rotation_x(errors.guideway_rotation_yz_rad[i]) @ rotation_z(errors.guideway_rotation_xy_rad[i])
+    swing = rotation_z(errors.guideway_rotation_centre_rad[i])
+    point = np.array([inradius_mm, 0.0, 0.0]) + turn @ np.array([0.0, SQRT3 * inradius_mm, 0.0])
+    direction = swing @ local_to_base @ turn @ np.array([0.0, -1.0, 0.0])
+    return swing @ local_to_base @ point + local_to_base @ errors.guideway_translation_mm[i], direction
+
+
+def _joint_triangle(machine: MachineFile, longer_mm: Array) -> Array:
+    """Ball joints Q1, Q2, Q3 in the platform frame, shape (3, 3)."""
+    radius, height = machine.platform.circumradius_mm, machine.platform.joint_plane_height_mm
+    angles = 2.0 * math.pi / 3.0 * np.arange(3)
+    nominal = radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    side_12, side_23, side_31 = SQRT3 * radius + longer_mm
+    # Q1 at the origin, Q2 on the x axis; counter-clockwise as the nominal triangle is.
+    x3 = (side_12**2 + side_31**2 - side_23**2) / (2.0 * side_12)
+    triangle = np.array([[0.0, 0.0], [side_12, 0.0], [x3, math.sqrt(side_31**2 - x3**2)]])
+    triangle -= triangle.mean(axis=0)
+    cross = float(np.sum(triangle[:, 0] * nominal[:, 1] - triangle[:, 1] * nominal[:, 0]))
+    turn = rotation_z(math.atan2(cross, float(np.sum(triangle * nominal))))[:2, :2]
+    return np.column_stack([triangle @ turn.T, np.full(3, height)])

@@ -1,0 +1,263 @@
+"""A CANopen node: NMT state machine, boot-up, heartbeats, SDO server, synchronous PDOs, EMCY.
+
+Model: frames come in through `handle`, `on_sync` and `heard_heartbeat`, go out through the bus callback. Process data
+live in SYNC time; heartbeats and RPDO deadlines live in wall-clock time, as on a real bus.
+Assumption: predefined connection set, 11-bit identifiers, one SDO server.
+Source: CiA 301.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from enum import IntEnum
+from pathlib import Path
+
+from canopen.sdo import SdoServer
+
+from hexdbb.rig.dictionary import Dictionary
+from hexdbb.rig.pdo import MAX_SYNC_TYPE, Pdo
+
+log = logging.getLogger(__name__)
+
+Send = Callable[[int, bytes], None]
+
+EMCY_BASE, SDO_RESPONSE_BASE, SDO_REQUEST_BASE, HEARTBEAT_BASE = 0x80, 0x580, 0x600, 0x700
+ERROR_HEARTBEAT, ERROR_RPDO_TIMEOUT, ERROR_PDO_LENGTH = 0x8130, 0x8250, 0x8210
+GENERIC, CURRENT, VOLTAGE, COMMUNICATION, PROFILE = 0x01, 0x02, 0x04, 0x10, 0x20
+"""Bits of the error register 1001h."""
+
+
+class NmtState(IntEnum):
+    """NMT states as heartbeats carry them."""
+
+    BOOT_UP = 0x00
+    STOPPED = 0x04
+    OPERATIONAL = 0x05
+    PRE_OPERATIONAL = 0x7F
+
+
+NMT_COMMANDS = {0x01: NmtState.OPERATIONAL, 0x02: NmtState.STOPPED, 0x80: NmtState.PRE_OPERATIONAL}
+NMT_RESETS = (0x81, 0x82)
+ERROR_BEHAVIOUR = {0: NmtState.PRE_OPERATIONAL, 2: NmtState.STOPPED}
+"""Object 1029h:01, what a communication error leads to; 1 is no change."""
+
+
+class _SdoOwner:
+    """What canopen's SDO server needs of its node, over our dictionary."""
+
+    def __init__(self, dictionary: Dictionary) -> None:
+        self.dictionary, self.object_dictionary = dictionary, dictionary.od
+
+    def get_data(self, index: int, subindex: int, *, check_readable: bool) -> bytes:
+        return self.dictionary.upload(index, subindex)
+
+    def set_data(self, index: int, subindex: int, data: bytes, *, check_writable: bool) -> None:
+        self.dictionary.download(index, subindex, bytes(data))
+
+
+class _SdoNetwork:
+    """What canopen's SDO server needs of its network."""
+
+    def __init__(self, send: Send) -> None:
+        self._send = send
+
+    def send_message(self, can_id: int, data: bytes) -> None:
+        self._send(can_id, bytes(data))
+
+
+class Node:
+    """One device on the bus; drive and gauge add their application by overriding the hooks at the end.
+
+    Parameters
+    ----------
+    node_id : int
+        1 to 126.
+    eds : Path
+        Its EDS file.
+    send : callable
+        Puts a frame (identifier, data) on the bus.
+    stall_tolerance_s : float
+        Added to every wall-clock supervision time: a desktop kernel may hold a controller up for longer than a
+        real-time one would.
+    """
+
+    device_name = b"simulated node"
+
+    def __init__(self, node_id: int, eds: Path, send: Send, stall_tolerance_s: float = 0.0) -> None:
+        self.node_id = node_id
+        self._eds, self._bus, self._stall_tolerance_s = eds, send, stall_tolerance_s
+        self.present = True
+        self.muted_tpdo_cycles = 0
+        self.muted_heartbeat = False
+        self.on_routes_changed: Callable[[], None] = lambda: None
+        self._power_up()
+
+    def _power_up(self) -> None:
+        """Set everything to its power-on state (also NMT reset)."""
+        self.dictionary = Dictionary(self._eds, self.node_id)
+        self.dictionary.entry(0x1008).value = self.device_name
+        self.dictionary.entry(0x1018, 4).value = self.node_id
+        self.dictionary.hooks[0x1016, 1] = self._watch_heartbeat
+        self.nmt_state = NmtState.PRE_OPERATIONAL
+        self._sdo = SdoServer(
+            SDO_REQUEST_BASE + self.node_id, SDO_RESPONSE_BASE + self.node_id, _SdoOwner(self.dictionary)
+        )
+        self._sdo.network = _SdoNetwork(self.send)
+        self.tpdo = self._make_pdo(0x1800, 0x1A00, receive=False)
+        self.rpdo = self._make_pdo(0x1400, 0x1600, receive=True) if (0x1400, 0) in self.dictionary else None
+        self._latched: bytes | None = None
+        self._syncs = 0
+        self._next_heartbeat_s = 0.0
+        self._heartbeat_seen_s: float | None = None
+        self._rpdo_seen_s: float | None = None
+        self._rpdo_age_s = 0.0
+        self.on_power_up()
+
+    def _make_pdo(self, communication: int, mapping: int, *, receive: bool) -> Pdo:
+        return Pdo(
+            self.dictionary,
+            communication,
+            mapping,
+            receive=receive,
+            may_change=lambda: self.nmt_state is NmtState.PRE_OPERATIONAL,
+            on_change=lambda: self.on_routes_changed(),
+        )
+
+    # frames
+
+    def send(self, cob_id: int, data: bytes) -> None:
+        """Put a frame on the bus, unless the node is not there."""
+        if self.present:
+            self._bus(cob_id, data)
+
+    def boot(self) -> None:
+        """Reset and announce the node."""
+        self._power_up()
+        self.on_routes_changed()
+        self.send(HEARTBEAT_BASE + self.node_id, bytes([NmtState.BOOT_UP]))
+
+    def handle_nmt(self, command: int) -> None:
+        """Obey an NMT command addressed to this node or to all."""
+        if not self.present:
+            return
+        if command in NMT_RESETS:
+            self.boot()
+        elif command in NMT_COMMANDS:
+            self.change_nmt_state(NMT_COMMANDS[command])
+
+    def change_nmt_state(self, state: NmtState) -> None:
+        """Enter an NMT state; leaving operational is a lost connection for the application."""
+        left_operational = self.nmt_state is NmtState.OPERATIONAL and state is not NmtState.OPERATIONAL
+        self.nmt_state = state
+        self._rpdo_seen_s = None
+        if left_operational:
+            self.on_connection_lost(f"NMT state {state.name.lower().replace('_', '-')}")
+
+    def handle_sdo(self, data: bytes) -> None:
+        """Answer an SDO request."""
+        if self.present and self.nmt_state is not NmtState.STOPPED and len(data) == 8:
+            self._sdo.on_request(SDO_REQUEST_BASE + self.node_id, data, 0.0)
+
+    def handle_rpdo(self, data: bytes, now_s: float) -> None:
+        """Take a received PDO: synchronous ones wait for the SYNC."""
+        if self.rpdo is None or self.nmt_state is not NmtState.OPERATIONAL or not self.present:
+            return
+        if len(data) < self.rpdo.size:
+            self.emergency(ERROR_PDO_LENGTH, COMMUNICATION)
+            return
+        self._rpdo_seen_s, self._rpdo_age_s = now_s, 0.0
+        if self.rpdo.transmission_type <= MAX_SYNC_TYPE:
+            self._latched = data
+        else:
+            self.rpdo.unpack(data)
+
+    def sample(self) -> None:
+        """First half of a SYNC: send the synchronous TPDO with the values of this instant."""
+        if self.nmt_state is not NmtState.OPERATIONAL or not self.present:
+            return
+        self.on_sample()
+        if self.muted_tpdo_cycles:
+            self.muted_tpdo_cycles -= 1
+            return
+        self._syncs += 1
+        if self.tpdo.valid and self._syncs % self.tpdo.transmission_type == 0:
+            self._bus(self.tpdo.cob_id, self.tpdo.pack())
+
+    def apply(self, dt_s: float) -> None:
+        """Second half of a SYNC: act on the last RPDO for the coming cycle of `dt_s`."""
+        if self._latched is not None and self.rpdo is not None:
+            self.rpdo.unpack(self._latched)
+            self._latched = None
+        self._rpdo_age_s += dt_s
+        self.on_cycle(dt_s)
+
+    # supervision
+
+    def _watch_heartbeat(self, value: object) -> None:
+        self._heartbeat_seen_s = None  # monitoring starts with the first heartbeat received after configuration
+
+    def heard_heartbeat(self, producer: int, now_s: float) -> None:
+        """Note a heartbeat of another node."""
+        if self.dictionary.number(0x1016, 1) >> 16 & 0x7F == producer:
+            self._heartbeat_seen_s = now_s
+
+    def poll(self, now_s: float) -> None:
+        """Do what wall-clock time asks for: own heartbeat, watched heartbeat, RPDO deadline."""
+        if not self.present:
+            return
+        period_s = self.dictionary.number(0x1017) / 1000.0
+        if period_s and now_s >= self._next_heartbeat_s:
+            self._next_heartbeat_s = max(self._next_heartbeat_s + period_s, now_s)
+            if not self.muted_heartbeat:
+                self.send(HEARTBEAT_BASE + self.node_id, bytes([self.nmt_state]))
+        limit_s = (self.dictionary.number(0x1016, 1) & 0xFFFF) / 1000.0
+        seen_s = self._heartbeat_seen_s
+        if limit_s and seen_s is not None and now_s - seen_s > limit_s + self._stall_tolerance_s:
+            self.lose_connection(ERROR_HEARTBEAT, "controller's heartbeat lost")
+        self._check_rpdo_deadline(now_s)
+
+    def _check_rpdo_deadline(self, now_s: float) -> None:
+        if self.rpdo is None or self._rpdo_seen_s is None or (0x1400, 5) not in self.dictionary:
+            return
+        limit_s = self.dictionary.number(0x1400, 5) / 1000.0
+        late = now_s - self._rpdo_seen_s > limit_s + self._stall_tolerance_s or self._rpdo_age_s > limit_s
+        if limit_s and late:
+            self.lose_connection(ERROR_RPDO_TIMEOUT, "RPDO timed out")
+
+    def lose_connection(self, error: int, reason: str) -> None:
+        """React to a controller that has gone: EMCY, application's reaction, NMT state by 1029h."""
+        self._heartbeat_seen_s = self._rpdo_seen_s = None
+        self.emergency(error, COMMUNICATION)
+        self.on_connection_lost(reason)
+        behaviour = ERROR_BEHAVIOUR.get(self.dictionary.number(0x1029, 1))
+        if self.nmt_state is NmtState.OPERATIONAL and behaviour is not None:
+            self.nmt_state = behaviour
+
+    def emergency(self, code: int, register: int = GENERIC) -> None:
+        """Send an EMCY, enter it in the error field 1003h; code 0 clears the error register."""
+        entry = self.dictionary.entry(0x1001)
+        entry.value = int(entry.value) | register | GENERIC if code else 0
+        if code:
+            newest_first = [code] + [self.dictionary.number(0x1003, k) for k in (1, 2, 3)]
+            for subindex, value in enumerate(newest_first, start=1):
+                self.dictionary.entry(0x1003, subindex).value = value
+            count = self.dictionary.entry(0x1003, 0)
+            count.value = min(int(count.value) + 1, 4)
+            log.warning("node %d: EMCY %04Xh", self.node_id, code)
+        if self.nmt_state is not NmtState.STOPPED:
+            self.send(EMCY_BASE + self.node_id, code.to_bytes(2, "little") + bytes([int(entry.value)]) + bytes(5))
+
+    # hooks of the application
+
+    def on_power_up(self) -> None:
+        """Set up the application after the dictionary has its defaults."""
+
+    def on_sample(self) -> None:
+        """Write the values of this instant into the dictionary."""
+
+    def on_cycle(self, dt_s: float) -> None:
+        """Advance the application by one cycle."""
+
+    def on_connection_lost(self, reason: str) -> None:
+        """React to the loss of the controller."""

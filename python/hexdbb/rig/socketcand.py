@@ -1,0 +1,196 @@
+"""A CAN bus served as socketcand over TCP on the loopback interface.
+
+Model: clients speak socketcand's text protocol in raw mode; what one client sends, the rig and all other clients
+receive; what the rig sends, all clients receive. Frames of one burst leave in one segment, so that clients do not see
+them torn.
+Assumption: trusted local clients; 11-bit data frames only.
+Source: socketcand protocol description (github.com/linux-can/socketcand); python-can's client expects `< hi >` and
+each `< ok >` in a read of its own, which holds because nothing is sent to a client before its answers.
+"""
+
+from __future__ import annotations
+
+import logging
+import selectors
+import socket
+import time
+from collections.abc import Callable
+
+from hexdbb.errors import InputError
+
+log = logging.getLogger(__name__)
+
+Frame = tuple[int, bytes]
+POLL_S = 0.002
+RECEIVE_BYTES = 65536
+LONGEST_MESSAGE = 200
+SETTLE_S = 0.02
+"""Silence after the handshake: python-can expects its last answer in a read of its own."""
+IDLE_S = 0.1
+
+
+class _Client:
+    """One connection."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self.connection = connection
+        self.buffer = b""
+        self.raw_since_s: float | None = None
+
+    @property
+    def hears(self) -> bool:
+        """Whether frames may be sent to it: not glued to the handshake's last answer."""
+        return self.raw_since_s is not None and time.monotonic() - self.raw_since_s > SETTLE_S
+
+
+class SocketcandServer:
+    """Serves one bus.
+
+    Parameters
+    ----------
+    port : int
+        TCP port on 127.0.0.1; 0 takes a free one.
+    on_frame : callable
+        Called with identifier and data of each frame a client sends.
+    on_poll : callable
+        Called with the monotonic time every few milliseconds.
+    on_last_client_gone : callable
+        Called when nobody is connected any more.
+
+    Raises
+    ------
+    InputError
+        The port is taken.
+    """
+
+    def __init__(
+        self,
+        port: int,
+        on_frame: Callable[[int, bytes], None],
+        on_poll: Callable[[float], None],
+        on_last_client_gone: Callable[[], None],
+    ) -> None:
+        self._on_frame, self._on_poll, self._on_last_client_gone = on_frame, on_poll, on_last_client_gone
+        self._clients: dict[socket.socket, _Client] = {}
+        self._selector = selectors.DefaultSelector()
+        self._listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
+        self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            self._listener.bind(("127.0.0.1", port))
+        except OSError as error:
+            self._listener.close()
+            raise InputError(f"--port {port}: {error.strerror} (expected a free port, or 0)") from None
+        self._listener.listen()
+        self._selector.register(self._listener, selectors.EVENT_READ)
+        self._running = True
+
+    @property
+    def port(self) -> int:
+        """The port it listens on."""
+        return int(self._listener.getsockname()[1])
+
+    def stop(self) -> None:
+        """Make `serve` return; may be called from a signal handler or a callback."""
+        self._running = False
+
+    def serve(self) -> None:
+        """Serve until told to stop."""
+        next_poll_s = 0.0
+        while self._running:
+            for key, _ in self._selector.select(POLL_S if self._clients else IDLE_S):
+                if key.data is None:
+                    self._accept()
+                else:
+                    self._read(key.data)
+            now_s = time.monotonic()
+            if now_s >= next_poll_s:
+                next_poll_s = now_s + POLL_S
+                self._on_poll(now_s)
+        self.close()
+
+    def close(self) -> None:
+        """Close all connections."""
+        for client in list(self._clients.values()):
+            client.connection.close()
+        self._clients.clear()
+        self._listener.close()
+        self._selector.close()
+
+    def transmit(self, frames: list[Frame]) -> None:
+        """Send frames to all clients, in one piece."""
+        self._broadcast(frames, None)
+
+    def _broadcast(self, frames: list[Frame], but: _Client | None) -> None:
+        listening = [client for client in self._clients.values() if client.hears and client is not but]
+        if listening:
+            stamp = f"{time.time():.6f}"
+            text = "".join(f"< frame {cob_id:03X} {stamp} {data.hex().upper()} >" for cob_id, data in frames).encode()
+            for client in listening:
+                self._send(client, text)
+
+    def _send(self, client: _Client, data: bytes) -> None:
+        try:
+            client.connection.sendall(data)
+        except OSError as error:
+            log.warning("client lost: %s", error.strerror)
+            self._drop(client)
+
+    def _accept(self) -> None:
+        connection, address = self._listener.accept()
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        client = _Client(connection)
+        self._clients[connection] = client
+        self._selector.register(connection, selectors.EVENT_READ, client)
+        log.info("client connected from %s:%d", *address)
+        self._send(client, b"< hi >")
+
+    def _drop(self, client: _Client) -> None:
+        if self._clients.pop(client.connection, None) is None:
+            return
+        self._selector.unregister(client.connection)
+        client.connection.close()
+        log.info("client disconnected")
+        if not self._clients:
+            self._on_last_client_gone()
+
+    def _read(self, client: _Client) -> None:
+        try:
+            data = client.connection.recv(RECEIVE_BYTES)
+        except OSError:
+            data = b""
+        if not data:
+            self._drop(client)
+            return
+        *messages, client.buffer = (client.buffer + data).split(b">")
+        for message in messages:
+            self._obey(client, message.split())
+        if len(client.buffer) > LONGEST_MESSAGE:
+            self._drop(client)
+
+    def _obey(self, client: _Client, words: list[bytes]) -> None:
+        verb = words[1] if len(words) > 1 and words[0] == b"<" else b""
+        if verb == b"send" and client.raw_since_s is not None:
+            self._take_frame(client, words)
+        elif verb == b"open":
+            self._send(client, b"< ok >")
+        elif verb == b"rawmode":
+            self._send(client, b"< ok >")
+            client.raw_since_s = time.monotonic()
+        elif verb == b"echo":
+            self._send(client, b"< echo >")
+        else:
+            self._send(client, b"< error could not be understood >")
+
+    def _take_frame(self, client: _Client, words: list[bytes]) -> None:
+        try:
+            cob_id, length = int(words[2], 16), int(words[3], 16)
+            data = bytes([int(word, 16) for word in words[4:]])
+        except (ValueError, IndexError):
+            self._send(client, b"< error malformed frame >")
+            return
+        if len(data) != length or length > 8 or cob_id > 0x7FF:
+            self._send(client, b"< error malformed frame >")
+            return
+        if len(self._clients) > 1:
+            self._broadcast([(cob_id, data)], client)
+        self._on_frame(cob_id, data)

@@ -1,0 +1,161 @@
+"""The truth file: what the simulated rig really is; and the seeded random machine hidden in it where no file is given.
+
+Model: TOML of schema ``hexdbb.truth/1`` in um, urad, s and deg, converted once to the core's mm and rad. Error
+parameters carry the names and signs of the effects they belong to; what is left out is zero.
+Source: sizes of the random machine as assumed for a machine tool of this size: joints, guideways and offsets 50 um,
+rotations 0.2 mrad, platform sides 30 um, cup 0.1 mm (one standard deviation each).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field, SerializeAsAny, ValidationError, model_validator
+
+from hexdbb.rig.geometry import Array, GeometryErrors
+from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
+from hexdbb.rig.plant import Point, SetupErrors
+from hexdbb.validation import BadValueError, FileModel, NotNegative, Number, Positive, StrictModel, Vector3
+
+Vector6 = Annotated[tuple[Number, Number, Number, Number, Number, Number], Field(strict=False)]
+Matrix3 = Annotated[tuple[Vector3, Vector3, Vector3], Field(strict=False)]
+ZERO3, ZERO6 = (0.0,) * 3, (0.0,) * 6
+
+RANDOM_MOUNTS = 8
+"""Fixings of the cup for which a random machine has an error of its own."""
+RANDOM_SEED = 1
+"""Seed of the machine hidden in the rig when neither file nor seed is given."""
+
+
+class Geometry(StrictModel):
+    """The 33 error parameters by effect."""
+
+    leg_length_um: Vector6 = ZERO6
+    slider_offset_um: Vector6 = ZERO6
+    guideway_translation_um: Matrix3 = (ZERO3, ZERO3, ZERO3)
+    """x, y, z of guideways 1 to 3, local axes."""
+    guideway_rotation_xy_urad: Vector3 = ZERO3
+    guideway_rotation_yz_urad: Vector3 = ZERO3
+    guideway_rotation_centre_urad: Vector3 = ZERO3
+    platform_side_um: Vector3 = ZERO3
+
+    def errors(self) -> GeometryErrors:
+        """Give the parameters in mm and rad."""
+        return GeometryErrors(
+            leg_length_mm=_scaled(self.leg_length_um, 1e-3),
+            slider_offset_mm=_scaled(self.slider_offset_um, 1e-3),
+            guideway_translation_mm=_scaled(self.guideway_translation_um, 1e-3),
+            guideway_rotation_xy_rad=_scaled(self.guideway_rotation_xy_urad, 1e-6),
+            guideway_rotation_yz_rad=_scaled(self.guideway_rotation_yz_urad, 1e-6),
+            guideway_rotation_centre_rad=_scaled(self.guideway_rotation_centre_urad, 1e-6),
+            platform_side_mm=_scaled(self.platform_side_um, 1e-3),
+        )
+
+
+class Setup(StrictModel):
+    """Errors of the set-up: true minus nominal."""
+
+    cup_error_um: Annotated[tuple[Vector3, ...], Field(strict=False)] = ()
+    """One per mount, in order of mount id; a mount beyond the list has none."""
+    ball_offset_error_um: Vector3 = ZERO3
+    bar_length_error_um: Number = 0.0
+
+    def errors(self) -> SetupErrors:
+        """Give the errors in mm."""
+        return SetupErrors(
+            cup_mm={mount: _point(error) for mount, error in enumerate(self.cup_error_um)},
+            ball_offset_mm=_point(self.ball_offset_error_um),
+            bar_length_mm=self.bar_length_error_um * 1e-3,
+        )
+
+
+class GaugeTruth(StrictModel):
+    """The gauge."""
+
+    noise_um: NotNegative = 0.5
+    resolution_um: NotNegative = 0.1
+    range_um: Positive = 1000.0
+
+
+class DriveTruth(StrictModel):
+    """Dynamics of the six drives."""
+
+    lag_s: Positive = 0.002
+    velocity_feedforward: Annotated[float, Field(ge=0.0, le=1.0)] = 0.0
+
+
+class Start(StrictModel):
+    """Nominal pose in which the machine stands at power-on; below the thesis' circle, so that no bar is mounted yet."""
+
+    position_mm: Vector3 = (0.0, 0.0, 260.0)
+    rpy_deg: Vector3 = ZERO3
+
+
+class TruthFile(FileModel):
+    """A truth file, validated."""
+
+    schema_id: Literal["hexdbb.truth/1"] = Field(default="hexdbb.truth/1", alias="schema")
+    seed: Annotated[int, Field(ge=0)] = RANDOM_SEED
+    """Of the gauge's noise."""
+    geometry: Geometry = Geometry()
+    setup: Setup = Setup()
+    gauge: GaugeTruth = GaugeTruth()
+    drive: DriveTruth = DriveTruth()
+    start: Start = Start()
+    mechanism: Annotated[tuple[SerializeAsAny[MechanismTable], ...], Field(strict=False)] = ()
+    """In the order in which they act."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _mechanisms_by_kind(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or not isinstance(data.get("mechanism"), list):
+            return data
+        return {**data, "mechanism": [_mechanism(k, item) for k, item in enumerate(data["mechanism"])]}
+
+
+def random_truth(seed: int) -> TruthFile:
+    """Make up a machine; the same seed gives the same machine."""
+    draw = np.random.default_rng(seed)
+
+    def some(sigma: float, *shape: int) -> Any:
+        return np.round(draw.normal(0.0, sigma, shape), 3).tolist()
+
+    return TruthFile(
+        seed=seed,
+        geometry=Geometry(
+            leg_length_um=some(50.0, 6),
+            slider_offset_um=some(50.0, 6),
+            guideway_translation_um=some(50.0, 3, 3),
+            guideway_rotation_xy_urad=some(200.0, 3),
+            guideway_rotation_yz_urad=some(200.0, 3),
+            guideway_rotation_centre_urad=some(200.0, 3),
+            platform_side_um=some(30.0, 3),
+        ),
+        setup=Setup(cup_error_um=some(100.0, RANDOM_MOUNTS, 3), ball_offset_error_um=some(30.0, 3)),
+    )
+
+
+def _mechanism(position: int, item: object) -> object:
+    if isinstance(item, MechanismTable) or not isinstance(item, Mapping):
+        return item
+    kind = item.get("kind")
+    table = MECHANISMS.get(kind) if isinstance(kind, str) else None
+    if table is None:
+        raise BadValueError(("mechanism", position, "kind"), kind, "one of " + ", ".join(MECHANISMS))
+    try:
+        return table.model_validate(item)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ("mechanism", position, *first["loc"])
+        raise BadValueError(where, first["input"], f"{kind}: {first['msg']}") from None
+
+
+def _scaled(values: object, factor: float) -> Array:
+    return np.asarray(values, dtype=float) * factor
+
+
+def _point(values_um: tuple[float, float, float]) -> Point:
+    x, y, z = values_um
+    return x * 1e-3, y * 1e-3, z * 1e-3
