@@ -1,0 +1,194 @@
+"""A model is a machine plus a list of effects.
+
+The values of all effects stand one after another in one vector, effect by effect, element by element, in the engine's units; a
+`Parameter` names each place of it. What is known of the values (uncertainty, whether they can be told at all) stands beside.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.errors import InputError
+from hexdbb.kinematics import engine_machine
+from hexdbb.machine import MachineFile
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MountKey:
+    """One fixing of the cup: every record's mounts count as fixings of their own."""
+
+    record_hash: str
+    mount_id: int
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """Name and nature of one value of a model."""
+
+    effect: str
+    element: str
+    name: str
+    unit: str
+    """Engine unit."""
+    prior_sigma: float
+    limit: float
+    is_set_up: bool
+
+    @property
+    def label(self) -> str:
+        """Name for people: effect, element, parameter."""
+        return f"{self.effect}:{self.element} {self.name}"
+
+
+@dataclass(frozen=True)
+class Term:
+    """One effect of a model with its values; `sigma` is nan where a value is not known on its own."""
+
+    effect: str
+    free: bool
+    values: Floats
+    sigma: Floats
+    identifiable: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class LedgerStep:
+    """One thing done to a model, to be read aloud."""
+
+    step: int
+    what: str
+    rms_before_um: float
+    rms_after_um: float
+    records: tuple[str, ...]
+    """Names of the records used."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A machine, its effects, the mounts whose cups it knows, and the ledger of steps."""
+
+    machine: MachineFile
+    terms: tuple[Term, ...]
+    mounts: tuple[MountKey, ...] = ()
+    ledger: tuple[LedgerStep, ...] = field(default=())
+
+    def info(self, effect: str) -> _core.EffectInfo:
+        """Describe one effect as it stands in this model."""
+        return effect_info(self.machine, max(len(self.mounts), 1), effect)
+
+    def parameters(self) -> list[Parameter]:
+        """Name every value, in the order of `values`."""
+        return [parameter for term in self.terms for parameter in _parameters(self.info(term.effect))]
+
+    @property
+    def values(self) -> Floats:
+        """All values, engine units, shape (size,)."""
+        return np.concatenate([np.zeros(0), *(term.values for term in self.terms)])
+
+    @property
+    def sigma(self) -> Floats:
+        """Standard deviations of the values, engine units, nan where not known."""
+        return np.concatenate([np.zeros(0), *(term.sigma for term in self.terms)])
+
+    @property
+    def free(self) -> NDArray[np.bool_]:
+        """Which values a diagnosis may change."""
+        return np.concatenate([np.zeros(0, bool), *(np.full(len(term.values), term.free) for term in self.terms)])
+
+    def with_values(self, values: Floats, sigma: Floats, identifiable: NDArray[np.bool_]) -> Model:
+        """Give the same model with other values."""
+        terms, at = [], 0
+        for term in self.terms:
+            span = slice(at, at + len(term.values))
+            terms.append(replace(term, values=values[span], sigma=sigma[span], identifiable=identifiable[span]))
+            at = span.stop
+        return replace(self, terms=tuple(terms))
+
+    def with_mounts(self, keys: Sequence[MountKey]) -> Model:
+        """Give the same model knowing these mounts too; their cups stand where planned until they are fitted."""
+        new = [key for key in keys if key not in self.mounts]
+        model = replace(self, mounts=(*self.mounts, *new))
+        return replace(model, terms=tuple(_extended(term, model.info(term.effect).size) for term in self.terms))
+
+    def engine(self) -> _core.Model:
+        """Give the engine's form of the model."""
+        engine = _core.Model(engine_machine(self.machine))
+        for term in self.terms:
+            engine.add(term.effect, max(len(self.mounts), 1))
+        engine.values = self.values
+        return engine
+
+
+def effect_info(machine: MachineFile, mounts: int, effect: str) -> _core.EffectInfo:
+    """Describe an effect.
+
+    Raises
+    ------
+    InputError
+        Where no effect has that name, with the names there are.
+    """
+    try:
+        return _core.effect_info(engine_machine(machine), mounts, effect)
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def default_effects(machine: MachineFile) -> dict[str, bool]:
+    """Give the effects of a new model and whether each is free.
+
+    The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit to a
+    micrometre. The bar's length is calibrated and fixed.
+    """
+    return {name: name != "bar_length" for name in _core.effect_names()}
+
+
+def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Model:
+    """Make a model with all values zero: the nominal machine.
+
+    Parameters
+    ----------
+    machine : MachineFile
+    effects : sequence of str, optional
+        Names of the effects, all free; `default_effects` where not given, none at all where empty.
+
+    Raises
+    ------
+    InputError
+        Where an effect is not known or named twice.
+    """
+    chosen = default_effects(machine) if effects is None else dict.fromkeys(effects, True)
+    if effects is not None and len(chosen) != len(effects):
+        twice = next(name for name in effects if list(effects).count(name) > 1)
+        raise InputError(f"effect {twice}: named twice (expected each effect once)")
+    terms = []
+    for name, free in chosen.items():
+        size = effect_info(machine, 1, name).size
+        terms.append(Term(name, free, np.zeros(size), np.full(size, np.nan), np.zeros(size, bool)))
+    return Model(machine, tuple(terms))
+
+
+def _parameters(info: _core.EffectInfo) -> list[Parameter]:
+    return [
+        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up)
+        for element in info.elements
+        for each in info.parameters
+    ]
+
+
+def _extended(term: Term, size: int) -> Term:
+    more = size - len(term.values)
+    if more <= 0:
+        return term
+    return replace(
+        term,
+        values=np.append(term.values, np.zeros(more)),
+        sigma=np.append(term.sigma, np.full(more, np.nan)),
+        identifiable=np.append(term.identifiable, np.zeros(more, bool)),
+    )

@@ -1,0 +1,16 @@
+"""Units at the edges: the engine's mm and rad as µm and µrad in files, tables and JSON, the unit always named beside."""
+
+from __future__ import annotations
+
+SHOWN = {"mm": ("um", 1e3), "rad": ("urad", 1e6)}
+"""Engine unit to (unit shown, factor); a unit not listed is shown as it is."""
+
+
+def shown_unit(engine_unit: str) -> str:
+    """Name the unit in which a value of `engine_unit` is shown."""
+    return SHOWN.get(engine_unit, (engine_unit, 1.0))[0]
+
+
+def shown_factor(engine_unit: str) -> float:
+    """Give the factor from `engine_unit` to the unit shown."""
+    return SHOWN.get(engine_unit, (engine_unit, 1.0))[1]
