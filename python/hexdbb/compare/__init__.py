@@ -8,11 +8,12 @@ The core takes arrays and knows nothing of models::
 
 from hexdbb.compare.circles import CircleComparison, DirectionComparison
 from hexdbb.compare.comparison import Comparison, compare
-from hexdbb.compare.quantities import QUANTITIES, Quantities, Quantity
+from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
 from hexdbb.compare.worst import WorstPlace
 
 __all__ = [
     "QUANTITIES",
+    "UM_PER_MM",
     "CircleComparison",
     "Comparison",
     "DirectionComparison",

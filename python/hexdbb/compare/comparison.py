@@ -10,14 +10,13 @@ import numpy as np
 
 from hexdbb import iso230
 from hexdbb.compare.circles import CircleComparison, DirectionComparison, compare_circles, root_mean_square
-from hexdbb.compare.quantities import QUANTITIES, Quantities
+from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities
 from hexdbb.compare.worst import WorstPlace, worst_places
 from hexdbb.errors import InputError
 from hexdbb.iso230 import FloatArray
 from hexdbb.record import Record
 
 WORST_COUNT = 5
-UM_PER_MM = 1000.0
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,9 @@ from types import MappingProxyType
 from hexdbb import iso230
 from hexdbb.iso230 import FloatArray, Path
 
+UM_PER_MM = 1000.0
+"""Quantities are kept in mm and shown in micrometres."""
+
 Quantities = Mapping[str, float | None]
 """Value in mm of each quantity by its key; None where it cannot be evaluated."""
 

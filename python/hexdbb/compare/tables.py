@@ -10,8 +10,8 @@ from rich.table import Table
 
 from hexdbb import iso230
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
-from hexdbb.compare.comparison import UM_PER_MM, Comparison
-from hexdbb.compare.quantities import QUANTITIES, Quantity
+from hexdbb.compare.comparison import Comparison
+from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantity
 
 
 def comparison_text(comparison: Comparison) -> RenderableType:

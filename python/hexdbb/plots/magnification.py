@@ -10,6 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from hexdbb.compare import UM_PER_MM
+
 SERIES = (1.0, 2.0, 5.0)
 LARGEST_SHARE_OF_RADIUS = 0.4
 """The largest deviation is drawn no longer than this share of the nominal radius, so that the path stays a ring."""
@@ -29,7 +31,7 @@ class Scale:
     @property
     def centre_um(self) -> float:
         """Deviation drawn at the centre of the plot: minus the radius, at the plot's magnification."""
-        return -1000.0 * self.radius_mm / self.magnification
+        return -UM_PER_MM * self.radius_mm / self.magnification
 
     @property
     def label(self) -> str:
@@ -47,8 +49,8 @@ def choose_scale(radius_mm: float, largest_deviation_mm: float) -> Scale:
     largest_deviation_mm : float
         Largest absolute deviation to be drawn.
     """
-    largest_um = max(1000.0 * largest_deviation_mm, SMALLEST_DEVIATION_UM)
-    magnification = _series_at_most(LARGEST_SHARE_OF_RADIUS * 1000.0 * radius_mm / largest_um)
+    largest_um = max(UM_PER_MM * largest_deviation_mm, SMALLEST_DEVIATION_UM)
+    magnification = _series_at_most(LARGEST_SHARE_OF_RADIUS * UM_PER_MM * radius_mm / largest_um)
     division_um = _series_at_most(largest_um / 2.0)
     return Scale(magnification, division_um, math.ceil(largest_um / division_um - 1e-9), radius_mm)
 

@@ -20,7 +20,7 @@ from matplotlib.projections.polar import PolarAxes
 from hexdbb import iso230
 from hexdbb.atomic_file import replacing
 from hexdbb.circle import Circle
-from hexdbb.compare import CircleComparison, Comparison
+from hexdbb.compare import UM_PER_MM, CircleComparison, Comparison
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
 from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
@@ -89,13 +89,13 @@ def overview_page(comparison: Comparison) -> Figure:
         record = f"{circle.record_name}\n" if several_records else ""
         axes.set_title(
             f"{record}circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min\n"
-            f"{_both_directions(circle)}residual rms {1000.0 * circle.rms_mm:.2f} µm",
+            f"{_both_directions(circle)}residual rms {UM_PER_MM * circle.rms_mm:.2f} µm",
             fontsize=8,
         )
     for axes in grid.flat[len(circles) :]:
         axes.set_axis_off()
     name = "several records" if several_records else circles[0].record_name
-    rms_um, peak_um = 1000.0 * comparison.rms_mm, 1000.0 * comparison.peak_to_valley_mm
+    rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     figure.suptitle(
         f"{name}, measured and predicted: residual rms {rms_um:.2f} µm, peak to valley {peak_um:.2f} µm\n"
         f"{scale.label}; centre offset of each set-up removed (least squares)",
@@ -141,7 +141,7 @@ def _offset_note(circle: CircleComparison) -> str:
     centre = circle.set_up_centre_mm
     if centre is None:
         return "not a full circle: centre offset not removed"
-    x_um, y_um = 1000.0 * centre
+    x_um, y_um = UM_PER_MM * centre
     return f"centre offset of the set-up removed (least squares): {x_um:+.2f}, {y_um:+.2f} µm"
 
 
@@ -150,7 +150,7 @@ def _both_directions(circle: CircleComparison) -> str:
     measured_mm, predicted_mm = part.measured_quantities[key], part.predicted_quantities[key]
     if measured_mm is None or predicted_mm is None:
         return ""
-    return f"G(b) {1000.0 * measured_mm:.1f} / {1000.0 * predicted_mm:.1f} µm, "
+    return f"G(b) {UM_PER_MM * measured_mm:.1f} / {UM_PER_MM * predicted_mm:.1f} µm, "
 
 
 def _add_legend(figure: Figure, note: str) -> None:

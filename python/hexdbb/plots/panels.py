@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
-from hexdbb.compare import QUANTITIES, CircleComparison
+from hexdbb.compare import QUANTITIES, UM_PER_MM, CircleComparison
 from hexdbb.compare.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
 from hexdbb.iso230 import FloatArray, Path
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
@@ -33,7 +33,7 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
             color=PREDICTED_COLOURS[part.direction],
             linewidth=1.3,
             zorder=4,
-            label=f"{DIRECTION_NAMES[part.direction]}, rms {1000.0 * part.rms_mm:.2f} µm",
+            label=f"{DIRECTION_NAMES[part.direction]}, rms {UM_PER_MM * part.rms_mm:.2f} µm",
         )
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(np.arange(0, 361, 45))
@@ -49,7 +49,7 @@ def _smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
     count = 360 // SMOOTHED_OVER_DEG
     arc = np.minimum((np.degrees(residual.angle_rad) // SMOOTHED_OVER_DEG).astype(np.int64), count - 1)
     samples = np.bincount(arc, minlength=count)
-    total_um = 1000.0 * np.bincount(arc, weights=residual.deviation_mm, minlength=count)
+    total_um = UM_PER_MM * np.bincount(arc, weights=residual.deviation_mm, minlength=count)
     mean_um = np.full(count, np.nan)
     np.divide(total_um, samples, out=mean_um, where=samples > 0)
     return (np.arange(count, dtype=np.float64) + 0.5) * SMOOTHED_OVER_DEG, mean_um
@@ -86,4 +86,4 @@ def quantity_rows(circle: CircleComparison) -> Iterator[tuple[str, float | None,
 
 
 def _text(value_mm: float | None) -> str:
-    return "-" if value_mm is None else f"{1000.0 * value_mm:.2f}"
+    return "-" if value_mm is None else f"{UM_PER_MM * value_mm:.2f}"

@@ -15,7 +15,7 @@ from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 
-from hexdbb.compare import CircleComparison
+from hexdbb.compare import UM_PER_MM, CircleComparison
 from hexdbb.compare.circles import DIRECTION_NAMES
 from hexdbb.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
 from hexdbb.plots.magnification import Scale
@@ -53,7 +53,7 @@ def largest_drawn_mm(circles: Iterable[CircleComparison]) -> float:
 def curve(path: Path) -> tuple[FloatArray, FloatArray]:
     """Angle (rad) and deviation (um) of a path as a line: closed, and broken where samples are missing."""
     angle = np.append(path.angle_rad, path.angle_rad[0] + FULL_TURN_RAD)
-    deviation_um = 1000.0 * np.append(path.deviation_mm, path.deviation_mm[0])
+    deviation_um = UM_PER_MM * np.append(path.deviation_mm, path.deviation_mm[0])
     gaps = np.flatnonzero(np.diff(angle) > MAX_GAP_RAD) + 1
     return np.insert(angle, gaps, np.nan), np.insert(deviation_um, gaps, np.nan)
 
