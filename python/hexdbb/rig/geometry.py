@@ -108,7 +108,8 @@ class TrueGeometry:
             raise InputError(
                 f"start pose {np.round(position_mm, 3).tolist()} mm: leg {leg} does not reach its guideway"
             )
-        return foot + np.array([-1.0, 1.0] * 3) * np.sqrt(square)
+        sliders: Array = foot + np.array([-1.0, 1.0] * 3) * np.sqrt(square)
+        return sliders
 
 
 def true_geometry(machine: MachineFile, errors: GeometryErrors | None = None) -> TrueGeometry:
