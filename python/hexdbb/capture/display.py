@@ -1,0 +1,120 @@
+"""What the user sees of a run: a live line where there is a terminal, plain lines where there is none.
+
+A thread reads `Progress` a few times a second; the loop knows nothing of it.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+
+from hexdbb.capture.session import Progress as RunProgress
+from hexdbb.trajectory import Phase
+
+LIVE_PERIOD_S = 0.1
+PLAIN_PERIOD_S = 5.0
+"""Time between two lines where stderr is no terminal; a new stage or run gets a line at once."""
+
+
+class Words:
+    """Puts progress into words; remembers what it has already said.
+
+    Parameters
+    ----------
+    progress : the run's state
+    """
+
+    def __init__(self, progress: RunProgress) -> None:
+        self._progress = progress
+        self._at = (time.monotonic(), 0)
+        self._cycle_ms = float("nan")
+
+    def place(self) -> str:
+        """Say which run is under way."""
+        progress = self._progress
+        programme, row = progress.programme, progress.row
+        if programme is None or progress.stage != "moving":
+            return progress.stage
+        phase = Phase(int(programme.table.phase[row])).name.lower().replace("_", " ")
+        index = int(programme.table.run[row])
+        if index < 0:
+            return phase
+        run = programme.runs[index]
+        sense = "counter-clockwise" if run.direction > 0 else "clockwise"
+        return f"run {index + 1}/{len(programme.runs)}, circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min: {phase}"
+
+    def numbers(self) -> str:
+        """Say what the loop measures."""
+        progress = self._progress
+        if not progress.rows:
+            return ""
+        now_s, slot = time.monotonic(), progress.slot
+        then_s, before = self._at
+        if slot > before and now_s - then_s > LIVE_PERIOD_S / 2:
+            self._cycle_ms = (now_s - then_s) / (slot - before) * 1e3
+            self._at = (now_s, slot)
+        parts = [
+            f"reading {progress.reading_um:+8.1f} µm",
+            f"{self._cycle_ms:.2f} ms/cycle",
+            f"{progress.missed} missed",
+        ]
+        return ", ".join(parts)
+
+
+@contextmanager
+def display(progress: RunProgress, console: Console) -> Iterator[None]:
+    """Show progress on a console while inside; notes are printed as they come."""
+    finished = threading.Event()
+    target = _live if console.is_terminal else _plain
+    thread = threading.Thread(target=target, args=(progress, console, finished), name="hexdbb-display", daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        finished.set()
+        thread.join()
+
+
+def _live(progress: RunProgress, console: Console, finished: threading.Event) -> None:
+    words = Words(progress)
+    columns = (
+        BarColumn(bar_width=24),
+        TaskProgressColumn(),
+        TimeRemainingColumn(),
+        TextColumn("{task.description}"),
+    )
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("", total=None)
+        said = 0
+        while not finished.wait(LIVE_PERIOD_S):
+            said = _print_notes(progress, console, said)
+            text = "  ".join(part for part in (words.place(), words.numbers()) if part)
+            bar.update(task, total=progress.rows or None, completed=progress.row, description=text)
+    _print_notes(progress, console, said)
+
+
+def _plain(progress: RunProgress, console: Console, finished: threading.Event) -> None:
+    words = Words(progress)
+    last, said, due_s = "", 0, 0.0
+    while not finished.wait(LIVE_PERIOD_S):
+        said = _print_notes(progress, console, said)
+        place = words.place()
+        heading = place.partition(":")[0]
+        if heading != last or time.monotonic() >= due_s:
+            share = f"{100 * progress.row / progress.rows:3.0f} %  " if progress.rows else ""
+            numbers = words.numbers()
+            console.print(f"{share}{place}" + (f"  {numbers}" if numbers else ""), highlight=False, soft_wrap=True)
+            last, due_s = heading, time.monotonic() + PLAIN_PERIOD_S
+    _print_notes(progress, console, said)
+
+
+def _print_notes(progress: RunProgress, console: Console, said: int) -> int:
+    """Print the notes not said yet; returns how many have been said."""
+    for note in progress.notes[said:]:
+        console.print(f"note: {note}", highlight=False, soft_wrap=True)
+    return len(progress.notes)

@@ -1,0 +1,98 @@
+"""The cyclic loop: every cycle targets, controller heartbeat, SYNC at its time, answers.
+
+Enabling, following a table, stopping and disabling are all made of this one cycle, so that from the first to the last SYNC
+no other frame order exists on the bus.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import can
+
+from hexdbb.capture.clock import Clock
+from hexdbb.capture.exchange import Exchange, Feedback
+from hexdbb.capture.link import Link
+from hexdbb.capture.settings import CONTROLLER_NODE
+
+HEARTBEAT_BASE = 0x700
+NMT_OPERATIONAL = 0x05
+PAUSE_POLL_S = 0.005
+
+
+class Loop:
+    """Runs cycles on a bus.
+
+    Parameters
+    ----------
+    link : the network, inside `Link.looped`
+    exchange : process data
+    clock : pace
+    heartbeat_s : period of the controller's heartbeat
+
+    Attributes
+    ----------
+    slot : number of the slot of the last SYNC, missed ones counted: time in units of the cycle
+    missed : slots missed so far
+    counts : targets sent last
+    """
+
+    def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float) -> None:
+        self._link, self._exchange, self.clock = link, exchange, clock
+        self._heartbeat_s, self._heartbeat_due_s = heartbeat_s, 0.0
+        self._heartbeat = can.Message(
+            arbitration_id=HEARTBEAT_BASE + CONTROLLER_NODE, is_extended_id=False, data=bytearray([NMT_OPERATIONAL])
+        )
+        self.slot = -1
+        self.missed = 0
+        self.last_missed = 0
+        self.counts: list[int] = [0] * 6
+        clock.start()
+
+    @property
+    def feedback(self) -> Feedback:
+        """Answers to the last SYNC."""
+        return self._exchange.feedback
+
+    def cycle(self, controlwords: Sequence[int], counts: Sequence[int]) -> Feedback:
+        """Send targets and SYNC, receive the answers.
+
+        Raises
+        ------
+        can.CanError
+            The bus is gone.
+        """
+        self._send(controlwords, counts)
+        self.last_missed = self.clock.wait()
+        self.missed += self.last_missed
+        self.slot += 1 + self.last_missed
+        self._exchange.send_sync()
+        return self._exchange.collect(self.clock.answer_timeout_s())
+
+    def hold_while(self, work: Callable[[], None], controlwords: Sequence[int]) -> None:
+        """Hold the present targets while `work` runs in a thread that may use SDO; its exception is raised here.
+
+        In lockstep no SYNC is sent meanwhile, so that the number of cycles does not depend on how long it takes.
+        """
+        counts = list(self.counts)
+        with ThreadPoolExecutor(1, thread_name_prefix="hexdbb-pause") as pool:
+            future: Future[None] = pool.submit(work)
+            while not future.done():
+                if self.clock.real_time:
+                    self.cycle(controlwords, counts)
+                else:
+                    self._send(controlwords, counts)
+                    self._exchange.listen(PAUSE_POLL_S)
+            self._link.flush()
+        future.result()
+
+    def _send(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
+        self.counts = list(counts)
+        self._exchange.send_targets(controlwords, counts)
+        self._link.flush()
+        now_s = time.monotonic()
+        if now_s >= self._heartbeat_due_s:
+            self._link.bus.send(self._heartbeat)
+            self._heartbeat_due_s = now_s + self._heartbeat_s

@@ -1,0 +1,170 @@
+"""The command `hexdbb-run`: drive a plan's circles and record them, on a real bus or on a simulated rig started for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+
+import can
+import click
+from rich.console import Console
+
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.capture.clock import Clock, Deadlines, Lockstep
+from hexdbb.capture.display import display
+from hexdbb.capture.realtime import real_time_process
+from hexdbb.capture.session import Progress, Request, measure, prepare
+from hexdbb.capture.setup import Confirm
+from hexdbb.capture.simulated import simulated_rig
+from hexdbb.capture.transport import open_bus
+from hexdbb.cli.exits import reports_errors
+from hexdbb.errors import InputError
+from hexdbb.plan import load_plan
+from hexdbb.record import Record
+from hexdbb.trajectory import Programme
+
+HELP = """Drive a plan's circles and record slider positions and ball-bar readings.
+
+\b
+Without --bus a simulated rig is started as a process of its own and ended afterwards.
+Nothing moves before plan, bus load and every node's settings have been checked.
+Any fault stops all six axes together; what was captured is kept.
+
+\b
+Examples:
+  hexdbb-run --plan thesis -o demo.parquet
+  hexdbb-run --plan my-plan.toml --bus socketcan:can0 -o monday.parquet
+  hexdbb-run --plan standard --truth truth.toml --seed 3 -o simulated.parquet
+  hexdbb-run --plan thesis --fault drive-fault:3@20 -o fault.parquet
+
+\b
+Buses (any interface of python-can):
+  socketcan:can0   pcan:PCAN_USBBUS1   kvaser:0@1000000   socketcand:127.0.0.1:29536
+"""
+
+
+@click.command("hexdbb-run", help=HELP, context_settings={"help_option_names": ["-h", "--help"]})
+@click.option("--plan", "plan_name", default="thesis", show_default=True, help="Plan file, or a shipped plan's name.")
+@click.option(
+    "-o", "--output", "record", required=True, type=click.Path(path_type=Path), help="Record to make (.parquet)."
+)
+@click.option("--bus", "bus_spec", help="CAN bus, interface:channel; default: a simulated rig.")
+@click.option(
+    "--lockstep/--realtime",
+    "lockstep",
+    default=None,
+    help="As fast as the bus goes (default when simulated), or at the cycle rate.",
+)
+@click.option(
+    "--rate", "rate_hz", type=click.FloatRange(min=1.0), help="Cycles per second; default: the machine file's."
+)
+@click.option("--truth", type=click.Path(path_type=Path), help="Simulated rig: truth file.")
+@click.option(
+    "--seed", type=click.IntRange(min=0), help="Simulated rig: seed of the hidden machine, or of a truth file's noise."
+)
+@click.option(
+    "--fault", "faults", multiple=True, metavar="SPEC", help="Simulated rig: fault to inject, see hexdbb rig --help."
+)
+@click.option("--yes", is_flag=True, help="Do not ask for the bar to be mounted.")
+@click.option("--overwrite", is_flag=True, help="Replace an existing record.")
+def command(
+    plan_name: str,
+    record: Path,
+    bus_spec: str | None,
+    lockstep: bool | None,
+    rate_hz: float | None,
+    truth: Path | None,
+    seed: int | None,
+    faults: tuple[str, ...],
+    yes: bool,
+    overwrite: bool,
+) -> None:
+    """Measure."""
+    console = Console(stderr=True)
+    simulated = bus_spec is None
+    rig_options = _rig_options(truth, seed, faults)
+    if rig_options and not simulated:
+        raise InputError(f"{rig_options[0]}: is an option of the simulated rig (expected no --bus with it)")
+    refuse_existing(record, overwrite)
+    request = _request(plan_name, record, rate_hz, overwrite, None if simulated or yes else _ask(console))
+    lockstep = simulated if lockstep is None else lockstep
+    programme = prepare(request)
+    console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
+    progress = Progress()
+    with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
+        with display(progress, console):
+            made = measure(request, programme, bus, clock, progress)
+    _say_what_was_recorded(made, progress)
+
+
+def main() -> None:
+    """Run the command line; errors of hexdbb become one line on stderr and an exit status."""
+    reports_errors(command)
+
+
+def _request(plan_name: str, record: Path, rate_hz: float | None, overwrite: bool, confirm: Confirm | None) -> Request:
+    plan = load_plan(plan_name)
+    machine = plan.machine_file()
+    if record.suffix != ".parquet":
+        raise InputError(f"{record}: suffix {record.suffix!r} (expected .parquet)")
+    rate_hz = rate_hz or machine.can_setup.cycle_rate_hz
+    metadata: dict[str, object] = {"plan": plan_name, "cycle_rate_hz": rate_hz}
+    origin = str(plan.path) if plan.path is not None and Path(plan_name).exists() else plan_name
+    return Request(plan, machine, origin, 1.0 / rate_hz, record, overwrite, confirm, metadata)
+
+
+def _rig_options(truth: Path | None, seed: int | None, faults: tuple[str, ...]) -> list[str]:
+    """Options to hand on to the simulated rig."""
+    options = [] if truth is None else ["--truth", str(truth)]
+    options += [] if seed is None else ["--seed", str(seed)]
+    return options + [word for fault in faults for word in ("--fault", fault)]
+
+
+@contextmanager
+def _bus(spec: str | None, request: Request, rig_options: list[str]) -> Iterator[can.BusABC]:
+    """Open the bus named, or start a rig and open its bus."""
+    with ExitStack() as stack:
+        if spec is None:
+            path = request.machine.path
+            machine = [] if path is None else ["--machine", str(path)]
+            spec = stack.enter_context(simulated_rig([*machine, *rig_options]))
+        yield stack.enter_context(open_bus(spec, request.machine.can_setup.bitrate_bit_s))
+
+
+@contextmanager
+def _pace(lockstep: bool, cycle_s: float, progress: Progress) -> Iterator[Clock]:
+    """Give the clock; in real time, with what the system grants of a real-time process."""
+    if lockstep:
+        yield Lockstep()
+        return
+    with real_time_process() as refused:
+        progress.notes += refused
+        yield Deadlines(cycle_s)
+
+
+def _ask(console: Console) -> Confirm:
+    def confirm(text: str) -> None:
+        console.input(f"{text}, then press Enter ")
+
+    return confirm
+
+
+def _announcement(programme: Programme, lockstep: bool, origin: str) -> str:
+    captured = int(programme.table.capture.sum())
+    pace = "in lockstep" if lockstep else "in real time"
+    return (
+        f"plan {origin}: {len(programme.runs)} runs, {captured} samples at {1.0 / programme.cycle_s:g} Hz, "
+        f"{programme.duration_s:.0f} s of machine time, {pace}"
+    )
+
+
+def _say_what_was_recorded(record: Record, progress: Progress) -> None:
+    """Print what there is now, and what to type next."""
+    reading = record.columns["reading_um"]
+    click.echo(
+        f"recorded {record.path}: {len(record)} samples, {len(record.sweeps())} sweeps, "
+        f"readings {reading.min():+.1f} to {reading.max():+.1f} µm, {progress.missed} missed cycles"
+    )
+    name = record.path.with_suffix("") if record.path is not None else Path("record")
+    click.echo(f"next: hexdbb diagnose {record.path} -m {name}-model.toml")

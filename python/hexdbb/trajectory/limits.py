@@ -1,0 +1,83 @@
+"""Limits of a motion: what a path allows along itself, and the check of every row of a table.
+
+Model: sliders s(u) along a path u(t) move with s' = s_u u', s'' = s_u u'' + s_uu u'². The largest |s_u| and |s_uu| of the
+path, found by probing it, turn the sliders' limits into limits of u. The finished table is checked once more, by differences.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.can_setup import Limits
+from hexdbb.errors import InputError
+from hexdbb.kinematics import inverse, status_name
+from hexdbb.machine import MachineFile
+from hexdbb.trajectory.poses import Array, PosePath
+from hexdbb.trajectory.time_law import PathLimits
+
+PROBES = 361
+"""Points at which a path is probed."""
+PROBE_DEG = 1.0
+"""Angle between two probes where the path is one turn."""
+TRAVEL_SHARE = 0.4
+"""Share of the sliders' limits used on the way; the rest is for the corrections of the position loop."""
+
+Where = Callable[[int], str]
+"""Names a row of a table for an error message."""
+
+
+def check_reach(status: NDArray[np.int64], where: Where) -> None:
+    """Raise `InputError` at the first row the inverse kinematics does not accept; `status` is (n,)."""
+    failed = np.flatnonzero(status)
+    if failed.size:
+        row = int(failed[0])
+        raise InputError(f"{where(row)}: {status_name(int(status[row]))} (expected every pose within reach and travel)")
+
+
+def check_motion(sliders_mm: Array, cycle_s: float, limits: Limits, where: Where) -> None:
+    """Raise `InputError` where a slider would exceed its velocity, acceleration or jerk; `sliders_mm` is (n, 6)."""
+    rate = sliders_mm
+    bounds = (
+        ("velocity", "mm/s", limits.velocity_mm_s),
+        ("acceleration", "mm/s²", limits.acceleration_mm_s2),
+        ("jerk", "mm/s³", limits.jerk_mm_s3),
+    )
+    for name, unit, bound in bounds:
+        rate = np.diff(rate, axis=0) / cycle_s
+        over = np.abs(rate) > bound
+        if over.any():
+            row, slider = (int(i) for i in np.argwhere(over)[0])
+            value = abs(float(rate[row, slider]))
+            raise InputError(
+                f"{where(row)}: {name} of slider {slider + 1}: {value:.4g} {unit} (expected at most {bound:g} {unit})"
+            )
+
+
+def path_limits(path: PosePath, machine: MachineFile, where: Where) -> PathLimits:
+    """Limits along a path that keep every slider within `TRAVEL_SHARE` of its own limits.
+
+    Raises
+    ------
+    InputError
+        A pose on the path cannot be reached.
+    """
+    limits = machine.can_setup.limits
+    u_mm = np.linspace(0.0, path.length_mm, PROBES)
+    sliders_mm, status = inverse(machine, *path.poses(u_mm))
+    check_reach(status, where)
+    step_mm = path.length_mm / (PROBES - 1)
+    slope = float(np.abs(np.diff(sliders_mm, axis=0)).max()) / step_mm
+    bend = float(np.abs(np.diff(sliders_mm, n=2, axis=0)).max()) / step_mm**2
+    tiny = 1e-9
+    velocity = min(
+        TRAVEL_SHARE * limits.velocity_mm_s / max(slope, tiny),
+        float(np.sqrt(TRAVEL_SHARE * limits.acceleration_mm_s2 / 2.0 / max(bend, tiny))),
+    )
+    return PathLimits(
+        velocity,
+        TRAVEL_SHARE * limits.acceleration_mm_s2 / 2.0 / max(slope, tiny),
+        TRAVEL_SHARE * limits.jerk_mm_s3 / 2.0 / max(slope, tiny),
+    )

@@ -1,0 +1,108 @@
+"""The time law of one path: how far along it the target is at every cycle.
+
+Model: one coordinate u (mm along the path), bounded velocity, acceleration and jerk, at rest at both ends; ruckig finds the
+time-optimal profile. Sampled once per cycle, the first sample at u = 0.
+Assumption users get wrong: a capture starts on a cycle. The lead-in is stretched by less than one cycle's feed so that one
+sample falls exactly on the start of the capture; feed and captured arc stay as planned.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from ruckig import ControlInterface, InputParameter, Ruckig, Trajectory
+
+ROUNDING = 1e-9
+"""Cycles and mm that are rounding, not time or way."""
+
+
+@dataclass(frozen=True)
+class PathLimits:
+    """What the motion along a path may not exceed: mm/s, mm/s², mm/s³."""
+
+    velocity_mm_s: float
+    acceleration_mm_s2: float
+    jerk_mm_s3: float
+
+
+@dataclass(frozen=True)
+class FeedLaw:
+    """A feed over a captured stretch, with the way to get up to speed and to stop.
+
+    Attributes
+    ----------
+    u_mm : (n,) path coordinate per cycle, 0 at the start of the capture, negative before it
+    capture : (n,) bool, True from 0 up to, and not including, the captured length
+    lead_mm : length of the way before and of the way after the capture, stretched to whole cycles
+    """
+
+    u_mm: NDArray[np.float64]
+    capture: NDArray[np.bool_]
+    lead_mm: float
+
+
+def rest_to_rest(length_mm: float, limits: PathLimits, cycle_s: float) -> NDArray[np.float64]:
+    """Path coordinate per cycle from rest at 0 to rest at `length_mm`, both ends included; (n,) mm."""
+    trajectory = _fastest(length_mm, limits)
+    cycles = math.ceil(trajectory.duration / cycle_s)
+    return _sampled(trajectory, cycles, cycle_s)
+
+
+def feed_law(overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s: float) -> FeedLaw:
+    """The time law of a capture: up to the feed, constant over overshoot, capture and overshoot, then to rest.
+
+    Parameters
+    ----------
+    overshoot_mm : way at full feed before and after the capture
+    capture_mm : captured way, run at exactly `limits.velocity_mm_s`
+    limits : the feed, and the acceleration and jerk of the ramps
+    cycle_s : time between two samples
+    """
+    feed_mm_s = limits.velocity_mm_s
+    ramp_mm, ramp_s = _ramp(limits)
+    to_capture_s = ramp_s + overshoot_mm / feed_mm_s
+    lead_cycles = math.ceil(to_capture_s / cycle_s - ROUNDING)
+    lead_mm = ramp_mm + overshoot_mm + (lead_cycles * cycle_s - to_capture_s) * feed_mm_s
+    trajectory = _fastest(capture_mm + 2 * lead_mm, limits)
+    u_mm = _sampled(trajectory, math.ceil(trajectory.duration / cycle_s), cycle_s) - lead_mm
+    capture = (np.arange(len(u_mm)) >= lead_cycles) & (u_mm < capture_mm - ROUNDING)
+    return FeedLaw(u_mm, capture, lead_mm)
+
+
+def _input(limits: PathLimits) -> InputParameter:
+    parameter = InputParameter(1)
+    parameter.max_velocity = [limits.velocity_mm_s]
+    parameter.max_acceleration = [limits.acceleration_mm_s2]
+    parameter.max_jerk = [limits.jerk_mm_s3]
+    return parameter
+
+
+def _fastest(length_mm: float, limits: PathLimits) -> Trajectory:
+    parameter = _input(limits)
+    parameter.target_position = [length_mm]
+    return _calculated(parameter)
+
+
+def _ramp(limits: PathLimits) -> tuple[float, float]:
+    """Way (mm) and time (s) from rest to the limit velocity."""
+    parameter = _input(limits)
+    parameter.control_interface = ControlInterface.Velocity
+    parameter.target_velocity = [limits.velocity_mm_s]
+    trajectory = _calculated(parameter)
+    (way_mm,), _, _ = trajectory.at_time(trajectory.duration)
+    return way_mm, trajectory.duration
+
+
+def _calculated(parameter: InputParameter) -> Trajectory:
+    trajectory = Trajectory(1)
+    Ruckig(1).calculate(parameter, trajectory)
+    return trajectory
+
+
+def _sampled(trajectory: Trajectory, cycles: int, cycle_s: float) -> NDArray[np.float64]:
+    """Position at cycle 0 .. `cycles`; beyond the end the trajectory rests."""
+    end_s = trajectory.duration
+    return np.array([trajectory.at_time(min(k * cycle_s, end_s))[0][0] for k in range(cycles + 1)])
