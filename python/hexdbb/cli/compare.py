@@ -1,0 +1,99 @@
+"""`hexdbb compare`: predicted against measured readings, in tables, JSON and polar plots."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.progress import Progress
+
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.compare import Comparison, compare
+from hexdbb.compare.tables import comparison_text
+from hexdbb.diagnosis import fit_mounts
+from hexdbb.errors import InputError
+from hexdbb.model import load_model
+from hexdbb.prediction import predict_reading_mm
+from hexdbb.record import read_record
+
+REDIRECTED_WIDTH = 110
+"""Characters per line where stdout is no terminal, so that a table in a file is not folded."""
+
+
+@click.command("compare")
+@click.argument("records", nargs=-1, required=True, metavar="RECORD...", type=click.Path(path_type=Path))
+@click.option("-m", "--model", "model_path", required=True, metavar="MODEL", type=click.Path(path_type=Path))
+@click.option(
+    "--plot",
+    "prefix",
+    metavar="PREFIX",
+    type=click.Path(path_type=Path),
+    help="Write PREFIX.png and PREFIX.svg (and PREFIX-circleN.* where there are several circles); "
+    "without it NAME-compare.* beside the first record.",
+)
+@click.option("--no-plot", is_flag=True, help="Write no pictures.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object instead of the tables.")
+def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no_plot: bool, as_json: bool) -> None:
+    """Compare measured readings with those a model predicts.
+
+    Prints the residual (measured - predicted) and the quantities of ISO 230-4 for every circle, feed and direction,
+    and where the prediction fails worst. Draws polar plots with a stated magnification.
+
+    \b
+    RECORD is a Parquet record or a text-form CSV. Examples:
+      hexdbb compare demo.parquet -m model.toml
+      hexdbb compare monday.parquet tuesday.csv -m model.toml --plot week
+      hexdbb compare demo.parquet -m model.toml --json --no-plot > comparison.json
+    """  # noqa: D301 - click takes the character, not the two letters, as "keep these lines"
+    stem = prefix or records[0].with_name(f"{records[0].stem}-compare")
+    if prefix and no_plot:
+        raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")
+    if not no_plot:
+        refuse_existing(stem.with_name(f"{stem.name}.png"), overwrite=True)
+    messages = Console(stderr=True, soft_wrap=True, highlight=False)
+    with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
+        comparison, fitted = _comparison(records, model_path, progress)
+        written = [] if no_plot else _draw(comparison, stem, progress)
+    for sentence in fitted:
+        messages.print(sentence, markup=False)
+    if as_json:
+        click.echo(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
+    else:
+        width = None if sys.stdout.isatty() else REDIRECTED_WIDTH
+        Console(width=width, highlight=False).print(comparison_text(comparison))
+    if written:
+        messages.print(f"pictures: {', '.join(str(path) for path in written)}", markup=False)
+
+
+def _comparison(paths: tuple[Path, ...], model_path: Path, progress: Progress) -> tuple[Comparison, list[str]]:
+    """Compare, and say in sentences which set-ups had to be fitted first."""
+    if not model_path.exists():
+        raise InputError(
+            f"{model_path}: no such model (expected a model file, as `hexdbb diagnose RECORD -m {model_path}` makes)"
+        )
+    model = load_model(model_path)
+    task = progress.add_task("predicting", total=len(paths))
+    records, predicted_mm, sentences = [], [], []
+    for path in paths:
+        record = read_record(path)
+        with_mounts, fitted = fit_mounts(record, model)
+        records.append(record)
+        predicted_mm.append(predict_reading_mm(record, with_mounts))
+        sentences += fitted
+        progress.advance(task)
+    return compare(records, predicted_mm), sentences
+
+
+def _draw(comparison: Comparison, stem: Path, progress: Progress) -> list[Path]:
+    from hexdbb.plots import comparison_pages, save_figure  # matplotlib takes a second to import
+
+    pages = comparison_pages(comparison)
+    task = progress.add_task("drawing", total=len(pages))
+    written: list[Path] = []
+    for page in pages:
+        written += save_figure(page.draw(), stem.with_name(f"{stem.name}{page.suffix}"))
+        progress.advance(task)
+    return written
