@@ -1,8 +1,8 @@
 """C11 headers of the object dictionaries, generated from the EDS files beside this script.
 
-Model: for every entry a macro each for index, sub-index and size in bytes, its default and its C type; for every PDO that the
-EDS maps by default a packed struct in the order of the frame. Firmware that includes the header cannot drift from the EDS;
-`--check` says whether the headers here still are what the EDS files give.
+Model: for every entry a macro each for index, sub-index and size in bytes, its default and its C type; for every PDO
+that the EDS maps by default a packed struct in the order of the frame. Firmware that includes the header cannot drift
+from the EDS; `--check` says whether the headers here still are what the EDS files give.
 
 Use: ``python firmware_interfaces/generate_header.py [--check]`` (needs canopen)
 """
@@ -14,11 +14,12 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TypeAlias
 
 import canopen
 from canopen.objectdictionary import ObjectDictionary, ODArray, ODRecord, ODVariable
 
-Item = ODVariable | ODRecord | ODArray
+Item: TypeAlias = "ODVariable | ODRecord | ODArray"
 
 HERE = Path(__file__).parent
 DEVICES = ("hexglider_drive", "ballbar_gauge")

@@ -191,6 +191,7 @@ class Rig:
             if not self._broken:
                 log.error("%s", error)
             self._broken = True
+        self.gauge.moving = any(drive.axis.demand_velocity_mm_s != 0.0 for drive in self.drives)
         known = mounted is not None and not self._broken
         self.gauge.true_reading_um = self.plant.reading_mm(mounted) * 1e3 if known and mounted is not None else None
 

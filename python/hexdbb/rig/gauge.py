@@ -45,6 +45,7 @@ class GaugeNode(Node):
     def __init__(self, node_id: int, eds: Path, send: Send, setup: GaugeSetup, stall_tolerance_s: float = 0.0) -> None:
         self.setup = setup
         self.true_reading_um: float | None = None
+        self.moving = False
         self.frozen = False
         self.broken = False
         self.offset_um = 0.0
@@ -54,7 +55,7 @@ class GaugeNode(Node):
         """Nothing is mounted; the noise starts from its seed."""
         entry = self.dictionary.entry
         self.mounted: Mounted | None = None
-        self._noise = np.random.default_rng(self.setup.seed)
+        self._restart_noise(0)
         self.dictionary.hooks[0x2100, 1] = self._mount
         entry(0x2101, 1).value, entry(0x2101, 2).value = -self.setup.range_um, self.setup.range_um
         entry(0x6126, 1).value = 1.0
@@ -66,8 +67,14 @@ class GaugeNode(Node):
         number = int(value)
         x = [self.dictionary.real(0x2100, k) for k in range(2, 9)]
         self.mounted = Mounted(number - 1, (x[0], x[1], x[2]), (x[3], x[4], x[5]), x[6]) if number else None
-        # Noise starts anew with each set-up, whatever the number of cycles spent waiting before.
-        self._noise = np.random.default_rng([self.setup.seed, number])
+        self._restart_noise(number)
+
+    def _restart_noise(self, number: int) -> None:
+        """Give each set-up its own noise, one sequence at rest and one in motion.
+
+        So the samples of a path do not depend on the number of cycles spent waiting before it.
+        """
+        self._noise = [np.random.default_rng([self.setup.seed, number, moving]) for moving in (0, 1)]
 
     def on_sample(self) -> None:
         """Write reading and status of this instant."""
@@ -76,7 +83,8 @@ class GaugeNode(Node):
         if self.true_reading_um is None or self.broken:
             self._write(0.0, NOT_VALID)
             return
-        noisy_um = self.true_reading_um + self.offset_um + self.setup.noise_um * float(self._noise.standard_normal())
+        noise_um = self.setup.noise_um * float(self._noise[self.moving].standard_normal())
+        noisy_um = self.true_reading_um + self.offset_um + noise_um
         limit_um = self.setup.range_um
         if noisy_um > limit_um:
             self._write(limit_um, NOT_VALID | POSITIVE_OVERLOAD)
