@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import resource
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -36,3 +40,19 @@ def columns() -> dict[str, NDArray[np.float64]]:
 def record(columns: dict[str, NDArray[np.float64]]) -> Record:
     plan = load_plan("thesis")
     return Record(columns, plan.gauge, plan.mounts, plan.circles, plan.machine_file(), {"can": {"bus": "none"}})
+
+
+@pytest.fixture
+def disk_full_after() -> Callable[[int], AbstractContextManager[None]]:
+    """Let no file grow beyond a number of bytes, as a full disk would (the system's own limit; EFBIG for ENOSPC)."""
+
+    @contextmanager
+    def limited(count: int) -> Iterator[None]:
+        soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (count, hard))
+        try:
+            yield
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+    return limited

@@ -195,11 +195,13 @@ def _open_alone(path: Path) -> BinaryIO:
     """Open a journal for this process alone, and empty it once that is sure."""
     try:
         file = path.open("ab")
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise InputError(f"{path}: a running capture writes it (expected another record name)") from None
     except OSError as error:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from None
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        file.close()
+        raise InputError(f"{path}: a running capture writes it (expected another record name)") from None
     file.truncate(0)
     sync_directory(path.parent)
     return file
