@@ -5,9 +5,9 @@ the circle's plane, the nominal radius plus a radial deviation. With a ball bar 
 to the centre of the tool cup, so the deviation is the reading plus bar length minus nominal radius, exactly where the
 cup lies in the circle's plane.
 
-Names and definitions are those of ISO 230-4:2005 as this project's documentation summarises them; the 2022 edition says
-"error" for "deviation" and is otherwise taken to mean the same. Compare with the standard's own text before quoting a
-value in an acceptance protocol.
+Names and definitions are those of ISO 230-4:2005 as docs/circular-test-quantities.md summarises them; the 2022 edition
+says "error" for "deviation" and is otherwise taken to mean the same. Compare with the standard's own text before
+quoting a value in an acceptance protocol.
 
 Choices the standard leaves open, the same for measured and predicted paths:
 

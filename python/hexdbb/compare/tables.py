@@ -21,7 +21,9 @@ def comparison_text(comparison: Comparison) -> RenderableType:
         f"Residual (measured - predicted): rms {rms_um:.2f} µm, peak to valley {peak_um:.1f} µm",
         "",
         _directions_table(comparison),
+        "",
         _both_table(comparison),
+        "",
         *_notes(comparison),
         "",
         "Where the prediction fails worst:",
@@ -63,6 +65,7 @@ def _both_table(comparison: Comparison) -> Table:
 def _notes(comparison: Comparison) -> Iterator[str]:
     yield f"Quantities of {iso230.EDITION}:"
     yield from (f"  {quantity.symbol}: {quantity.name}" for quantity in QUANTITIES)
+    yield "Measured quantities are of the mean of the laps and hold the gauge's noise; predicted ones hold none."
     quantities = (part.measured_quantities for circle in comparison.circles for part in circle.directions)
     if any(None in values.values() for values in quantities):
         yield "-: cannot be evaluated, because a direction is missing or its capture is not a full circle."
@@ -93,4 +96,5 @@ def _pair(part: DirectionComparison, quantity: Quantity) -> str:
 
 
 def _number(value_mm: float | None) -> str:
-    return "-" if value_mm is None else f"{UM_PER_MM * value_mm:.1f}"
+    # Rounding and adding zero keeps "-0.0" out of the table.
+    return "-" if value_mm is None else f"{round(UM_PER_MM * value_mm, 1) + 0.0:.1f}"

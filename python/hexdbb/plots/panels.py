@@ -15,6 +15,8 @@ from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
 
 SMOOTHED_OVER_DEG = 3
 """Arc over which the dark residual line is averaged; a divisor of 360."""
+SMOOTHED_WIDTHS = {1: 2.4, -1: 1.0}
+"""Broad below narrow, so that both directions are seen where they coincide."""
 
 
 def draw_residual(axes: Axes, circle: CircleComparison) -> None:
@@ -31,7 +33,7 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
         axes.plot(
             *_smoothed(residual),
             color=PREDICTED_COLOURS[part.direction],
-            linewidth=1.3,
+            linewidth=SMOOTHED_WIDTHS[part.direction],
             zorder=4,
             label=f"{DIRECTION_NAMES[part.direction]}, rms {UM_PER_MM * part.rms_mm:.2f} µm",
         )
@@ -65,7 +67,7 @@ def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
         colLabels=["measured, µm", "predicted, µm"],
         cellLoc="right",
         rowLoc="left",
-        bbox=Bbox.from_bounds(0.36, 0.0, 0.64, 1.0),
+        bbox=Bbox.from_bounds(0.2, 0.0, 0.8, 1.0),
     )
     table.auto_set_font_size(False)
     table.set_fontsize(8)
@@ -86,4 +88,4 @@ def quantity_rows(circle: CircleComparison) -> Iterator[tuple[str, float | None,
 
 
 def _text(value_mm: float | None) -> str:
-    return "-" if value_mm is None else f"{UM_PER_MM * value_mm:.2f}"
+    return "-" if value_mm is None else f"{round(UM_PER_MM * value_mm, 2) + 0.0:.2f}"

@@ -9,6 +9,7 @@ between the two stays visible.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -73,22 +74,30 @@ def draw_polar(axes: PolarAxes, circle: CircleComparison, scale: Scale, fine: bo
         A large plot with labelled grid; otherwise a small one of many, its labels left out.
     """
     _draw_grid(axes, scale, fine)
-    width = 1.0 if fine else 0.7
     for direction, measured, predicted in drawn_paths(circle):
-        axes.plot(*curve(measured), color=MEASURED_COLOURS[direction], linewidth=2.6 * width, zorder=3)
-        axes.plot(*curve(predicted), color=PREDICTED_COLOURS[direction], linewidth=1.0 * width, dashes=(5, 2), zorder=4)
+        axes.plot(*curve(measured), **_measured_style(direction, fine), zorder=3)
+        axes.plot(*curve(predicted), **_predicted_style(direction, fine), zorder=4)
 
 
 def legend_handles() -> list[Artist]:
     """Give one legend entry for each line of a polar plot."""
     handles: list[Artist] = []
     for direction, name in DIRECTION_NAMES.items():
-        handles.append(Line2D([], [], color=MEASURED_COLOURS[direction], linewidth=2.6, label=f"measured, {name}"))
-        handles.append(
-            Line2D([], [], color=PREDICTED_COLOURS[direction], linewidth=1.0, dashes=(5, 2), label=f"predicted, {name}")
-        )
+        handles.append(Line2D([], [], **_measured_style(direction, fine=True), label=f"measured, {name}"))
+        handles.append(Line2D([], [], **_predicted_style(direction, fine=True), label=f"predicted, {name}"))
     handles.append(Line2D([], [], color=NOMINAL_COLOUR, linewidth=1.0, label="nominal circle"))
     return handles
+
+
+def _measured_style(direction: int, fine: bool) -> dict[str, Any]:
+    """Broad below narrow, so that both directions are seen where they coincide."""
+    return {"color": MEASURED_COLOURS[direction], "linewidth": {1: 4.0, -1: 1.8}[direction] * (1.0 if fine else 0.7)}
+
+
+def _predicted_style(direction: int, fine: bool) -> dict[str, Any]:
+    """Dashes of one direction in the gaps of the other's."""
+    dashes = ({1: 0.0, -1: 4.0}[direction], (4.0, 4.0))
+    return {"color": PREDICTED_COLOURS[direction], "linewidth": 1.1 if fine else 0.8, "linestyle": dashes}
 
 
 def _draw_grid(axes: PolarAxes, scale: Scale, fine: bool) -> None:
