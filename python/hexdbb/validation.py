@@ -161,14 +161,20 @@ def format_value(value: object) -> str:
     """Give a value as the file would show it, shortened to fit on the line."""
     shown = f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else repr(value)
     shown = {"True": "true", "False": "false"}.get(shown, shown)
-    if isinstance(value, str):
+    if isinstance(value, str) and value.isprintable():
         shown = f'"{value}"'
     return shown if len(shown) <= 60 else shown[:57] + "..."
 
 
 def format_location(location: Location) -> str:
     """Give the path of a key: ``("circle", 2, "radius_mm")`` as ``circle[2].radius_mm``."""
-    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in location).lstrip(".")
+    steps = (f"[{step}]" if isinstance(step, int) else f".{format_name(step)}" for step in location)
+    return "".join(steps).lstrip(".")
+
+
+def format_name(name: str) -> str:
+    """Give a key or a column's name on one line, whatever the file holds."""
+    return name if name.isprintable() else repr(name)
 
 
 def nearest_key(unknown: str, known: list[str]) -> str:
@@ -220,7 +226,7 @@ def _line(detail: ErrorDetails, model: type[BaseModel]) -> str:
     cause = context.get("error")
     if isinstance(cause, BadValueError):
         return f"{format_location((*location, *cause.where))}: {cause}"
-    expected = EXPECTED.get(detail["type"], detail["msg"]).format(**context)
+    expected = EXPECTED[detail["type"]].format(**context) if detail["type"] in EXPECTED else detail["msg"]
     return f"{format_location(location)}: {format_value(value)} (expected {expected})"
 
 

@@ -226,3 +226,10 @@ def test_full_disk_reaches_the_capture_and_what_was_written_is_kept(
     with pytest.raises(RunError, match="cannot be written"):
         journal.finish()
     assert len(recover(journal.journal_path)) == 20
+
+
+def test_metadata_that_json_cannot_hold_are_refused_before_the_capture(record: Record, tmp_path: Path) -> None:
+    record.metadata["bus"] = object()
+    with pytest.raises(ValueError, match="serialize"):
+        journal_of(record, tmp_path / "a.parquet")
+    assert list(tmp_path.iterdir()) == []

@@ -237,4 +237,6 @@ def test_record_of_a_later_format_is_refused(record: Record, tmp_path: Path) -> 
     table = pq.read_table(path)
     later = table.schema.metadata[b"hexdbb"].replace(b"hexdbb.record/1", b"hexdbb.record/2")
     pq.write_table(table.replace_schema_metadata({**table.schema.metadata, b"hexdbb": later}), path)
-    assert 'format: "hexdbb.record/2" (expected "hexdbb.record/1"' in error_of(lambda: read_record(path))
+    assert 'format: "hexdbb.record/2" (expected a record of the format "hexdbb.record/1")' in error_of(
+        lambda: read_record(path)
+    )

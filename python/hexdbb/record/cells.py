@@ -9,6 +9,7 @@ from pathlib import Path
 
 from hexdbb.errors import InputError
 from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Origin
+from hexdbb.validation import format_value
 
 
 def line_of_row(path: Path, row: int) -> int:
@@ -37,7 +38,7 @@ def first_bad_cell(path: Path, names: list[str], reason: Exception) -> InputErro
             return origin.bad(row, "cells", str(len(cells)), f"{len(names)}, as the first line has")
         for name, cell in zip(names, cells, strict=True):
             if name in COLUMN_TYPES and not _is_number(cell, may_be_empty=name not in REQUIRED_COLUMNS):
-                return origin.bad(row, name, f'"{cell}"', "a number")
+                return origin.bad(row, name, format_value(cell), "a number")
     return InputError(f"{path}: {str(reason).splitlines()[0]}")
 
 

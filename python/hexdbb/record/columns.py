@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.validation import format_value
+from hexdbb.validation import format_name, format_value
 
 Columns = dict[str, NDArray[Any]]
 
@@ -91,14 +91,16 @@ def normalise(columns: Mapping[str, Any], origin: Origin) -> Columns:
     """
     missing = [name for name in REQUIRED_COLUMNS if name not in columns]
     if missing:
-        present = ", ".join(columns) or "none"
+        present = ", ".join(map(format_name, columns)) or "none"
         raise InputError(f"{origin.name}: missing column {', '.join(missing)} (columns present: {present})")
     ordered = [*(name for name in COLUMN_TYPES if name in columns), *(n for n in columns if n not in COLUMN_TYPES)]
     arrays = {name: np.atleast_1d(np.asarray(columns[name])) for name in ordered}
     count = len(arrays["t_s"])
     for name, values in arrays.items():
         if values.shape != (count,):
-            raise InputError(f"{origin.name}: column {name}: shape {values.shape} (expected ({count},), as t_s has)")
+            raise InputError(
+                f"{origin.name}: column {format_name(name)}: shape {values.shape} (expected ({count},), as t_s has)"
+            )
     return {name: _cast(name, values, origin) for name, values in arrays.items()}
 
 

@@ -77,6 +77,7 @@ class Journal:
             raise InputError(f"{self.journal_path}: left by an interrupted capture (expected {expected})")
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
         self._header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
+        to_table(self._header)  # metadata that JSON cannot hold are refused here, not by the writing thread
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None

@@ -19,8 +19,11 @@ def read_parquet(path: Path) -> Record:
     """Read and check a Parquet record; `InputError` names what is wrong."""
     try:
         table = pq.read_table(path)
-    except (pa.ArrowException, OSError) as error:
-        reason = str(error).splitlines()[0]
+        table.validate(full=True)
+        # A damaged file may hold column names that are not text: pyarrow decodes them only when asked.
+        table.column_names  # noqa: B018
+    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
+        reason = next(iter(str(error).splitlines()), "damaged")
         raise InputError(f"{path}: not a whole Parquet file: {reason} (expected a record of hexdbb)") from None
     record = from_table(table, path)
     check_record(record, Origin(str(path)))

@@ -6,11 +6,11 @@ Metadata keys: `hexdbb` (JSON: format, software version, complete or not, what e
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
+from typing import Any, Final, Literal
 
 import pyarrow as pa
+from pydantic import BaseModel, ValidationError
 
 from hexdbb import __version__
 from hexdbb.errors import InputError
@@ -18,10 +18,20 @@ from hexdbb.machine import MachineFile
 from hexdbb.record.columns import Columns
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
-from hexdbb.validation import dump_toml, parse_toml
+from hexdbb.validation import dump_toml, format_location, format_value, parse_toml
 
-FORMAT = "hexdbb.record/1"
-KEY, MEASUREMENT_KEY, MACHINE_KEY = b"hexdbb", b"hexdbb.measurement", b"hexdbb.machine"
+KEY, MEASUREMENT_KEY, MACHINE_KEY = "hexdbb", "hexdbb.measurement", "hexdbb.machine"
+FORMAT: Final = "hexdbb.record/1"
+
+
+class Head(BaseModel):
+    """The JSON under `hexdbb`; keys that later versions add do no harm."""
+
+    format: Literal["hexdbb.record/1"] = FORMAT
+    software: str
+    """What measured or converted."""
+    complete: bool
+    metadata: dict[str, Any]
 
 
 def to_table(record: Record) -> pa.Table:
@@ -29,12 +39,12 @@ def to_table(record: Record) -> pa.Table:
     return pa.table({name: pa.array(values) for name, values in record.columns.items()}, metadata=_metadata(record))
 
 
-def _metadata(record: Record) -> dict[bytes, bytes]:
-    head = {"format": FORMAT, "software": f"hexdbb {__version__}", "complete": record.complete}
+def _metadata(record: Record) -> dict[str, str]:
+    head = Head(software=f"hexdbb {__version__}", complete=record.complete, metadata=record.metadata)
     return {
-        KEY: json.dumps(head | {"metadata": record.metadata}).encode(),
-        MEASUREMENT_KEY: dump_toml(record.measurement(MACHINE_KEY.decode())).encode(),
-        MACHINE_KEY: dump_toml(record.machine).encode(),
+        KEY: head.model_dump_json(),
+        MEASUREMENT_KEY: dump_toml(record.measurement(MACHINE_KEY)),
+        MACHINE_KEY: dump_toml(record.machine),
     }
 
 
@@ -51,22 +61,28 @@ def from_table(table: pa.Table, path: Path) -> Record:
     InputError
         The table is not a record, or of a later format.
     """
-    metadata: dict[bytes, bytes] = table.schema.metadata or {}
+    metadata = {key.decode(errors="replace"): value for key, value in (table.schema.metadata or {}).items()}
     if not {KEY, MEASUREMENT_KEY, MACHINE_KEY} <= metadata.keys():
-        raise InputError(
-            f"{path}: not a record (expected file metadata {KEY.decode()!r}; others' data: .csv and .toml)"
-        )
-    head: dict[str, Any] = json.loads(metadata[KEY])
-    if head.get("format") != FORMAT:
-        raise InputError(f'{path}: format: "{head.get("format")}" (expected "{FORMAT}"; written by {head["software"]})')
-    measurement = parse_toml(metadata[MEASUREMENT_KEY].decode(), Measurement, f"{path}: {MEASUREMENT_KEY.decode()}")
+        raise InputError(f'{path}: not a record (expected metadata "{KEY}"; bring data of other programs as .csv)')
+    head = _read_head(metadata[KEY], path)
+    measurement = parse_toml(metadata[MEASUREMENT_KEY].decode(errors="replace"), Measurement, f"{path}: measurement")
     return Record(
         columns=to_columns(table),
         gauge=measurement.gauge,
         mounts=measurement.mounts,
         circles=measurement.circles,
-        machine=parse_toml(metadata[MACHINE_KEY].decode(), MachineFile, f"{path}: {MACHINE_KEY.decode()}"),
-        metadata={"software": head["software"], **head["metadata"]},
+        machine=parse_toml(metadata[MACHINE_KEY].decode(errors="replace"), MachineFile, f"{path}: machine"),
+        metadata={"software": head.software, **head.metadata},
         path=path,
-        complete=head["complete"],
+        complete=head.complete,
     )
+
+
+def _read_head(content: bytes, path: Path) -> Head:
+    try:
+        return Head.model_validate_json(content)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        where = format_location(first["loc"]) or KEY
+        expected = f'a record of the format "{FORMAT}"'
+        raise InputError(f"{path}: {where}: {format_value(first['input'])} (expected {expected})") from None

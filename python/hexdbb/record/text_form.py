@@ -20,7 +20,7 @@ from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, Origi
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
 from hexdbb.record.tables import to_columns
-from hexdbb.validation import dump_toml, load_toml
+from hexdbb.validation import dump_toml, format_name, load_toml
 
 
 def read_text_form(path: Path) -> Record:
@@ -69,7 +69,7 @@ def _header(path: Path) -> list[str]:
         raise InputError(f"{path}: empty file (expected a first line of column names: {', '.join(REQUIRED_COLUMNS)})")
     for index, name in enumerate(names):
         if name in names[:index]:
-            raise InputError(f"{path}: column {name}: stands twice (expected each name once)")
+            raise InputError(f"{path}: column {format_name(name)}: stands twice (expected each name once)")
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         raise InputError(f"{path}: line 1: one column {names[0]!r} (expected columns separated by commas)")
     return names
