@@ -1,4 +1,4 @@
-"""Whatever damage a file has taken, it is read, or refused in one line: no other exception, no garbage accepted as text."""
+"""Whatever damage a file has taken, it is read, or refused in one line: no other exception."""
 
 from __future__ import annotations
 

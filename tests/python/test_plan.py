@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from hexdbb.circle import Circle, rotation_from_rpy
 from hexdbb.errors import InputError
+from hexdbb.kinematics import inverse, status_name
 from hexdbb.machine import shipped, shipped_machine
 from hexdbb.plan import Plan, load_plan, shipped_plans
 
@@ -51,6 +52,15 @@ def test_every_shipped_plan_loads_by_name() -> None:
     assert shipped_plans() == ["standard", "thesis"]
     for name in shipped_plans():
         assert load_plan(name).runs()
+
+
+@pytest.mark.parametrize("name", ["standard", "thesis"])
+def test_every_shipped_plan_is_within_reach_of_the_shipped_machine(name: str) -> None:
+    angles = np.linspace(0.0, 2.0 * np.pi, 721)
+    for run in load_plan(name).runs():
+        positions = run.circle.poses(angles, run.mount.cup_mm)
+        _, status = inverse(shipped_machine(), positions, run.circle.platform_rpy_rad)
+        assert not status.any(), f"circle {run.circle.id}: {status_name(status[status != 0][0])}"
 
 
 def test_circle_overrides_feeds_directions_and_laps(tmp_path: Path) -> None:
