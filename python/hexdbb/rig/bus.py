@@ -119,8 +119,6 @@ class Rig:
         setup = GaugeSetup(gauge.noise_um, gauge.resolution_um, gauge.range_um, truth.seed)
         return GaugeNode(can.gauge_node, eds_path(machine, can.gauge_eds), self._send, setup, stall_tolerance_s)
 
-    # frames
-
     def receive(self, cob_id: int, data: bytes) -> None:
         """Take one frame from the bus."""
         if cob_id == SYNC:
@@ -160,12 +158,11 @@ class Rig:
 
     def _on_sync(self) -> None:
         self._last_sync_s = time.monotonic()
+        self._read_gauge()
         for node in self.nodes.values():
             node.sample()
         self.flush()
         self._advance()
-
-    # time
 
     @property
     def running_s(self) -> float | None:
@@ -184,7 +181,6 @@ class Rig:
         self._inject()
 
     def _step_plant(self, dt_s: float) -> None:
-        mounted = self.gauge.mounted
         try:
             self.plant.step(np.array([drive.axis.position_mm for drive in self.drives]), dt_s)
         except RunError as error:
@@ -192,8 +188,10 @@ class Rig:
                 log.error("%s", error)
             self._broken = True
         self.gauge.moving = any(drive.axis.demand_velocity_mm_s != 0.0 for drive in self.drives)
-        known = mounted is not None and not self._broken
-        self.gauge.true_reading_um = self.plant.reading_mm(mounted) * 1e3 if known and mounted is not None else None
+
+    def _read_gauge(self) -> None:
+        mounted = self.gauge.mounted
+        self.gauge.true_reading_um = None if mounted is None or self._broken else self.plant.reading_mm(mounted) * 1e3
 
     def _inject(self) -> None:
         due = [injection for injection in self._injections if injection.due(self.running_s)]

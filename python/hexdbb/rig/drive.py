@@ -89,7 +89,7 @@ class DriveNode(Node):
             entry(index, 1).value = round(abs(scale) * self.setup.screw_lead_mm)
         self.axis.hold_here()
         self._target.value = round(self.axis.position_mm * scale)
-        self.on_sample()
+        self.refresh()
 
     @property
     def enabled(self) -> bool:
@@ -99,11 +99,13 @@ class DriveNode(Node):
     @property
     def stopping(self) -> bool:
         """Whether the drive is on its way to a stand of its own accord."""
-        return not self.enabled and not self.axis.standing
-
-    # values of this instant
+        return not self.enabled and (not self.axis.standing or self._after_stop() is not None)
 
     def on_sample(self) -> None:
+        """Write the values of this instant."""
+        self.refresh()
+
+    def refresh(self) -> None:
         """Write position, velocity, following error and statusword of this instant."""
         scale = self.setup.counts_per_mm
         self._position.value = round(self.axis.position_mm * scale)
@@ -120,8 +122,6 @@ class DriveNode(Node):
         if self.enabled and self._mode_display.value == CSP_MODE and not self._limited:
             word |= cia402.FOLLOWS_COMMAND
         self._statusword.value = word
-
-    # one cycle
 
     def on_cycle(self, dt_s: float) -> None:
         """Obey the controlword, move, watch the following error."""
@@ -180,12 +180,17 @@ class DriveNode(Node):
         self.state = state
 
     def _end_stop(self) -> None:
-        if not self.axis.standing:
-            return
+        following = self._after_stop()
+        if following is not None and self.axis.standing:
+            self._enter(following)
+
+    def _after_stop(self) -> State | None:
+        """Give the state a stop ends in by itself; None where no stop is under way or it ends where it is."""
+        if self.state is State.FAULT_REACTION_ACTIVE:
+            return State.FAULT
         if self.state is State.QUICK_STOP_ACTIVE and self.dictionary.number(0x605A) not in STAY_IN_QUICK_STOP:
-            self._enter(State.SWITCH_ON_DISABLED)
-        elif self.state is State.FAULT_REACTION_ACTIVE:
-            self._enter(State.FAULT)
+            return State.SWITCH_ON_DISABLED
+        return None
 
     def _watch_following_error(self, dt_s: float) -> None:
         scale = abs(self.setup.counts_per_mm)
@@ -193,8 +198,6 @@ class DriveNode(Node):
         self._late_s = self._late_s + dt_s if outside and self.enabled else 0.0
         if self._late_s * 1000.0 > int(self._window_ms.value):
             self.trip(ERROR_FOLLOWING, PROFILE)
-
-    # stops
 
     def trip(self, code: int = ERROR_OVERCURRENT, register: int = CURRENT) -> None:
         """Fault: EMCY, stop, state fault."""

@@ -124,8 +124,6 @@ class Node:
             on_change=lambda: self.on_routes_changed(),
         )
 
-    # frames
-
     def send(self, cob_id: int, data: bytes) -> None:
         """Put a frame on the bus, unless the node is not there."""
         if self.present:
@@ -157,6 +155,7 @@ class Node:
     def handle_sdo(self, data: bytes) -> None:
         """Answer an SDO request."""
         if self.present and self.nmt_state is not NmtState.STOPPED and len(data) == 8:
+            self.refresh()
             self._sdo.on_request(SDO_REQUEST_BASE + self.node_id, data, 0.0)
 
     def handle_rpdo(self, data: bytes, now_s: float) -> None:
@@ -191,8 +190,6 @@ class Node:
             self._latched = None
         self._rpdo_age_s += dt_s
         self.on_cycle(dt_s)
-
-    # supervision
 
     def _watch_heartbeat(self, value: object) -> None:
         self._heartbeat_seen_s = None  # monitoring starts with the first heartbeat received after configuration
@@ -248,13 +245,14 @@ class Node:
         if self.nmt_state is not NmtState.STOPPED:
             self.send(EMCY_BASE + self.node_id, code.to_bytes(2, "little") + bytes([int(entry.value)]) + bytes(5))
 
-    # hooks of the application
-
     def on_power_up(self) -> None:
         """Set up the application after the dictionary has its defaults."""
 
+    def refresh(self) -> None:
+        """Bring the dictionary up to date for a reader between SYNCs."""
+
     def on_sample(self) -> None:
-        """Write the values of this instant into the dictionary."""
+        """Write the values of this instant into the dictionary, for the TPDO."""
 
     def on_cycle(self, dt_s: float) -> None:
         """Advance the application by one cycle."""

@@ -39,7 +39,7 @@ class _Client:
 
     @property
     def hears(self) -> bool:
-        """Whether frames may be sent to it: not glued to the handshake's last answer."""
+        """Whether frames may be sent to it: once it has spoken or some time has passed, not glued to the handshake."""
         return self.raw_since_s is not None and time.monotonic() - self.raw_since_s > SETTLE_S
 
 
@@ -191,6 +191,7 @@ class SocketcandServer:
         if len(data) != length or length > 8 or cob_id > 0x7FF:
             self._send(client, b"< error malformed frame >")
             return
+        client.raw_since_s = 0.0
         if len(self._clients) > 1:
             self._broadcast([(cob_id, data)], client)
         self._on_frame(cob_id, data)
