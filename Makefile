@@ -1,0 +1,117 @@
+# One command each: `make demo`, `make test`. Everything they need is installed first, once; nothing is asked.
+# What is up to date is not done again: .venv/.dependencies follows pyproject.toml, .venv/.module the C++ sources.
+
+PYTHON ?= python3
+HEXDBB_WERROR ?= OFF
+
+VENV := .venv
+BIN := $(VENV)/bin
+STEP := scripts/step.sh
+PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
+
+CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
+CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
+CPP_FORMATTED := $(shell find cpp tests/cpp -name '*.[ch]pp' -o -name '*.h')
+PYTHON_SOURCES := python tests/python scripts firmware_interfaces $(wildcard examples)
+
+MAKEFLAGS += --no-print-directory
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+
+.PHONY: help
+help:  ## this list
+	@grep -hE '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/  make \1\t\2/' | expand -t 22
+
+# --- set-up ---------------------------------------------------------------------------------------------------------
+
+.PHONY: setup
+setup: $(VENV)/.module  ## system packages, virtual environment, build; done once
+
+.PHONY: system
+system:
+	@PYTHON=$(PYTHON) scripts/system_packages.sh
+
+$(VENV)/.dependencies: pyproject.toml scripts/requirements.py | system
+	@$(STEP) "Virtual environment in $(VENV)" $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python scripts/requirements.py > $(VENV)/requirements.txt
+	@$(STEP) "Python packages" $(BIN)/python -m pip install --disable-pip-version-check -r $(VENV)/requirements.txt
+	@touch $@
+
+# Without build isolation the build directory and the pybind11 of the environment are used again: a change compiles
+# what it touches only. Python edits need nothing, the installation is editable.
+$(VENV)/.module: $(VENV)/.dependencies $(CPP_SOURCES) $(CPP_BUILD_FILES)
+	@SKBUILD_CMAKE_DEFINE=HEXDBB_WERROR=$(HEXDBB_WERROR) $(STEP) "Python module of the engine (C++)" \
+	  $(BIN)/python -m pip install --disable-pip-version-check --verbose --no-build-isolation --no-deps --editable .
+	@touch $@
+
+# --- tests ----------------------------------------------------------------------------------------------------------
+
+.PHONY: build
+build: setup  ## the engine and its C++ tests
+	@$(STEP) "Configure the C++ tests ($(PRESET))" cmake --preset $(PRESET)
+	@$(STEP) "Compile the C++ tests ($(PRESET))" cmake --build --preset $(PRESET)
+
+.PHONY: test
+test: test-cpp test-python  ## every test: C++, Python, across processes, examples
+
+.PHONY: test-cpp
+test-cpp: build  ## C++ tests
+	@echo "==> C++ tests"
+	@ctest --preset $(PRESET)
+
+.PHONY: test-python
+test-python: setup  ## Python tests
+	@echo "==> Python tests"
+	@$(BIN)/python -m pytest
+
+.PHONY: sanitize
+sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(STEP) "Configure the C++ tests (sanitize)" cmake --preset sanitize
+	@$(STEP) "Compile the C++ tests (sanitize)" cmake --build --preset sanitize
+	@echo "==> C++ tests under sanitizers"
+	@ctest --preset sanitize
+
+# --- use ------------------------------------------------------------------------------------------------------------
+
+.PHONY: demo
+demo: setup  ## a circular test on the simulated rig, diagnosed and compared
+	@PATH="$(CURDIR)/$(BIN):$$PATH" scripts/demo.sh
+
+.PHONY: bench
+bench: setup  ## benchmarks
+	@$(STEP) "Configure the benchmarks" cmake --preset bench
+	@$(STEP) "Compile the benchmarks" cmake --build --preset bench
+	@for program in build/bench/cpp/bench/bench_*; do if [ -x "$$program" ]; then echo "==> $$program"; "$$program" || exit; fi; done
+
+# --- upkeep ---------------------------------------------------------------------------------------------------------
+
+.PHONY: lint lint-cpp lint-python lint-types lint-spelling
+lint: lint-cpp lint-python lint-types lint-spelling  ## format, style, types, spelling
+
+lint-cpp: $(VENV)/.dependencies
+	$(BIN)/clang-format --dry-run -Werror $(CPP_FORMATTED)
+
+lint-python: $(VENV)/.dependencies
+	$(BIN)/ruff check --quiet $(PYTHON_SOURCES)
+	$(BIN)/ruff format --check --quiet $(PYTHON_SOURCES)
+
+lint-types: $(VENV)/.dependencies
+	$(BIN)/mypy
+
+lint-spelling: $(VENV)/.dependencies
+	$(BIN)/codespell
+
+.PHONY: format
+format: $(VENV)/.dependencies  ## rewrite sources in the house format
+	$(BIN)/clang-format -i $(CPP_FORMATTED)
+	$(BIN)/ruff check --fix --quiet $(PYTHON_SOURCES)
+	$(BIN)/ruff format --quiet $(PYTHON_SOURCES)
+
+.PHONY: stubs
+stubs: setup  ## python/hexdbb/_core.pyi from the compiled module
+	$(BIN)/python scripts/make_stubs.py python/hexdbb/_core.pyi
+
+.PHONY: clean
+clean:  ## remove the builds, the virtual environment and the demo's results
+	rm -rf build demo $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -1,0 +1,19 @@
+"""Prints what pip has to install before the package itself: pyproject.toml's build, run-time and development requirements."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+PYPROJECT = Path(__file__).parent.parent / "pyproject.toml"
+
+
+def requirements(pyproject: Path) -> list[str]:
+    """Every requirement of a pyproject.toml, as pip reads them."""
+    content = tomllib.loads(pyproject.read_text(encoding="utf-8"))
+    project = content["project"]
+    return [*content["build-system"]["requires"], *project["dependencies"], *project["optional-dependencies"]["dev"]]
+
+
+if __name__ == "__main__":
+    print("\n".join(requirements(PYPROJECT)))

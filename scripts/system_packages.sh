@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Sees to what pip cannot install: a Python that is new enough, the compiler and the C++ libraries of the engine.
+# Installs only what is missing, through apt on Debian and Ubuntu; elsewhere it says what is needed and goes on.
+set -euo pipefail
+
+python=${PYTHON:-python3}
+if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+  found=$("$python" --version 2>&1 || true)
+  echo "error: $python is '${found:-missing}' (expected Python 3.11 or newer; name another one with: make PYTHON=python3.12 ...)" >&2
+  exit 2
+fi
+
+packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libgtest-dev libbenchmark-dev)
+# A Python of the distribution keeps `venv` and its headers in packages of their own; any other brings them along.
+if [ "$("$python" -c 'import sys; print(sys.base_prefix)')" = /usr ]; then
+  version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+  packages+=("python$version-venv" "python$version-dev")
+fi
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "note: not Debian or Ubuntu; going on as if these were installed: ${packages[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$state" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    echo "error: neither root nor sudo, and these packages are missing: ${missing[*]} (have them installed, then repeat)" >&2
+    exit 1
+  fi
+  echo "==> Administrator rights for apt, to install: ${missing[*]}"
+  sudo -v
+  as_root=(sudo)
+fi
+apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
+scripts/step.sh "Package lists of the distribution" "${apt[@]}" update
+scripts/step.sh "System packages: ${missing[*]}" "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
