@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from rich.console import Console
 
 from hexdbb.record import read_record, write_record
 
@@ -24,6 +25,7 @@ def command(source: Path, target: Path, overwrite: bool) -> None:
       hexdbb convert demo.parquet demo.csv
       hexdbb convert measured.csv measured.parquet
     """
-    record = read_record(source)
-    write_record(record, target, overwrite)
+    with Console(stderr=True).status(f"{source} to {target}"):
+        record = read_record(source)
+        write_record(record, target, overwrite)
     click.echo(f"{target}: {len(record)} samples, {len(record.sweeps())} sweeps")

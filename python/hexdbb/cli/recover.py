@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from rich.console import Console
 
 from hexdbb.errors import InputError
 from hexdbb.record import journal_path, recover, write_record
@@ -31,8 +32,9 @@ def command(journal: Path, output: Path | None, overwrite: bool) -> None:
         output = journal.with_suffix("")
         if journal_path(output) != journal:
             raise InputError(f"{journal}: not named RECORD.journal (expected -o RECORD with such a name)")
-    record = recover(journal)
-    write_record(record, output, overwrite)
+    with Console(stderr=True).status(f"{journal} to {output}"):
+        record = recover(journal)
+        write_record(record, output, overwrite)
     last_s = record.columns["t_s"][-1]
     click.echo(f"{output}: {len(record)} samples, the last at {last_s:.3f} s, marked incomplete")
     click.echo(f"reason: {record.metadata['incomplete_because']}")
