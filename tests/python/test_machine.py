@@ -79,7 +79,7 @@ def test_shipped_eds_files_are_there() -> None:
             "machine.toml: can.gauge_node: 6 (expected a node id not used by a drive)",
         ),
         ("bitrate_bit_s = 1000000", "bitrate_bit_s = 9600", "machine.toml: can.bitrate_bit_s: 9600 (expected 10000,"),
-        ("counts_per_mm = 10000.0", "counts_per_mm = 0", "machine.toml: can.counts_per_mm: 0 (expected a number othe"),
+        ("counts_per_mm = 10000.0", "counts_per_mm = 0", "machine.toml: can.counts_per_mm: 0 (expected a number other"),
         ("consumer_ms = 300", "consumer_ms = 100", "machine.toml: can.heartbeat_consumer_ms: 100 (expected more than"),
         ("jerk_mm_s3", "jerk_m_s3", "machine.toml: can.limits.jerk_m_s3: unknown key (expected jerk_mm_s3"),
         ("cycle_rate_hz = 250.0", "cycle_rate_hz = 5000", "machine.toml: can.cycle_rate_hz: 5000 (expected a number <"),
