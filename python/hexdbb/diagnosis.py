@@ -1,8 +1,8 @@
-"""Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, what cannot be.
+"""Diagnosis: the values of a model's effects that explain readings best, how well they are known, what cannot be.
 
-Nonlinear least squares over the identifiable directions of the free values (the engine's `diagnosis.hpp`): directions no
-reading can tell keep their place instead of being given a value. A value that is known only in combination with others has
-no uncertainty of its own: its sigma is nan, and `unidentifiable` says with what it is entangled.
+Nonlinear least squares over the identifiable directions of the free values (the engine's `diagnosis.hpp`): directions
+no reading can tell keep their place instead of being given a value. A value that is known only in combination with
+others has no uncertainty of its own: its sigma is nan, and `unidentifiable` says with what it is entangled.
 """
 
 from __future__ import annotations
@@ -177,9 +177,7 @@ def _fitted_model(model: Model, result: _core.FitResult) -> Model:
     held = np.ones(len(sigma), bool)
     held[result.free_columns] = False
     keep = np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)])
-    return model.with_values(
-        result.values, np.where(held, model.sigma, sigma), np.where(held, keep, identifiable)
-    )
+    return model.with_values(result.values, np.where(held, model.sigma, sigma), np.where(held, keep, identifiable))
 
 
 def _with_mount_effects(model: Model) -> Model:

@@ -1,7 +1,7 @@
 """Kinematics of the nominal machine for tables of poses or slider coordinates: the engine's, in NumPy arrays.
 
-Poses are (p, R) with R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27); lengths mm, angles rad. Status 0 is ok; `status_name` says
-what the others mean. Nothing is raised for a pose out of reach: look at the status.
+Poses are (p, R) with R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27); lengths mm, angles rad. Status 0 is ok;
+`status_name` says what the others mean. Nothing is raised for a pose out of reach: look at the status.
 """
 
 from __future__ import annotations

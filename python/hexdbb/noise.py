@@ -1,11 +1,12 @@
 """How noisy a gauge is: as stated by every record's gauge, else estimated from the readings themselves.
 
-Estimate: second differences of neighbouring readings in a sweep remove what changes smoothly; of white noise s they have the
-standard deviation sqrt(6) s. The median absolute value keeps jumps out of it (0.6745 of a standard deviation).
+Estimate: second differences of neighbouring readings in a sweep remove what changes smoothly; of white noise s they
+have the standard deviation sqrt(6) s. The median absolute value keeps jumps out of it (0.6745 of a standard deviation).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -34,4 +35,4 @@ def estimated_noise_mm(records: Sequence[Record]) -> float:
     if not differences:
         return LEAST_NOISE_MM
     median = float(np.median(np.concatenate(differences)))
-    return max(median / 0.6745 / np.sqrt(6.0), LEAST_NOISE_MM)
+    return max(median / 0.6745 / math.sqrt(6.0), LEAST_NOISE_MM)

@@ -95,10 +95,14 @@ def _place(key: MountKey, model: Model, record: Record) -> int:
         return 0
     if key not in model.mounts:
         known = "hexdbb.diagnosis.fit_mounts finds where its cup stands"
-        raise InputError(f"{record.name}: mount {key.mount_id}: not known to the model (expected a fitted one: {known})")
+        raise InputError(
+            f"{record.name}: mount {key.mount_id}: not known to the model (expected a fitted one: {known})"
+        )
     return model.mounts.index(key)
 
 
 def _keys_by_circle(record: Record) -> dict[int, MountKey]:
     content = record.content_hash()
-    return {int(each): MountKey(content, record.circle(int(each)).mount) for each in np.unique(record.columns["circle"])}
+    return {
+        int(each): MountKey(content, record.circle(int(each)).mount) for each in np.unique(record.columns["circle"])
+    }

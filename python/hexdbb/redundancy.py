@@ -1,7 +1,8 @@
 """Directions of the unknowns that no reading can tell, as sentences.
 
-A basis of the unidentifiable directions is brought to reduced row echelon form, so that each direction reads "this one = that
-combination of others". Unknowns are in units of their expected sizes, coefficients below `SMALL` are left out of the sentence.
+A basis of the unidentifiable directions is brought to reduced row echelon form, so that each direction reads "this one
+= that combination of others". Unknowns are in units of their expected sizes, coefficients below `SMALL` are left out of
+the sentence.
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
     rows : ndarray, shape (k, unknowns)
         Each with a one at its own pivot and zeros at the others' pivots.
     pivots : list of int
-        The unknown of each pivot: the largest entry left, later unknowns first among equals, so that what the thesis lists
-        last is explained by what it lists first.
+        The unknown of each pivot: the largest entry left, later unknowns first among equals, so that what the thesis
+        lists last is explained by what it lists first.
     """
     rows = directions.T.copy()
     pivots: list[int] = []

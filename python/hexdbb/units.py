@@ -1,4 +1,4 @@
-"""Units at the edges: the engine's mm and rad as µm and µrad in files, tables and JSON, the unit always named beside."""
+"""Units at the edges: the engine's mm and rad as µm and µrad in files, tables and JSON, the unit named beside."""
 
 from __future__ import annotations
 

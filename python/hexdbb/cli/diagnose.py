@@ -61,7 +61,9 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
         highlight=False,
     )
     console.print(_values_table(found.model))
-    console.print("~: known only in combination with others; the value shown is the smallest that explains the readings.")
+    console.print(
+        "~: known only in combination with others; the value shown is the smallest that explains the readings."
+    )
     if found.unidentifiable:
         console.print("\nWhat these readings cannot tell:")
         for sentence in found.unidentifiable:

@@ -1,4 +1,4 @@
-"""The model file: machine, effects with values, uncertainties and units, ledger of steps, hashes of the records used."""
+"""The model file: machine, effects with values, uncertainties and units, ledger of steps, hashes of the records."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class EffectEntry(StrictModel):
 
     name: str
     free: bool = True
-    parameters: Annotated[tuple[ParameterEntry, ...], Field(strict=False, alias="parameter")] = ()
+    parameters: tuple[ParameterEntry, ...] = Field(default=(), strict=False, alias="parameter")
 
 
 class MountEntry(StrictModel):
@@ -59,9 +59,9 @@ class ModelFile(FileModel):
 
     schema_id: Literal["hexdbb.model/1"] = Field(default="hexdbb.model/1", alias="schema")
     machine: MachineFile
-    effects: Annotated[tuple[EffectEntry, ...], Field(strict=False, alias="effect")] = ()
-    mounts: Annotated[tuple[MountEntry, ...], Field(strict=False, alias="mount")] = ()
-    steps: Annotated[tuple[StepEntry, ...], Field(strict=False, alias="step")] = ()
+    effects: tuple[EffectEntry, ...] = Field(default=(), strict=False, alias="effect")
+    mounts: tuple[MountEntry, ...] = Field(default=(), strict=False, alias="mount")
+    steps: tuple[StepEntry, ...] = Field(default=(), strict=False, alias="step")
 
 
 def load_model(path: Path | str) -> Model:

@@ -1,7 +1,8 @@
 """A model is a machine plus a list of effects.
 
-The values of all effects stand one after another in one vector, effect by effect, element by element, in the engine's units; a
-`Parameter` names each place of it. What is known of the values (uncertainty, whether they can be told at all) stands beside.
+The values of all effects stand one after another in one vector, effect by effect, element by element, in the engine's
+units; a `Parameter` names each place of it. What is known of the values (uncertainty, whether they can be told at all)
+stands beside.
 """
 
 from __future__ import annotations
@@ -143,8 +144,8 @@ def effect_info(machine: MachineFile, mounts: int, effect: str) -> _core.EffectI
 def default_effects(machine: MachineFile) -> dict[str, bool]:
     """Give the effects of a new model and whether each is free.
 
-    The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit to a
-    micrometre. The bar's length is calibrated and fixed.
+    The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit
+    to a micrometre. The bar's length is calibrated and fixed.
     """
     return {name: name != "bar_length" for name in _core.effect_names()}
 
