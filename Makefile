@@ -82,7 +82,7 @@ demo: setup  ## a circular test on the simulated rig, diagnosed and compared
 bench: setup  ## benchmarks
 	@$(STEP) "Configure the benchmarks" cmake --preset bench
 	@$(STEP) "Compile the benchmarks" cmake --build --preset bench
-	@for program in build/bench/cpp/bench/bench_*; do if [ -x "$$program" ]; then echo "==> $$program"; "$$program" || exit; fi; done
+	@build/bench/cpp/bench/hexdbb_bench
 
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 

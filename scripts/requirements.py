@@ -1,4 +1,4 @@
-"""Prints what pip has to install before the package itself: pyproject.toml's build, run-time and development requirements."""
+"""Prints what pip has to install before the package itself: all requirements that pyproject.toml states."""
 
 from __future__ import annotations
 

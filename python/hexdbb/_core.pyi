@@ -1,0 +1,393 @@
+# Made by `make stubs` from the compiled module; not to be edited.
+"""
+The engine of hexdbb: kinematics, effects, prediction, diagnosis. Units: mm, rad, s, N; indices from 0.
+"""
+
+from __future__ import annotations
+
+import collections.abc
+import typing
+
+import numpy
+import numpy.typing
+
+__all__: list[str] = [
+    "EffectInfo",
+    "FitResult",
+    "Identifiability",
+    "Machine",
+    "Model",
+    "PORTS",
+    "ParameterInfo",
+    "Prediction",
+    "Samples",
+    "SetUp",
+    "effect_info",
+    "effect_names",
+    "expected_sizes",
+    "fit",
+    "forward_one",
+    "forward_six_one",
+    "forward_table",
+    "guideway_axes",
+    "guideway_direction",
+    "guideway_midpoint",
+    "guideway_vertex",
+    "identifiability",
+    "inverse_table",
+    "platform_joint",
+    "port_sensitivity",
+    "predict",
+    "project_out",
+    "rotation_from_rpy",
+    "rpy_from_rotation",
+    "rssr_angles",
+    "status_name",
+]
+
+class Machine:
+    """
+    Nominal dimensions of a HexGlider.
+    """
+    def __init__(
+        self,
+        *,
+        base_inradius_mm: typing.SupportsFloat | typing.SupportsIndex,
+        platform_circumradius_mm: typing.SupportsFloat | typing.SupportsIndex,
+        joint_plane_height_mm: typing.SupportsFloat | typing.SupportsIndex,
+        leg_length_mm: typing.SupportsFloat | typing.SupportsIndex,
+        travel_min_mm: typing.SupportsFloat | typing.SupportsIndex,
+        travel_max_mm: typing.SupportsFloat | typing.SupportsIndex,
+        min_gap_mm: typing.SupportsFloat | typing.SupportsIndex,
+        screw_lead_mm: typing.SupportsFloat | typing.SupportsIndex,
+        moved_mass_kg: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    @property
+    def base_inradius_mm(self) -> float: ...
+    @property
+    def joint_plane_height_mm(self) -> float: ...
+    @property
+    def leg_length_mm(self) -> float: ...
+    @property
+    def min_gap_mm(self) -> float: ...
+    @property
+    def moved_mass_kg(self) -> float: ...
+    @property
+    def platform_circumradius_mm(self) -> float: ...
+    @property
+    def screw_lead_mm(self) -> float: ...
+    @property
+    def travel_max_mm(self) -> float: ...
+    @property
+    def travel_min_mm(self) -> float: ...
+
+class ParameterInfo:
+    """
+    One parameter of an effect, in the engine's units.
+    """
+    @property
+    def limit(self) -> float: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def prior_sigma(self) -> float: ...
+    @property
+    def unit(self) -> str: ...
+
+class EffectInfo:
+    """
+    What an effect is: physics, source, elements, parameters, ports.
+    """
+    @property
+    def element_kind(self) -> str: ...
+    @property
+    def elements(self) -> list[str]: ...
+    @property
+    def is_set_up(self) -> bool: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def parameters(self) -> list[ParameterInfo]: ...
+    @property
+    def physics(self) -> str: ...
+    @property
+    def ports(self) -> list[str]: ...
+    @property
+    def size(self) -> int: ...
+    @property
+    def source(self) -> str: ...
+
+class SetUp:
+    """
+    One fixing of the bar: nominal cup, ball and bar length.
+    """
+    def __init__(
+        self,
+        *,
+        cup_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        ball_offset_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 1]"],
+        bar_length_mm: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    @property
+    def ball_offset_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    @property
+    def bar_length_mm(self) -> float: ...
+    @property
+    def cup_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+
+class Samples:
+    """
+    State of a record's samples, one row each.
+    """
+    def __init__(
+        self,
+        *,
+        sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"],
+        set_up: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"],
+        mount: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"],
+        set_ups: collections.abc.Sequence[SetUp],
+    ) -> None: ...
+    @property
+    def size(self) -> int: ...
+
+class Model:
+    """
+    A machine and a list of effects with their values.
+    """
+    def __init__(self, machine: Machine) -> None: ...
+    def add(self, name: str, mounts: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Append the effect of that name with all values zero.
+        """
+    @property
+    def size(self) -> int: ...
+    @property
+    def values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @values.setter
+    def values(self, arg1: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]) -> None: ...
+
+class Prediction:
+    """
+    Readings in mm, status, Jacobian (samples x values).
+    """
+    @property
+    def first_failure(self) -> int: ...
+    @property
+    def jacobian(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def reading_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def status(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]: ...
+
+class Identifiability:
+    """
+    Singular values and directions of a scaled Jacobian.
+    """
+    @property
+    def condition(self) -> float: ...
+    @property
+    def directions(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def identifiable(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def rank(self) -> int: ...
+    @property
+    def singular_values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def unidentifiable(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+
+class FitResult:
+    """
+    Estimates, covariance, rank, unidentifiable directions, termination.
+    """
+    @property
+    def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def free_columns(self) -> list[int]: ...
+    @property
+    def identifiability(self) -> Identifiability: ...
+    @property
+    def identifiable(self) -> list[bool]: ...
+    @property
+    def iterations(self) -> int: ...
+    @property
+    def noise_mm(self) -> float: ...
+    @property
+    def residual_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def rms_after_mm(self) -> float: ...
+    @property
+    def rms_before_mm(self) -> float: ...
+    @property
+    def termination(self) -> str: ...
+    @property
+    def usable(self) -> bool: ...
+    @property
+    def values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+
+def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
+    """
+    The effect of that name; ValueError where there is none.
+    """
+
+def effect_names() -> list[str]:
+    """
+    Names of all effects the engine knows.
+    """
+
+def expected_sizes(model: Model) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Prior sigma of each value of a model.
+    """
+
+def fit(
+    model: Model,
+    samples: Samples,
+    measured_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    *,
+    noise_mm: typing.SupportsFloat | typing.SupportsIndex,
+    noise_is_stated: bool,
+    free: collections.abc.Sequence[bool] = [],
+    max_iterations: typing.SupportsInt | typing.SupportsIndex = 50,
+) -> FitResult:
+    """
+    Fit the free values of a model to readings.
+    """
+
+def forward_one(
+    machine: Machine,
+    sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"],
+    push: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[55, 1]"],
+) -> tuple:
+    """
+    RSSR solution from home: position, rotation, residual_mm, iterations, status.
+    """
+
+def forward_six_one(
+    machine: Machine,
+    sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"],
+    push: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[55, 1]"],
+) -> tuple:
+    """
+    Six-coordinate solution from home: position, rotation, residual_mm, iterations, status.
+    """
+
+def forward_table(
+    model: Model, samples: Samples
+) -> tuple[
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"],
+]:
+    """
+    Poses (n, 12) as x, y, z and the rotation row by row; status (n,).
+    """
+
+def guideway_axes(
+    guideway: typing.SupportsInt | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+    """
+    Local axes of guideway 0..2 as columns: outward, -d, up.
+    """
+
+def guideway_direction(
+    guideway: typing.SupportsInt | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    d of guideway 0..2, unit vector.
+    """
+
+def guideway_midpoint(
+    machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    Point of guideway 0..2 nearest to the base centre, mm, base frame.
+    """
+
+def guideway_vertex(
+    machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    V of guideway 0..2, mm, base frame.
+    """
+
+def identifiability(
+    scaled_jacobian: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    *,
+    relative: typing.SupportsFloat | typing.SupportsIndex,
+    absolute: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+) -> Identifiability:
+    """
+    Rank, condition and directions of a scaled Jacobian.
+    """
+
+def inverse_table(
+    machine: Machine,
+    position_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
+    rpy_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
+) -> tuple:
+    """
+    Slider coordinates (n, 6) in mm, status (n,) and leg at fault (n,) of nominal poses.
+    """
+
+def platform_joint(
+    machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    Nominal ball joint 0..2, mm, platform frame.
+    """
+
+def port_sensitivity(model: Model, samples: Samples) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    d reading / d push at each port, (n, 55), mm per mm.
+    """
+
+def predict(model: Model, samples: Samples, want_jacobian: bool = False) -> Prediction:
+    """
+    What the ball bar reads under a model.
+    """
+
+def project_out(
+    jacobian: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    nuisance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    The part of a Jacobian that nuisance columns cannot explain.
+    """
+
+def rotation_from_rpy(
+    roll_rad: typing.SupportsFloat | typing.SupportsIndex,
+    pitch_rad: typing.SupportsFloat | typing.SupportsIndex,
+    yaw_rad: typing.SupportsFloat | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
+    """
+    Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
+    """
+
+def rpy_from_rotation(
+    rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"],
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    (roll, pitch, yaw) in rad.
+    """
+
+def rssr_angles(
+    machine: Machine, sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+    """
+    theta, delta, phi of the nominal machine in rad, as the thesis counts them.
+    """
+
+def status_name(code: typing.SupportsInt | typing.SupportsIndex) -> str:
+    """
+    What a status code of the kinematics means.
+    """
+
+PORTS: dict = {
+    "slider": (0, 6),
+    "leg": (6, 6),
+    "slider_joint": (12, 18),
+    "platform_joint": (30, 18),
+    "ball": (48, 3),
+    "cup": (51, 3),
+    "reading": (54, 1),
+}
