@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "multiversion.hpp"
+
 namespace hexdbb {
 
 namespace {
@@ -52,6 +54,7 @@ double reading_mm(const Pose& pose, const SetUp& set_up, const Ports& push) noex
 // The bar's unit force n at ball = Q1 + alpha x + beta y + gamma x*y (x = Q2-Q1, y = Q3-Q1) is equivalent to forces h_i at the three
 // ball joints. Adding forces m along the sides keeps it so; they are chosen such that no joint force has a component along
 // t_i, the normal of the plane of its two legs: a cyclic 3 x 3 system, the transpose of the loops' own (2.17).
+HEXDBB_MULTIVERSION
 bool reading_sensitivity(const NominalGeometry& nominal, const Mechanism& mechanism, const PlatformTriangle& triangle,
                          const Pose& pose, const SetUp& set_up, const Ports& push, Ports& sensitivity) noexcept {
   sensitivity.value.setZero();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "multiversion.hpp"
 #include "rssr_kernel.hpp"
 
 namespace hexdbb {
@@ -22,11 +23,34 @@ constexpr double kSingularRatio = 1e-9;
 // Largest turn of one Newton step, as a tangent: keeps a search from afar on its own branch.
 constexpr double kLargestTurn = 0.5;
 
-/// The determinant below which the loops count as singular: a fraction of its two terms' largest possible size.
-double singular_limit(const rssr::Circle<double> (&circle)[3], const Vector3& side_squared) {
-  return kSingularRatio * 8.0 *
-         std::sqrt(circle[0].radius_squared * circle[1].radius_squared * circle[2].radius_squared * side_squared[0] *
-                   side_squared[1] * side_squared[2]);
+/// Square of the determinant below which the loops count as singular: a fraction of its terms' largest possible size.
+double singular_limit_squared(const rssr::Circle<double> (&circle)[3], const PlatformTriangle& triangle) {
+  constexpr double kFraction = 64.0 * kSingularRatio * kSingularRatio;
+  return kFraction * (circle[0].radius_squared * triangle.side_squared[0]) *
+         (circle[1].radius_squared * triangle.side_squared[1]) * (circle[2].radius_squared * triangle.side_squared[2]);
+}
+
+InverseResult failed(Status status, int leg) { return {Vector6::Zero(), status, leg}; }
+
+void check_limits(const Machine& machine, InverseResult& out) {
+  for (int k = 0; k < kLegs; k += 2) {
+    const double low = out.sliders_mm[k], high = out.sliders_mm[k + 1];
+    if (!(low >= machine.travel_min_mm) || !(low <= machine.travel_max_mm)) {
+      out.status = Status::kTravel;
+      out.leg = k;
+      return;
+    }
+    if (!(high >= machine.travel_min_mm) || !(high <= machine.travel_max_mm)) {
+      out.status = Status::kTravel;
+      out.leg = k + 1;
+      return;
+    }
+    if (!(high - low >= machine.min_gap_mm)) {
+      out.status = Status::kGap;
+      out.leg = k + 1;
+      return;
+    }
+  }
 }
 
 /// Position and orientation from three ball joints: R maps Q2-Q1, Q3-Q1 and their cross product. The reference point lies
@@ -63,34 +87,28 @@ const char* status_name(Status status) {
   return "unknown status";
 }
 
+HEXDBB_MULTIVERSION
 InverseResult inverse(const NominalGeometry& nominal, const Pose& pose, const Ports& push) noexcept {
   InverseResult out;
   const Machine& machine = nominal.machine;
-  const auto fail = [&out](Status status, int leg) {
-    if (out.status == Status::kOk) {
-      out.status = status;
-      out.leg = leg;
-    }
-  };
+  Eigen::Array<double, kLegs, 1> foot, half_span;
   for (int k = 0; k < kLegs; ++k) {
-    const Vector3 joint = pose.rotation * (nominal.platform_joint.col(k) + push.platform_joint(k)) + pose.position;
-    const Vector3 from_vertex = joint - nominal.vertex.col(k) - push.slider_joint(k);
-    const double foot = from_vertex.dot(nominal.direction.col(k));
+    const Vector3 joint = nominal.platform_joint.col(k) + push.platform_joint(k);
+    const Vector3 base = nominal.vertex.col(k) + push.slider_joint(k);
+    const Vector3 from_base = pose.rotation * joint + (pose.position - base);
     const double leg = machine.leg_length_mm + push.leg()[k];
-    const double half_span_squared = leg * leg - (from_vertex.squaredNorm() - foot * foot);
-    if (!(half_span_squared > 0.0)) {
-      fail(Status::kUnreachable, k);
-      continue;
-    }
-    const double half_span = std::sqrt(half_span_squared);
-    out.sliders_mm[k] = (k % 2 == 0 ? foot - half_span : foot + half_span) - push.slider()[k];
+    foot[k] = from_base.dot(nominal.direction.col(k));
+    half_span[k] = leg * leg - (from_base.squaredNorm() - foot[k] * foot[k]);
   }
-  if (out.status != Status::kOk) return out;
   for (int k = 0; k < kLegs; ++k) {
-    const double s = out.sliders_mm[k];
-    if (!(s >= machine.travel_min_mm && s <= machine.travel_max_mm)) fail(Status::kTravel, k);
-    if (k % 2 == 1 && !(s - out.sliders_mm[k - 1] >= machine.min_gap_mm)) fail(Status::kGap, k);
+    if (!(half_span[k] > 0.0)) return failed(Status::kUnreachable, k);
   }
+  half_span = half_span.sqrt();
+  for (int k = 0; k < kLegs; k += 2) {
+    out.sliders_mm[k] = foot[k] - half_span[k] - push.slider()[k];
+    out.sliders_mm[k + 1] = foot[k + 1] + half_span[k + 1] - push.slider()[k + 1];
+  }
+  check_limits(machine, out);
   return out;
 }
 
@@ -98,6 +116,7 @@ Vector3 RssrAngles::angle_rad() const {
   return {std::atan2(sine[0], cosine[0]), std::atan2(sine[1], cosine[1]), std::atan2(sine[2], cosine[2])};
 }
 
+HEXDBB_MULTIVERSION
 ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triangle, RssrAngles& angles) noexcept {
   ForwardResult out;
   const auto& leg = mechanism.leg_length;
@@ -111,22 +130,25 @@ ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triang
     }
   }
   const double side_squared[3] = {triangle.side_squared[0], triangle.side_squared[1], triangle.side_squared[2]};
-  const double mm_per_f = 0.5 / triangle.shortest_side_mm;
-  const double limit = singular_limit(circle, triangle.side_squared);
+  const double limit_squared = singular_limit_squared(circle, triangle);
   double c[3] = {angles.cosine[0], angles.cosine[1], angles.cosine[2]};
   double s[3] = {angles.sine[0], angles.sine[1], angles.sine[2]};
 
   for (;;) {
     const rssr::Loops<double> loops = rssr::close_loops(circle, c, s, side_squared);
-    out.residual_mm = mm_per_f * std::max({std::abs(loops.f[0]), std::abs(loops.f[1]), std::abs(loops.f[2])});
-    if (!(std::abs(loops.determinant) > limit)) {
-      out.status = Status::kSingular;
-      return out;
-    }
-    if (out.residual_mm <= kResidualTolerance_mm) {
+    out.residual_mm =
+        triangle.mm_per_f * std::max({std::abs(loops.f[0]), std::abs(loops.f[1]), std::abs(loops.f[2])});
+    // The step that led here was checked for singularity, so only a solution without a step takes one to be checked.
+    const bool solved = out.residual_mm <= kResidualTolerance_mm;
+    if (solved && out.iterations > 0) {
       out.pose = align(triangle, loops);
       angles.cosine << c[0], c[1], c[2];
       angles.sine << s[0], s[1], s[2];
+      return out;
+    }
+    const rssr::LoopJacobian<double> jacobian = rssr::loop_jacobian(circle, c, s, loops);
+    if (!(jacobian.determinant * jacobian.determinant > limit_squared)) {
+      out.status = Status::kSingular;
       return out;
     }
     if (out.iterations == kMaxIterations) {
@@ -134,7 +156,7 @@ ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triang
       return out;
     }
     double step[3];
-    rssr::cramer_step(loops, step);  // (2.18)-(2.21)
+    rssr::cramer_step(loops, jacobian, step);  // (2.18)-(2.21)
     for (int i = 0; i < kGuideways; ++i) rssr::turn(std::clamp(step[i], -kLargestTurn, kLargestTurn), c[i], s[i]);
     ++out.iterations;
   }

@@ -18,7 +18,7 @@ PlatformTriangle::PlatformTriangle(const Matrix3& joints_in) : joints(joints_in)
   const Vector3 x = joints.col(1) - joints.col(0);
   const Vector3 y = joints.col(2) - joints.col(0);
   side_squared << x.squaredNorm(), (x - y).squaredNorm(), y.squaredNorm();
-  shortest_side_mm = std::sqrt(side_squared.minCoeff());
+  mm_per_f = 0.5 / std::sqrt(side_squared.minCoeff());
   Matrix3 frame;
   frame << x, y, x.cross(y);
   frame_inverse = frame.inverse();

@@ -48,13 +48,15 @@ template <class T>
 inline Circle<T> meeting_circle(const Vec<T>& b1, const Vec<T>& b2, const T& l1, const T& l2) {
   using std::sqrt;
   const Vec<T> d = b2 - b1;
-  const T d_squared = dot(d, d);
-  const T t = (d_squared + (l1 - l2) * (l1 + l2)) / (d_squared + d_squared);
-  const T radius_squared = l1 * l1 - t * t * d_squared;
   const T span_squared = d.x * d.x + d.y * d.y;
+  const T d_squared = span_squared + d.z * d.z;
+  const T inverse = 1.0 / (d_squared * span_squared);  // the one division: serves 1/d.d and 1/span
+  const T inverse_d_squared = inverse * span_squared;
+  const T t = 0.5 + 0.5 * (l1 - l2) * (l1 + l2) * inverse_d_squared;
+  const T radius_squared = l1 * l1 - t * t * d_squared;
   // d x z has length sqrt(span), z (d.d) - dz d has length sqrt(span d.d): both become radius vectors.
-  const T in_scale = sqrt(radius_squared / span_squared);
-  const T up_scale = in_scale / sqrt(d_squared);
+  const T in_scale = sqrt(radius_squared * inverse * d_squared);
+  const T up_scale = in_scale * sqrt(inverse_d_squared);
   return {b1 + t * d,
           {-(up_scale * d.z) * d.x, -(up_scale * d.z) * d.y, up_scale * span_squared},
           {in_scale * d.y, -(in_scale * d.x), in_scale * T{}},
@@ -62,31 +64,42 @@ inline Circle<T> meeting_circle(const Vec<T>& b1, const Vec<T>& b2, const T& l1,
           span_squared};
 }
 
+/// The ball joints at some angles and how far the three sides are from closing.
 template <class T>
 struct Loops {
-  Vec<T> q[3];        // ball joints
-  Vec<T> tangent[3];  // dQ_i / d angle_i
-  T f[3];             // F_i = |Q_i - Q_j|^2 - side^2, j = i + 1 cyclic, mm^2 (2.11)-(2.16)
-  T a[3];             // dF_i / d angle_i
-  T b[3];             // dF_i / d angle_j
-  T determinant;      // of the cyclic Jacobian (2.17)
+  Vec<T> q[3];     // ball joints
+  Vec<T> side[3];  // Q_i - Q_j, j = i + 1 cyclic
+  T f[3];          // F_i = |Q_i - Q_j|^2 - side^2, mm^2 (2.11)-(2.16)
 };
 
 template <class T>
 inline Loops<T> close_loops(const Circle<T> (&circle)[3], const T (&c)[3], const T (&s)[3], const T (&side_squared)[3]) {
   Loops<T> out;
+  for (int i = 0; i < 3; ++i) out.q[i] = circle[i].centre + c[i] * circle[i].up + s[i] * circle[i].in;
   for (int i = 0; i < 3; ++i) {
-    out.q[i] = circle[i].centre + c[i] * circle[i].up + s[i] * circle[i].in;
-    out.tangent[i] = c[i] * circle[i].in - s[i] * circle[i].up;
+    out.side[i] = out.q[i] - out.q[i == 2 ? 0 : i + 1];
+    out.f[i] = dot(out.side[i], out.side[i]) - side_squared[i];
   }
+  return out;
+}
+
+/// The cyclic Jacobian of the loops (2.17).
+template <class T>
+struct LoopJacobian {
+  T a[3];  // dF_i / d angle_i
+  T b[3];  // dF_i / d angle_j, j = i + 1 cyclic
+  T determinant;
+};
+
+template <class T>
+inline LoopJacobian<T> loop_jacobian(const Circle<T> (&circle)[3], const T (&c)[3], const T (&s)[3],
+                                     const Loops<T>& loops) {
+  LoopJacobian<T> out;
+  Vec<T> tangent[3];  // 2 dQ_i / d angle_i
+  for (int i = 0; i < 3; ++i) tangent[i] = (c[i] + c[i]) * circle[i].in - (s[i] + s[i]) * circle[i].up;
   for (int i = 0; i < 3; ++i) {
-    const int j = i == 2 ? 0 : i + 1;
-    const Vec<T> side = out.q[i] - out.q[j];
-    const T along_i = dot(side, out.tangent[i]);
-    const T along_j = dot(side, out.tangent[j]);
-    out.f[i] = dot(side, side) - side_squared[i];
-    out.a[i] = along_i + along_i;
-    out.b[i] = -(along_j + along_j);
+    out.a[i] = dot(loops.side[i], tangent[i]);
+    out.b[i] = -dot(loops.side[i], tangent[i == 2 ? 0 : i + 1]);
   }
   out.determinant = out.a[0] * out.a[1] * out.a[2] + out.b[0] * out.b[1] * out.b[2];
   return out;
@@ -94,11 +107,11 @@ inline Loops<T> close_loops(const Circle<T> (&circle)[3], const T (&c)[3], const
 
 /// Newton step by Cramer's rule, (2.18)-(2.20): the three formulas are one another's cyclic shift.
 template <class T>
-inline void cramer_step(const Loops<T>& loops, T (&step)[3]) {
-  const T(&a)[3] = loops.a;
-  const T(&b)[3] = loops.b;
+inline void cramer_step(const Loops<T>& loops, const LoopJacobian<T>& jacobian, T (&step)[3]) {
+  const T(&a)[3] = jacobian.a;
+  const T(&b)[3] = jacobian.b;
   const T(&f)[3] = loops.f;
-  const T inverse = T{} + 1.0 / loops.determinant;
+  const T inverse = 1.0 / jacobian.determinant;
   for (int i = 0; i < 3; ++i) {
     const int j = i == 2 ? 0 : i + 1;
     const int k = j == 2 ? 0 : j + 1;
@@ -106,14 +119,23 @@ inline void cramer_step(const Loops<T>& loops, T (&step)[3]) {
   }
 }
 
+/// 1 / sqrt(1 + e) for small e by its series: below 2e-16 for |e| < 4e-4, without a root or a division.
+template <class T>
+inline T inverse_root_near_one(const T& e) {
+  return 1.0 - e * (0.5 - e * (0.375 - e * (0.3125 - e * 0.2734375)));
+}
+
 /// Turn an angle held as cosine and sine by atan(t), which is t to third order, and put it back on the unit circle.
 template <class T>
-inline void turn(const T& t, T& c, T& s) {
-  using std::sqrt;
-  const T scale = 1.0 / sqrt((t * t + 1.0) * (c * c + s * s));
+inline void turn_by(const T& t, const T& scale, T& c, T& s) {
   const T turned = scale * (c - s * t);
   s = scale * (s + c * t);
   c = turned;
+}
+
+inline void turn(double t, double& c, double& s) {
+  const double stretch = (t * t + 1.0) * (c * c + s * s) - 1.0;
+  turn_by(t, std::abs(stretch) < 4e-4 ? inverse_root_near_one(stretch) : 1.0 / std::sqrt(1.0 + stretch), c, s);
 }
 
 }  // namespace hexdbb::rssr

@@ -27,7 +27,7 @@ struct PlatformTriangle {
 
   Matrix3 joints;            // ball joint i as column, platform frame
   Vector3 side_squared;      // |Q1Q2|^2, |Q2Q3|^2, |Q3Q1|^2, mm^2
-  double shortest_side_mm;
+  double mm_per_f;           // error of the shortest side per error of its square
   Matrix3 frame_inverse;     // of the columns Q2-Q1, Q3-Q1, (Q2-Q1) x (Q3-Q1)
 };
 
