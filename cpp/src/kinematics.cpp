@@ -91,22 +91,16 @@ HEXDBB_MULTIVERSION
 InverseResult inverse(const NominalGeometry& nominal, const Pose& pose, const Ports& push) noexcept {
   InverseResult out;
   const Machine& machine = nominal.machine;
-  Eigen::Array<double, kLegs, 1> foot, half_span;
   for (int k = 0; k < kLegs; ++k) {
     const Vector3 joint = nominal.platform_joint.col(k) + push.platform_joint(k);
     const Vector3 base = nominal.vertex.col(k) + push.slider_joint(k);
     const Vector3 from_base = pose.rotation * joint + (pose.position - base);
     const double leg = machine.leg_length_mm + push.leg()[k];
-    foot[k] = from_base.dot(nominal.direction.col(k));
-    half_span[k] = leg * leg - (from_base.squaredNorm() - foot[k] * foot[k]);
-  }
-  for (int k = 0; k < kLegs; ++k) {
-    if (!(half_span[k] > 0.0)) return failed(Status::kUnreachable, k);
-  }
-  half_span = half_span.sqrt();
-  for (int k = 0; k < kLegs; k += 2) {
-    out.sliders_mm[k] = foot[k] - half_span[k] - push.slider()[k];
-    out.sliders_mm[k + 1] = foot[k + 1] + half_span[k + 1] - push.slider()[k + 1];
+    const double foot = from_base.dot(nominal.direction.col(k));
+    const double half_span_squared = leg * leg - (from_base.squaredNorm() - foot * foot);
+    if (!(half_span_squared > 0.0)) return failed(Status::kUnreachable, k);
+    const double half_span = std::sqrt(half_span_squared);
+    out.sliders_mm[k] = (k % 2 == 0 ? foot - half_span : foot + half_span) - push.slider()[k];
   }
   check_limits(machine, out);
   return out;

@@ -31,12 +31,12 @@ class Lockstep:
 
     Parameters
     ----------
-    patience_s : time a missing answer is waited for
+    patience_s : time one missing answer is waited for; well below the time after which drives miss their targets
     """
 
     real_time = False
 
-    def __init__(self, patience_s: float = 1.0) -> None:
+    def __init__(self, patience_s: float = 0.25) -> None:
         self._patience_s = patience_s
 
     def start(self) -> None:

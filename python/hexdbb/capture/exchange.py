@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import struct
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import can
 
@@ -68,6 +68,7 @@ class Exchange:
         self._rpdo, self._drive, self._gauge = DRIVE_RPDO.struct, DRIVE_TPDO.struct, GAUGE_TPDO.struct
         self.feedback = Feedback()
         self.late_frames = 0
+        self._given_up: set[int] = set()
 
     def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
         """Send the six RPDOs; they act at the next SYNC."""
@@ -90,7 +91,7 @@ class Exchange:
             The same object every time; `missing` names the slots without an answer.
         """
         end_s = time.monotonic() + timeout_s
-        pending = set(range(SLOTS))
+        pending = set(range(SLOTS)) - self._given_up
         recv = self._bus.recv
         while pending:
             left_s = end_s - time.monotonic()
@@ -105,8 +106,12 @@ class Exchange:
             elif self._decode(slot, message.data):
                 self.late_frames += slot not in pending
                 pending.discard(slot)
-        self.feedback.missing = tuple(sorted(pending))
+        self.feedback.missing = tuple(sorted(pending | self._given_up))
         return self.feedback
+
+    def give_up(self, slots: Iterable[int]) -> None:
+        """Wait no longer for the answers of some slots; they count as missing."""
+        self._given_up.update(slots)
 
     def listen(self, timeout_s: float) -> None:
         """Receive frames that are not process data for `timeout_s`, no SYNC being under way."""

@@ -7,19 +7,21 @@ no other frame order exists on the bus.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import can
 
 from hexdbb.capture.clock import Clock
-from hexdbb.capture.exchange import Exchange, Feedback
+from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
 from hexdbb.capture.link import Link
 from hexdbb.capture.settings import CONTROLLER_NODE
 
 HEARTBEAT_BASE = 0x700
 NMT_OPERATIONAL = 0x05
 PAUSE_POLL_S = 0.005
+STALL_PATIENCE = 8
+"""Times a rig that does not answer at all is waited for in lockstep: it is held up, or gone."""
 
 
 class Loop:
@@ -69,7 +71,24 @@ class Loop:
         self.missed += self.last_missed
         self.slot += 1 + self.last_missed
         self._exchange.send_sync()
-        return self._exchange.collect(self.clock.answer_timeout_s())
+        feedback = self._exchange.collect(self.clock.answer_timeout_s())
+        if len(feedback.missing) == SLOTS and not self.clock.real_time:
+            self._wait_for_any(controlwords, counts)
+        return feedback
+
+    def give_up(self, slots: Iterable[int]) -> None:
+        """Wait no longer for the answers of some slots."""
+        self._exchange.give_up(slots)
+
+    def _wait_for_any(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
+        """Wait longer for a SYNC nobody has answered, targets kept alive.
+
+        Another SYNC would be answered with the answers to this one, and every later sample would be one cycle off.
+        """
+        for _ in range(STALL_PATIENCE):
+            self._send(controlwords, counts)
+            if len(self._exchange.collect(self.clock.answer_timeout_s()).missing) < SLOTS:
+                return
 
     def hold_while(self, work: Callable[[], None], controlwords: Sequence[int]) -> None:
         """Hold the present targets while `work` runs in a thread that may use SDO; its exception is raised here.

@@ -159,7 +159,7 @@ def _reading_run(start, truth: str, pause_s: float) -> list[dict[int, bytes]]:
     for step in range(150):
         if step % 50 == 0:
             time.sleep(pause_s)
-        samples.append(controller.cycle(0x0F, [count + 20 * step * (k < 2) for k, count in enumerate(at)]))
+        samples.append(controller.cycle(0x0F, [count + 20 * step * (k in (2, 3)) for k, count in enumerate(at)]))
     return samples
 
 
