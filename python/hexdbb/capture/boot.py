@@ -1,4 +1,4 @@
-"""Before motion: find the seven nodes, see that they are what the machine file says, configure them, read all of it back.
+"""Before motion: find the seven nodes, see that they are what the machine file says, configure them, read back.
 
 Nothing moves here. Source: CiA 301 (NMT, 1000h, 1018h), CiA 402 and CiA 404 (device types, 6502h).
 """
@@ -93,9 +93,8 @@ def identify(device: RemoteDevice, profile: int) -> None:
             continue
         number = device.read(0x1018, subindex)
         if number != expected:
-            raise RunError(
-                f"{device.label}: {what} {number} in object {name(0x1018, subindex)} (expected {expected}, as in {device.eds.name})"
-            )
+            where = f"{what} {number} in object {name(0x1018, subindex)}"
+            raise RunError(f"{device.label}: {where} (expected {expected}, as in {device.eds.name})")
 
 
 def check_mode_offered(drive: RemoteDevice) -> None:

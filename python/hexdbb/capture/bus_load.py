@@ -1,8 +1,9 @@
 """How much of the bus one cycle takes.
 
-Model: a classical CAN data frame with 11-bit identifier and n data bytes has 8n + 47 bits and, at worst, one stuff bit for
-every four of the 34 + 8n bits that are stuffed: 8n + 47 + floor((34 + 8n - 1) / 4).
-Assumption: every cycle carries SYNC (no data), one RPDO per drive and one TPDO per node; heartbeats are small beside them.
+Model: a classical CAN data frame with 11-bit identifier and n data bytes has 8n + 47 bits and, at worst, one stuff
+bit for every four of the 34 + 8n bits that are stuffed: 8n + 47 + floor((34 + 8n - 1) / 4).
+Assumption: every cycle carries SYNC (no data), one RPDO per drive and one TPDO per node; heartbeats are small beside
+them.
 Source: CAN 2.0A frame format; the stuffing bound of Davis, Burns, Bril and Lukkien (2007).
 """
 

@@ -1,7 +1,8 @@
 """What is checked after every SYNC: a table of checks, each of which may find a fault.
 
-A fault has one outcome: all six axes stop together (`stop`), what was captured is kept, the cause is named. A new check is
-a new entry of `CHECKS`; they run in order, the first fault found is the cause reported, so causes stand before consequences.
+A fault has one outcome: all six axes stop together (`stop`), what was captured is kept, the cause is named. A new
+check is a new entry of `CHECKS`; they run in order, the first fault found is the cause reported, so causes stand
+before consequences.
 """
 
 from __future__ import annotations
@@ -11,10 +12,8 @@ from dataclasses import dataclass
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION, FOLLOWING_ERROR, INTERNAL_LIMIT, State, state_of
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
-from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.supervision import MISSING_IN_A_ROW, Supervision
 
-MISSING_IN_A_ROW = 3
-"""SYNCs a node may leave unanswered before all axes stop."""
 NMT_OPERATIONAL = 0x05
 GAUGE_STATUS_BITS = {0: "not valid", 1: "positive overload", 2: "negative overload"}
 
@@ -101,13 +100,12 @@ def _stall(watch: Watch) -> Fault | None:
 def _answers(watch: Watch) -> Fault | None:
     if not watch.feedback.missing:
         return None
-    counts = watch.supervision.missing_in_a_row
-    gone = [slot for slot, count in enumerate(counts) if count >= MISSING_IN_A_ROW]
+    gone = watch.supervision.silent()
     if not gone:
         return None
-    if len(gone) == len(counts):
+    if len(gone) == len(watch.labels):
         return Fault("bus", f"no node has answered {MISSING_IN_A_ROW} SYNCs in a row (expected TPDO1 of every node)")
-    what = f"TPDO1 has stayed out {counts[gone[0]]} SYNCs in a row (expected one after every SYNC)"
+    what = f"TPDO1 has stayed out {MISSING_IN_A_ROW} SYNCs in a row (expected one after every SYNC)"
     return Fault(watch.labels[gone[0]], what)
 
 
@@ -160,8 +158,8 @@ def _following(watch: Watch) -> Fault | None:
         if not -window <= target - position <= window:
             error_mm = (target - position) / watch.counts_per_mm
             limit_mm = window / abs(watch.counts_per_mm)
-            what = f"object 6064:00 is {position} counts, {error_mm:+.3f} mm from its target (expected within {limit_mm:g} mm)"
-            return Fault(watch.labels[slot], what)
+            what = f"object 6064:00 is {position} counts, {error_mm:+.3f} mm from its target"
+            return Fault(watch.labels[slot], f"{what} (expected within {limit_mm:g} mm)")
     return None
 
 
@@ -180,6 +178,15 @@ def _gauge(watch: Watch) -> Fault | None:
     return None
 
 
+def _heartbeats(watch: Watch) -> Fault | None:
+    late = watch.supervision.late_heartbeat()
+    if late is None:
+        return None
+    slot, age_s = late
+    limit_ms = 1e3 * watch.supervision.heartbeat_limit_s
+    return Fault(watch.labels[slot], f"no heartbeat for {1e3 * age_s:.0f} ms (expected one within {limit_ms:.0f} ms)")
+
+
 CHECKS: list[Check] = [
     Check("interrupted", _interrupted),
     Check("loop stall", _stall),
@@ -188,6 +195,7 @@ CHECKS: list[Check] = [
     Check("modes", _modes),
     Check("emergencies", _emergencies),
     Check("NMT states", _nmt_states),
+    Check("heartbeats", _heartbeats),
     Check("status bits", _status_bits),
     Check("following error", _following),
     Check("gauge", _gauge),

@@ -1,8 +1,8 @@
 """When the next SYNC is due: as soon as the answers are in (lockstep), or at its deadline (real time).
 
 Real time: deadlines lie one cycle apart on the monotonic clock. `time.sleep` waits on CLOCK_MONOTONIC with nanosecond
-resolution (clock_nanosleep, Python 3.11). Slots that pass while the loop is held up are skipped and counted, never made up
-for by a burst.
+resolution (clock_nanosleep, Python 3.11). Slots that pass while the loop is held up are skipped and counted, never
+made up for by a burst.
 """
 
 from __future__ import annotations

@@ -46,7 +46,8 @@ class Words:
             return phase
         run = programme.runs[index]
         sense = "counter-clockwise" if run.direction > 0 else "clockwise"
-        return f"run {index + 1}/{len(programme.runs)}, circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min: {phase}"
+        number = f"run {index + 1}/{len(programme.runs)}"
+        return f"{number}, circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min: {phase}"
 
     def numbers(self) -> str:
         """Say what the loop measures."""

@@ -1,8 +1,8 @@
 """One cycle on the bus: six targets and a SYNC out, seven answers in.
 
-Pairing: a SYNC makes every node sample its values and send them, then act on the targets received before that SYNC. So the
-answers to one SYNC belong together, and positions sampled at SYNC k show where the target of SYNC k-1 has led: they are
-recorded with the table's row k-1.
+Pairing: a SYNC makes every node sample its values and send them, then act on the targets received before that SYNC.
+So the answers to one SYNC belong together, and positions sampled at SYNC k show where the target of SYNC k-1 has led:
+they are recorded with the table's row k-1.
 """
 
 from __future__ import annotations

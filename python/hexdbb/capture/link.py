@@ -1,8 +1,8 @@
 """One bus, two ways to use it: a receiving thread while nodes are configured, the loop alone while axes move.
 
-Assumption users get wrong: callbacks through python-can's Notifier lose frames under load, so during motion no thread reads
-the bus. Frames of other services (SDO, EMCY, heartbeats) that the loop receives are handed to `canopen` from the loop, and
-frames a helper thread wants to send wait in an outbox until the loop sends them.
+Assumption users get wrong: callbacks through python-can's Notifier lose frames under load, so during motion no thread
+reads the bus. Frames of other services (SDO, EMCY, heartbeats) that the loop receives are handed to `canopen` from
+the loop, and frames a helper thread wants to send wait in an outbox until the loop sends them.
 """
 
 from __future__ import annotations
@@ -25,8 +25,6 @@ class Link(canopen.Network):
     bus : an open python-can bus; closing it is the caller's business
     """
 
-    NOTIFIER_CYCLE = NOTIFIER_CYCLE_S
-
     def __init__(self, bus: can.BusABC) -> None:
         super().__init__(bus)
         self._outbox: deque[can.Message] | None = None
@@ -34,12 +32,11 @@ class Link(canopen.Network):
     @contextmanager
     def threaded(self) -> Iterator[None]:
         """While inside, a thread receives and hands frames to `canopen`."""
-        self.connect()
+        notifier = can.Notifier(self.bus, self.listeners, NOTIFIER_CYCLE_S)
         try:
             yield
         finally:
-            self.notifier.stop(self.NOTIFIER_SHUTDOWN_TIMEOUT)
-            self.notifier = None
+            notifier.stop()
 
     @contextmanager
     def looped(self) -> Iterator[None]:

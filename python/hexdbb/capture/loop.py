@@ -1,7 +1,7 @@
 """The cyclic loop: every cycle targets, controller heartbeat, SYNC at its time, answers.
 
-Enabling, following a table, stopping and disabling are all made of this one cycle, so that from the first to the last SYNC
-no other frame order exists on the bus.
+Enabling, following a table, stopping and disabling are all made of this one cycle, so that from the first to the last
+SYNC no other frame order exists on the bus.
 """
 
 from __future__ import annotations

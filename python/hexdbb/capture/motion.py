@@ -1,11 +1,12 @@
 """Enable without a bump, follow a table, stop all axes together, disable.
 
-Source: CiA 402 state machine. Assumption users get wrong: a drive is believed only when its statusword, mode display and
-position say so; a command that was sent is not a command that was obeyed.
+Source: CiA 402 state machine. Assumption users get wrong: a drive is believed only when its statusword, mode display
+and position say so; a command that was sent is not a command that was obeyed.
 """
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping, Sequence
 
 import can
@@ -132,6 +133,8 @@ class Motion:
         """
         enabled = [Command.ENABLE_OPERATION] * 6
         watch, loop = self._watch, self._loop
+        # A heartbeat sent before the nodes were started may have been on its way until now.
+        watch.supervision.nmt_states.clear()
         rows = len(counts)
         for row in range(rows + 1):
             if row in pauses:
@@ -157,23 +160,25 @@ class Motion:
             One line for each axis that could not be seen to have stopped; empty when all have.
         """
         loop, frozen = self._loop, list(self._loop.counts)
+        supervision = self._watch.supervision
         still = [0] * 6
         before = list(loop.feedback.position)
+        end_s = time.monotonic() + 2.0 * STOP_TIMEOUT_S
         try:
             for _ in range(round(STOP_TIMEOUT_S / self._cycle_s)):
+                loop.give_up(supervision.silent())
                 feedback = loop.cycle([Command.QUICK_STOP] * 6, frozen)
-                for slot in range(6):
-                    rests = slot not in feedback.missing and abs(feedback.position[slot] - before[slot]) <= STAND_COUNTS
+                supervision.count_missing(feedback)
+                for slot, position in enumerate(feedback.position):
+                    rests = slot not in feedback.missing and abs(position - before[slot]) <= STAND_COUNTS
                     still[slot] = still[slot] + 1 if rests else 0
                 before = list(feedback.position)
-                if not self._unstopped(still):
-                    return []
-                self._watch.supervision.count_missing(feedback)
-                if all(count >= STAND_CYCLES for count in self._watch.supervision.missing_in_a_row):
+                done = all(self._stopped(slot, still) or slot in supervision.silent() for slot in range(6))
+                if done or time.monotonic() > end_s:
                     break
         except (can.CanError, OSError) as error:
             return [f"the bus is gone ({error}): the drives stop by themselves when targets and heartbeat stay out"]
-        return self._unstopped(still)
+        return [self._unstopped(slot) for slot in range(6) if not self._stopped(slot, still)]
 
     def disable(self) -> None:
         """Take the drives out of operation, axes standing; raises `RunError` where one does not go along."""
@@ -182,19 +187,21 @@ class Motion:
         )
         self._until(Command.DISABLE_VOLTAGE, self._all_in(State.SWITCH_ON_DISABLED), "switch on disabled", follow=False)
 
-    def _unstopped(self, still: Sequence[int]) -> list[str]:
-        """Name the axes not seen to stand in a stopped state."""
+    def _stopped(self, slot: int, still: Sequence[int]) -> bool:
+        """Whether an axis is seen to stand in a state in which it does not follow targets."""
         feedback = self._loop.feedback
-        lines = []
-        for slot in range(6):
-            state = state_of(feedback.statusword[slot])
-            if slot in feedback.missing:
-                lines.append(f"{self._labels[slot]}: does not answer, not seen to have stopped")
-            elif state not in STANDING_STATES:
-                lines.append(f"{self._labels[slot]}: object 6041:00 still says {state.label}")
-            elif still[slot] < STAND_CYCLES:
-                lines.append(f"{self._labels[slot]}: object 6064:00 still moves")
-        return lines
+        state = state_of(feedback.statusword[slot])
+        return slot not in feedback.missing and state in STANDING_STATES and still[slot] >= STAND_CYCLES
+
+    def _unstopped(self, slot: int) -> str:
+        """Say what an axis that is not seen to stand does."""
+        feedback = self._loop.feedback
+        if slot in feedback.missing:
+            return f"{self._labels[slot]}: does not answer, not seen to have stopped"
+        state = state_of(feedback.statusword[slot])
+        if state not in STANDING_STATES:
+            return f"{self._labels[slot]}: object 6041:00 still says {state.label}"
+        return f"{self._labels[slot]}: object 6064:00 still moves"
 
     def _until(self, command: Command, reached: Callable[[Feedback], bool], what: str, follow: bool = True) -> Feedback:
         """Cycle with one command until `reached`; targets follow the positions, or stay."""
@@ -202,7 +209,7 @@ class Motion:
             counts = list(self._loop.feedback.position) if follow else self._loop.counts
             feedback = self._loop.cycle([command] * 6, counts)
             self._watch.supervision.count_missing(feedback)
-            if max(self._watch.supervision.missing_in_a_row) > STAND_CYCLES:
+            if self._watch.supervision.silent():
                 break
             if not feedback.missing and reached(feedback):
                 return feedback

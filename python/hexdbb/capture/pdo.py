@@ -1,7 +1,7 @@
 """The process data of the rig: which objects travel in which PDO, and their bytes.
 
-One table serves the bus configuration (mapping), the bus-load arithmetic and the cyclic loop (packing), so that they cannot
-disagree. Values are little-endian, CiA 301.
+One table serves the bus configuration (mapping), the bus-load arithmetic and the cyclic loop (packing), so that they
+cannot disagree. Values are little-endian, CiA 301.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """From answers to samples: the columns of a record, handed to its journal in blocks.
 
-Pairing: the positions and the reading of a row come from the answers to one SYNC; the row's commanded angle and targets are
-those of the SYNC before, where the drives have been led to by then (`exchange`). What the position loop lags behind is in
-the difference between target and position columns.
+Pairing: the positions and the reading of a row come from the answers to one SYNC; the row's commanded angle and
+targets are those of the SYNC before, where the drives have been led to by then (`exchange`). What the position loop
+lags behind is in the difference between target and position columns.
 """
 
 from __future__ import annotations

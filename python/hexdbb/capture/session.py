@@ -1,7 +1,7 @@
 """One measurement from plan to record: plan, boot, enable, approach, run, retract, disable.
 
-Nothing moves before the plan is known to be within reach, the bus load within budget, and every node configured and read
-back. Whatever happens after that, all six axes stop together and what was captured becomes a record.
+Nothing moves before the plan is known to be within reach, the bus load within budget, and every node configured and
+read back. Whatever happens after that, all six axes stop together and what was captured becomes a record.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from hexdbb.capture.motion import Motion, MotionFaultError
 from hexdbb.capture.samples import Samples
 from hexdbb.capture.setup import Confirm, pauses, setup_changes
 from hexdbb.capture.supervision import Supervision
-from hexdbb.errors import InputError, RunError
+from hexdbb.errors import RunError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
 from hexdbb.record import Journal, Record
@@ -36,6 +36,8 @@ from hexdbb.trajectory import Phase, Programme, approach, plan_programme
 
 MAX_MISSED = 250
 """Cycles that may be missed in one run."""
+LOCKSTEP_TOLERANCE_S = 1.0
+"""What heartbeats may be later in lockstep, where nothing else depends on timing either."""
 
 
 @dataclass
@@ -148,7 +150,8 @@ class _Run:
         self.request, self.programme, self.devices, self.progress = request, programme, devices, progress
         self.counts_per_mm = can_setup.counts_per_mm
         labels = tuple(device.label for device in devices)
-        supervision = Supervision(labels, [device.node_id for device in devices], link.notify)
+        limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
+        supervision = Supervision(labels, [device.node_id for device in devices], link.notify, limit_s)
         exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
         self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0)
         self.watch = Watch(
@@ -184,12 +187,11 @@ class _Run:
         with journal:
             samples = Samples(programme, journal, self.counts_per_mm)
             cause = self._move(programme, samples)
-            samples.flush()
-            if not samples.count:
-                journal.close()
-                journal.journal_path.unlink()
-                raise RunError(f"{cause}; nothing had been captured, so there is no record")
-            record = journal.finish(complete=cause is None, reason=cause)
+            try:
+                samples.flush()
+                record = journal.finish(complete=cause is None, reason=cause)
+            except RunError as error:
+                raise RunError(f"{cause}; {error}" if cause else str(error)) from None
         if cause is not None:
             raise RunError(f"{cause}; {samples.count} samples kept in {record.path}, marked incomplete")
         return record

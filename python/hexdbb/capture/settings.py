@@ -1,6 +1,7 @@
 """What every node is told before motion: a table of objects, values, and what follows where a device lacks one.
 
-Source: CiA 301 (1006h, 1016h, 1017h, 1400h:05), CiA 402 (6007h, 605Ah, 6060h, 6065h, 6066h, 607Dh, 60C2h), CiA 404 (6131h).
+Source: CiA 301 (1006h, 1016h, 1017h, 1400h:05), CiA 402 (6007h, 605Ah, 6060h, 6065h, 6066h, 607Dh, 60C2h), CiA 404
+(6131h).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The set-up an operator makes between runs: cup and bar mounted, and the gauge told of it.
 
-Object 2100h of the gauge is manufacturer-specific: cup position, ball offset, bar length, then the set-up's number, which
-makes them valid. A simulated gauge reads nothing without it; a real one may lack it.
+Object 2100h of the gauge is manufacturer-specific: cup position, ball offset, bar length, then the set-up's number,
+which makes them valid. A simulated gauge reads nothing without it; a real one may lack it.
 """
 
 from __future__ import annotations

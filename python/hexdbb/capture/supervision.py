@@ -9,12 +9,16 @@ import struct
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from operator import itemgetter
+from typing import ClassVar
 
 from hexdbb.capture.exchange import SLOTS, Feedback
 
 EMCY_BASE, HEARTBEAT_BASE = 0x080, 0x700
 NODE_MASK = 0x7F
 NO_ERROR = 0x0000
+MISSING_IN_A_ROW = 3
+"""SYNCs a node may leave unanswered before it counts as silent."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,7 @@ class Supervision:
     labels : name of each slot's node in messages: drives 1 to 6, gauge
     nodes : node id of each slot
     passed_on : called with every frame, for SDO answers
+    heartbeat_limit_s : age at which a heartbeat counts as lost
 
     Attributes
     ----------
@@ -48,6 +53,7 @@ class Supervision:
     labels: Sequence[str]
     nodes: Sequence[int]
     passed_on: Callable[[int, bytearray, float], None]
+    heartbeat_limit_s: float
     emergencies: dict[int, Emergency] = field(default_factory=dict)
     nmt_states: dict[int, int] = field(default_factory=dict)
     heard_s: dict[int, float] = field(default_factory=dict)
@@ -73,6 +79,18 @@ class Supervision:
             count + 1 if slot in feedback.missing else 0 for slot, count in enumerate(self.missing_in_a_row)
         ]
 
+    def silent(self) -> list[int]:
+        """Slots whose answers have stayed out `MISSING_IN_A_ROW` times in a row."""
+        return [slot for slot, count in enumerate(self.missing_in_a_row) if count >= MISSING_IN_A_ROW]
+
+    def late_heartbeat(self) -> tuple[int, float] | None:
+        """Slot and age (s) of a heartbeat that is lost; nodes are watched from their first heartbeat on (CiA 301)."""
+        if not self.heard_s:
+            return None
+        node, heard_s = min(self.heard_s.items(), key=itemgetter(1))
+        age_s = time.monotonic() - heard_s
+        return (self.nodes.index(node), age_s) if age_s > self.heartbeat_limit_s else None
+
     def _emergency(self, node: int, data: bytearray) -> None:
         if len(data) < 3:
             return
@@ -87,4 +105,4 @@ class Supervision:
             self.nmt_states[node] = data[0] & 0x7F
             self.heard_s[node] = time.monotonic()
 
-    _HANDLERS = {EMCY_BASE: _emergency, HEARTBEAT_BASE: _heartbeat}
+    _HANDLERS: ClassVar = {EMCY_BASE: _emergency, HEARTBEAT_BASE: _heartbeat}

@@ -1,11 +1,11 @@
 """Open the CAN bus a user names: ``interface:channel``, any interface of python-can.
 
-A network bus is probed first: python-can would try a socketcand address that refuses connections for ten seconds, silently.
+A network bus is probed first: python-can would try a socketcand address that refuses connections for ten seconds,
+silently.
 """
 
 from __future__ import annotations
 
-import logging
 import socket
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -36,8 +36,6 @@ def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
     interface, separator, channel = spec.partition(":")
     if not separator or not channel or interface not in can.VALID_INTERFACES:
         raise InputError(f"--bus {spec}: not understood (expected interface:channel, for example {EXAMPLES})")
-    # Split reads make the socketcand interface warn once per frame.
-    logging.getLogger("can").setLevel(logging.CRITICAL)
     with ExitStack() as until_open:
         try:
             arguments = ARGUMENTS.get(interface, _with_bitrate)(channel, bitrate_bit_s, until_open)

@@ -1,7 +1,8 @@
-"""The command `hexdbb-run`: drive a plan's circles and record them, on a real bus or on a simulated rig started for it."""
+"""The command `hexdbb-run`: drive a plan's circles and record them, on a real bus or on a simulated rig."""
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -81,6 +82,9 @@ def command(
     overwrite: bool,
 ) -> None:
     """Measure."""
+    # What these libraries warn of while a node is silent or a frame is torn is reported by hexdbb itself.
+    for library in ("can", "canopen"):
+        logging.getLogger(library).setLevel(logging.CRITICAL)
     console = Console(stderr=True)
     simulated = bus_spec is None
     rig_options = _rig_options(truth, seed, faults)
@@ -92,9 +96,12 @@ def command(
     programme = prepare(request)
     console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
     progress = Progress()
-    with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
-        with display(progress, console):
-            made = measure(request, programme, bus, clock, progress)
+    with (
+        _bus(bus_spec, request, rig_options) as bus,
+        _pace(lockstep, request.cycle_s, progress) as clock,
+        display(progress, console),
+    ):
+        made = measure(request, programme, bus, clock, progress)
     _say_what_was_recorded(made, progress)
 
 

@@ -1,7 +1,7 @@
 """A plan's circles as a table of slider targets, one row per SYNC, computed and checked before anything moves.
 
-Feed-in, overshoot, capture laps, overshoot, retract; limits on velocity, acceleration and jerk of every slider. The time law
-is ruckig's, the kinematics the engine's.
+Feed-in, overshoot, capture laps, overshoot, retract; limits on velocity, acceleration and jerk of every slider. The
+time law is ruckig's, the kinematics the engine's.
 """
 
 from hexdbb.trajectory.approach import approach

@@ -1,7 +1,8 @@
 """Limits of a motion: what a path allows along itself, and the check of every row of a table.
 
-Model: sliders s(u) along a path u(t) move with s' = s_u u', s'' = s_u u'' + s_uu u'². The largest |s_u| and |s_uu| of the
-path, found by probing it, turn the sliders' limits into limits of u. The finished table is checked once more, by differences.
+Model: sliders s(u) along a path u(t) move with s' = s_u u', s'' = s_u u'' + s_uu u'². The largest |s_u| and |s_uu| of
+the path, found by probing it, turn the sliders' limits into limits of u. The finished table is checked once more, by
+differences.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ Where = Callable[[int], str]
 """Names a row of a table for an error message."""
 
 
-def check_reach(status: NDArray[np.int64], where: Where) -> None:
+def check_reach(status: NDArray[np.integer], where: Where) -> None:
     """Raise `InputError` at the first row the inverse kinematics does not accept; `status` is (n,)."""
     failed = np.flatnonzero(status)
     if failed.size:

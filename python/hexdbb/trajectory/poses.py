@@ -1,7 +1,7 @@
 """Paths of the platform: pose as a function of the way along the path.
 
-Ball-bar geometry (thesis chapter 2, `geometry.md`): the ball on the platform is at b = cup + R_plane (r cos φ, r sin φ, 0),
-and the platform reference point at p = b - R(rpy) · ball_offset, with R = Rz(yaw) Ry(pitch) Rx(roll).
+Ball-bar geometry (thesis chapter 2, `geometry.md`): the ball on the platform is at b = cup + R_plane (r cos φ, r sin
+φ, 0), and the platform reference point at p = b - R(rpy) · ball_offset, with R = Rz(yaw) Ry(pitch) Rx(roll).
 Assumption users get wrong: φ is the polar angle in the circle's own plane, counted from its x axis; direction +1 is
 counter-clockwise seen from above that plane.
 """

@@ -1,7 +1,7 @@
 """The cyclic target table: one row per SYNC, computed before anything moves.
 
-Model: a programme is a sequence of stretches (approach, feed-in, arc, ...); the poses of all of them go through the inverse
-kinematics in one call, and every row is checked for reach, velocity, acceleration and jerk of each slider.
+Model: a programme is a sequence of stretches (approach, feed-in, arc, ...); the poses of all of them go through the
+inverse kinematics in one call, and every row is checked for reach, velocity, acceleration and jerk of each slider.
 """
 
 from __future__ import annotations

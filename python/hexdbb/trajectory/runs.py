@@ -1,8 +1,8 @@
 """A plan's runs as a programme: feed in, overshoot, capture laps, overshoot, retract; then the next circle.
 
-Model: every run begins and ends `FEED_IN_MM` outside its circle, where the bar is mounted. Between two runs of one mount,
-radius and ball offset the ball stays at that distance from the cup, so that the bar may stay; otherwise the platform takes
-the straight way and the bar must be off.
+Model: every run begins and ends `FEED_IN_MM` outside its circle, where the bar is mounted. Between two runs of one
+mount, radius and ball offset the ball stays at that distance from the cup, so that the bar may stay; otherwise the
+platform takes the straight way and the bar must be off.
 """
 
 from __future__ import annotations

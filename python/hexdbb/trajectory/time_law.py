@@ -1,9 +1,9 @@
 """The time law of one path: how far along it the target is at every cycle.
 
-Model: one coordinate u (mm along the path), bounded velocity, acceleration and jerk, at rest at both ends; ruckig finds the
-time-optimal profile. Sampled once per cycle, the first sample at u = 0.
-Assumption users get wrong: a capture starts on a cycle. The lead-in is stretched by less than one cycle's feed so that one
-sample falls exactly on the start of the capture; feed and captured arc stay as planned.
+Model: one coordinate u (mm along the path), bounded velocity, acceleration and jerk, at rest at both ends; ruckig
+finds the time-optimal profile. Sampled once per cycle, the first sample at u = 0.
+Assumption users get wrong: a capture starts on a cycle. The lead-in is stretched by less than one cycle's feed so
+that one sample falls exactly on the start of the capture; feed and captured arc stay as planned.
 """
 
 from __future__ import annotations
