@@ -7,11 +7,12 @@ HEXDBB_WERROR ?= OFF
 VENV := .venv
 BIN := $(VENV)/bin
 STEP := scripts/step.sh
+PIP_INSTALL := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
 
 CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
 CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
-CPP_FORMATTED := $(shell find cpp tests/cpp -name '*.[ch]pp' -o -name '*.h')
+CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) -name '*.[ch]pp' -o -name '*.h')
 PYTHON_SOURCES := python tests/python scripts firmware_interfaces $(wildcard examples)
 
 MAKEFLAGS += --no-print-directory
@@ -35,14 +36,14 @@ system:
 $(VENV)/.dependencies: pyproject.toml scripts/requirements.py | system
 	@$(STEP) "Virtual environment in $(VENV)" $(PYTHON) -m venv $(VENV)
 	@$(BIN)/python scripts/requirements.py > $(VENV)/requirements.txt
-	@$(STEP) "Python packages" $(BIN)/python -m pip install --disable-pip-version-check -r $(VENV)/requirements.txt
+	@$(STEP) "Python packages" $(PIP_INSTALL) --requirement $(VENV)/requirements.txt
 	@touch $@
 
 # Without build isolation the build directory and the pybind11 of the environment are used again: a change compiles
 # what it touches only. Python edits need nothing, the installation is editable.
 $(VENV)/.module: $(VENV)/.dependencies $(CPP_SOURCES) $(CPP_BUILD_FILES)
 	@SKBUILD_CMAKE_DEFINE=HEXDBB_WERROR=$(HEXDBB_WERROR) $(STEP) "Python module of the engine (C++)" \
-	  $(BIN)/python -m pip install --disable-pip-version-check --verbose --no-build-isolation --no-deps --editable .
+	  $(PIP_INSTALL) --verbose --no-build-isolation --no-deps --editable .
 	@touch $@
 
 # --- tests ----------------------------------------------------------------------------------------------------------

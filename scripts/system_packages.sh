@@ -5,8 +5,8 @@ set -euo pipefail
 
 python=${PYTHON:-python3}
 if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
-  found=$("$python" --version 2>&1 || true)
-  echo "error: $python is '${found:-missing}' (expected Python 3.11 or newer; name another one with: make PYTHON=python3.12 ...)" >&2
+  found=$("$python" --version 2>/dev/null || echo missing)
+  echo "error: $python is $found (expected Python 3.11 or newer; name another one with: make PYTHON=python3.12 ...)" >&2
   exit 2
 fi
 
