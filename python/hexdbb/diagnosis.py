@@ -108,8 +108,8 @@ def diagnose(records: Sequence[Record], model: Model) -> Diagnosis:
     fitted = _fitted_model(known, result)
     names = tuple(record.name for record in records)
     step = LedgerStep(len(model.ledger) + 1, "diagnose", result.rms_before_mm * 1e3, result.rms_after_mm * 1e3, names)
-    labels = [parameter.label for parameter in known.parameters()]
-    free = [labels[column] for column in result.free_columns]
+    parameters = known.parameters()
+    free = [parameters[column] for column in result.free_columns]
     return Diagnosis(
         model=replace(fitted, ledger=(*model.ledger, step)),
         rms_before_um=result.rms_before_mm * 1e3,
@@ -121,7 +121,7 @@ def diagnose(records: Sequence[Record], model: Model) -> Diagnosis:
         iterations=result.iterations,
         termination=result.termination,
         covariance=result.covariance,
-        identifiable_directions=_spread(result.identifiability.identifiable, result.free_columns, len(labels)),
+        identifiable_directions=_spread(result.identifiability.identifiable, result.free_columns, len(parameters)),
         residual_mm=result.residual_mm,
         unidentifiable=tuple(sentences(result.identifiability.unidentifiable, free)),
         warnings=tuple(_warnings(fitted, result, noise_mm)),

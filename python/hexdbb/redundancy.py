@@ -12,9 +12,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.model import Parameter
+
 Floats = NDArray[np.float64]
 
+LEVER_MM = 300.0
+"""Lever arm by which an angle is compared with a length: about half a guideway."""
 SMALL = 0.02
+"""Coefficients below this part of a row's largest are left out of its sentence."""
 MOST_NAMED = 4
 
 
@@ -24,7 +29,7 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
     Parameters
     ----------
     directions : ndarray, shape (unknowns, k)
-        Orthonormal columns.
+        Linearly independent columns.
 
     Returns
     -------
@@ -49,20 +54,23 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
     return rows, pivots
 
 
-def sentences(directions: Floats, labels: Sequence[str]) -> list[str]:
+def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
     """Say in words what cannot be told apart.
 
     Parameters
     ----------
     directions : ndarray, shape (unknowns, k)
-        Orthonormal columns of unidentifiable directions, scaled unknowns.
-    labels : sequence of str
-        Names of the unknowns.
+        Unidentifiable directions as columns, unknowns in units of their prior sigma.
+    parameters : sequence of Parameter
+        The unknowns.
     """
-    rows, pivots = echelon(directions)
+    levers = np.array([LEVER_MM if each.unit == "rad" else 1.0 for each in parameters])
+    moves = levers * np.array([each.prior_sigma for each in parameters])
+    labels = [each.label for each in parameters]
+    rows, pivots = echelon(directions * moves[:, None])
     said = []
     for row, pivot in sorted(zip(rows, pivots, strict=True), key=lambda each: each[1]):
-        others = [int(j) for j in np.argsort(-np.abs(row)) if j != pivot and abs(row[j]) > SMALL]
+        others = [int(j) for j in np.argsort(-np.abs(row)) if j != pivot and abs(row[j]) > SMALL * np.abs(row).max()]
         if not others:
             said.append(f"{labels[pivot]} changes no reading")
             continue
