@@ -68,7 +68,7 @@ class Controller:
         """Give the next wanted frame; others go to `other`."""
         end = time.monotonic() + wait_s
         while time.monotonic() < end:
-            message = self.bus.recv(0.2)
+            message = self.bus.recv(min(wait_s, 0.2))
             if message is not None and wanted(message):
                 return message
             if message is not None:
