@@ -1,0 +1,78 @@
+// Every effect's derivatives, through the whole prediction, against central differences: at values that are not zero, all
+// other effects present as well. One test an effect, so that a new effect is tested by being known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "circles.hpp"
+#include "drawing.hpp"
+#include "refusal.hpp"
+
+namespace hexdbb::testing {
+namespace {
+
+constexpr int kMounts = 2;
+
+class EffectDerivatives : public ::testing::TestWithParam<std::string> {
+ protected:
+  Machine machine;
+  Samples samples = [this] {
+    std::vector<CircleSpec> circles = seven_circles();
+    circles[1].mount = circles[4].mount = 1;
+    circles.push_back({Vector3::Zero(), Vector3(0.14, 0.0, 0.0), 1});
+    return circle_samples(machine, circles, 12);
+  }();
+  Model model = full_model(machine, kMounts);
+};
+
+TEST_P(EffectDerivatives, AgainstDifferences) {
+  Eigen::VectorXd sizes(model.size());
+  int first = -1, count = 0;
+  Eigen::Index at = 0;
+  for (const Term& term : model.terms) {
+    const EffectInfo& info = term.effect->info();
+    if (info.name == GetParam()) {
+      first = static_cast<int>(at);
+      count = info.size();
+    }
+    for (int j = 0; j < info.size(); ++j) {
+      sizes[at++] = info.parameters[static_cast<std::size_t>(j) % info.parameters.size()].unit == "rad" ? 1e-3 : 0.2;
+    }
+  }
+  ASSERT_GT(count, 0);
+  Drawing drawing(41);
+  model.set_values(sizes.cwiseProduct(drawing.normals(model.size())));
+  const Prediction predicted = predict(model, samples, true);
+  ASSERT_EQ(predicted.first_failure(), -1);
+  for (int value = first; value < first + count; ++value) {
+    const Eigen::VectorXd slope = difference(model, samples, value, 5e-3 * sizes[value]);
+    const double largest = slope.cwiseAbs().maxCoeff();
+    ASSERT_GT(largest, 0.0) << "value " << value - first << " has no effect anywhere";
+    EXPECT_LT((predicted.jacobian.col(value) - slope).cwiseAbs().maxCoeff(), 1e-6 * largest)
+        << "value " << value - first;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EffectDerivatives, ::testing::ValuesIn(effect_names()),
+                         [](const auto& info) { return info.param; });
+
+TEST(Effects, ThereAreThirtyThreeGeometricErrors) {
+  const Machine machine;
+  int total = 0;
+  for (const EffectPtr& effect : geometric_effects(machine)) {
+    EXPECT_FALSE(effect->info().is_set_up);
+    total += effect->info().size();
+  }
+  EXPECT_EQ(total, 33);
+  for (const EffectPtr& effect : set_up_effects(kMounts)) EXPECT_TRUE(effect->info().is_set_up);
+  EXPECT_EQ(find_effect(machine, kMounts, "cup_position")->info().size(), 3 * kMounts);
+}
+
+TEST(Effects, UnknownNameIsAnsweredWithTheKnownOnes) {
+  const std::string said = refusal([] { find_effect(Machine(), 1, "leg_lenght"); });
+  EXPECT_TRUE(contains(said, "\"leg_lenght\"")) << said;
+  for (const std::string& name : effect_names()) EXPECT_TRUE(contains(said, name)) << said;
+}
+
+}  // namespace
+}  // namespace hexdbb::testing
