@@ -1,0 +1,61 @@
+"""The CiA 402 state machine: the standard's transitions, its coding, and nothing else."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hexdbb.rig.cia402 import FAULT_TRANSITIONS, STATUS_MASK, TRANSITIONS, Command, State, decode, next_state
+
+# CiA 402-2: number, from, controlword that makes it, to.
+STANDARD = [
+    (2, State.SWITCH_ON_DISABLED, 0x06, State.READY_TO_SWITCH_ON),
+    (3, State.READY_TO_SWITCH_ON, 0x07, State.SWITCHED_ON),
+    (4, State.SWITCHED_ON, 0x0F, State.OPERATION_ENABLED),
+    (5, State.OPERATION_ENABLED, 0x07, State.SWITCHED_ON),
+    (6, State.SWITCHED_ON, 0x06, State.READY_TO_SWITCH_ON),
+    (7, State.READY_TO_SWITCH_ON, 0x00, State.SWITCH_ON_DISABLED),
+    (7, State.READY_TO_SWITCH_ON, 0x02, State.SWITCH_ON_DISABLED),
+    (8, State.OPERATION_ENABLED, 0x06, State.READY_TO_SWITCH_ON),
+    (9, State.OPERATION_ENABLED, 0x00, State.SWITCH_ON_DISABLED),
+    (10, State.SWITCHED_ON, 0x00, State.SWITCH_ON_DISABLED),
+    (10, State.SWITCHED_ON, 0x02, State.SWITCH_ON_DISABLED),
+    (11, State.OPERATION_ENABLED, 0x02, State.QUICK_STOP_ACTIVE),
+    (12, State.QUICK_STOP_ACTIVE, 0x00, State.SWITCH_ON_DISABLED),
+    (16, State.QUICK_STOP_ACTIVE, 0x0F, State.OPERATION_ENABLED),
+]
+
+
+@pytest.mark.parametrize(("number", "source", "controlword", "target"), STANDARD)
+def test_transition(number, source, controlword, target):
+    assert next_state(source, controlword) is target
+    command = decode(controlword)
+    assert command is not None
+    assert TRANSITIONS[source, command] == (number, target)
+
+
+def test_table_has_the_standards_numbers_and_no_others():
+    numbers = {number for number, _ in TRANSITIONS.values()} | set(FAULT_TRANSITIONS.values())
+    assert numbers == set(range(2, 17))
+
+
+def test_no_command_leaves_a_fault_or_wakes_a_disabled_drive():
+    for word in range(0x10000):
+        assert next_state(State.FAULT, word) is None
+        assert next_state(State.FAULT_REACTION_ACTIVE, word) is None
+        assert next_state(State.SWITCH_ON_DISABLED, word) in (None, State.READY_TO_SWITCH_ON)
+
+
+def test_status_coding_is_unique():
+    assert all(state.value & ~STATUS_MASK == 0 for state in State)
+    assert len({state.value for state in State}) == len(State)
+
+
+@given(word=st.integers(0, 0xFFFF))
+def test_decoding_looks_at_the_low_bits_alone_and_never_enables_by_accident(word):
+    command = decode(word)
+    assert command is decode(word & 0x0F)
+    assert (command is Command.ENABLE_OPERATION) == (word & 0x0F == 0x0F)
+    if not word & 0x02:
+        assert command is Command.DISABLE_VOLTAGE
