@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION, FOLLOWING_ERROR, INTERNAL_LIMIT, State, state_of
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
-from hexdbb.capture.supervision import MISSING_IN_A_ROW, Supervision
+from hexdbb.capture.supervision import Supervision
 
 NMT_OPERATIONAL = 0x05
 GAUGE_STATUS_BITS = {0: "not valid", 1: "positive overload", 2: "negative overload"}
@@ -103,9 +103,10 @@ def _answers(watch: Watch) -> Fault | None:
     gone = watch.supervision.silent()
     if not gone:
         return None
+    limit = watch.supervision.silent_after
     if len(gone) == len(watch.labels):
-        return Fault("bus", f"no node has answered {MISSING_IN_A_ROW} SYNCs in a row (expected TPDO1 of every node)")
-    what = f"TPDO1 has stayed out {MISSING_IN_A_ROW} SYNCs in a row (expected one after every SYNC)"
+        return Fault("bus", f"no node has answered {limit} SYNCs in a row (expected TPDO1 of every node)")
+    what = f"TPDO1 has stayed out {limit} SYNCs in a row (expected one after every SYNC)"
     return Fault(watch.labels[gone[0]], what)
 
 
@@ -153,6 +154,8 @@ def _status_bits(watch: Watch) -> Fault | None:
 
 
 def _following(watch: Watch) -> Fault | None:
+    if not watch.feedback.settled:
+        return None
     window = watch.window
     for slot, (target, position) in enumerate(zip(watch.expected, watch.feedback.position, strict=True)):
         if not -window <= target - position <= window:

@@ -28,10 +28,11 @@ class Feedback:
     statusword, position, mode : lists of 6; position in counts
     reading_um, gauge_status : process value and status of the gauge
     missing : slots that did not answer
+    settled : whether the answers belong to this SYNC for sure: none was missing, now or before, and none came late
     cycle : number of the SYNC
     """
 
-    __slots__ = ("cycle", "gauge_status", "missing", "mode", "position", "reading_um", "statusword")
+    __slots__ = ("cycle", "gauge_status", "missing", "mode", "position", "reading_um", "settled", "statusword")
 
     def __init__(self) -> None:
         self.cycle = -1
@@ -41,6 +42,7 @@ class Feedback:
         self.reading_um = 0.0
         self.gauge_status = 0
         self.missing: tuple[int, ...] = tuple(range(SLOTS))
+        self.settled = False
 
 
 class Exchange:
@@ -69,6 +71,7 @@ class Exchange:
         self.feedback = Feedback()
         self.late_frames = 0
         self._given_up: set[int] = set()
+        self._late_before = 0
 
     def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
         """Send the six RPDOs; they act at the next SYNC."""
@@ -81,6 +84,8 @@ class Exchange:
         """Send the SYNC."""
         self._bus.send(self._sync)
         self.feedback.cycle += 1
+        self.feedback.settled = not self.feedback.missing and self.late_frames == self._late_before
+        self._late_before = self.late_frames
 
     def collect(self, timeout_s: float) -> Feedback:
         """Receive the answers to the last SYNC, for at most `timeout_s`.
@@ -104,10 +109,18 @@ class Exchange:
             if slot is None:
                 self._other(message.arbitration_id, message.data, message.timestamp)
             elif self._decode(slot, message.data):
-                self.late_frames += slot not in pending
                 pending.discard(slot)
         self.feedback.missing = tuple(sorted(pending | self._given_up))
+        self.feedback.settled = self.feedback.settled and not self.feedback.missing
         return self.feedback
+
+    def drain(self) -> None:
+        """Take the frames that have come since the last answers; process data among them are too late to be paired."""
+        while (message := self._bus.recv(0.0)) is not None:
+            if message.arbitration_id in self._slots:
+                self.late_frames += 1
+            else:
+                self._other(message.arbitration_id, message.data, message.timestamp)
 
     def give_up(self, slots: Iterable[int]) -> None:
         """Wait no longer for the answers of some slots; they count as missing."""

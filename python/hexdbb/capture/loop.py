@@ -7,8 +7,9 @@ SYNC no other frame order exists on the bus.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TypeVar
 
 import can
 
@@ -19,6 +20,7 @@ from hexdbb.capture.settings import CONTROLLER_NODE
 
 HEARTBEAT_BASE = 0x700
 NMT_OPERATIONAL = 0x05
+T = TypeVar("T")
 PAUSE_POLL_S = 0.005
 STALL_PATIENCE = 8
 """Times a rig that does not answer at all is waited for in lockstep: it is held up, or gone."""
@@ -36,7 +38,7 @@ class Loop:
 
     Attributes
     ----------
-    slot : number of the slot of the last SYNC, missed ones counted: time in units of the cycle
+    slot : number of the slot of the last SYNC, missed ones counted, held ones not: time of motion in cycles
     missed : slots missed so far
     counts : targets sent last
     """
@@ -70,15 +72,20 @@ class Loop:
         self.last_missed = self.clock.wait()
         self.missed += self.last_missed
         self.slot += 1 + self.last_missed
+        if self.clock.real_time:
+            self._exchange.drain()
         self._exchange.send_sync()
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
         if len(feedback.missing) == SLOTS and not self.clock.real_time:
             self._wait_for_any(controlwords, counts)
         return feedback
 
-    def give_up(self, slots: Iterable[int]) -> None:
-        """Wait no longer for the answers of some slots."""
+    def give_up(self, slots: Collection[int]) -> Collection[int]:
+        """Wait no longer for the answers of some slots; returns them; none in real time: waiting is free."""
+        if self.clock.real_time:
+            return ()
         self._exchange.give_up(slots)
+        return slots
 
     def _wait_for_any(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
         """Wait longer for a SYNC nobody has answered, targets kept alive.
@@ -90,14 +97,19 @@ class Loop:
             if len(self._exchange.collect(self.clock.answer_timeout_s()).missing) < SLOTS:
                 return
 
-    def hold_while(self, work: Callable[[], None], controlwords: Sequence[int]) -> None:
-        """Hold the present targets while `work` runs in a thread that may use SDO; its exception is raised here.
+    def restart_time(self) -> None:
+        """Count time from here on: the next SYNC is in slot 0."""
+        self.slot = -1
+        self.missed = 0
+
+    def hold_while(self, work: Callable[[], T], controlwords: Sequence[int]) -> T:
+        """Hold the present targets while `work` runs in a thread that may use SDO; its result or exception comes back.
 
         In lockstep no SYNC is sent meanwhile, so that the number of cycles does not depend on how long it takes.
         """
-        counts = list(self.counts)
+        counts, slot = list(self.counts), self.slot
         with ThreadPoolExecutor(1, thread_name_prefix="hexdbb-pause") as pool:
-            future: Future[None] = pool.submit(work)
+            future: Future[T] = pool.submit(work)
             while not future.done():
                 if self.clock.real_time:
                     self.cycle(controlwords, counts)
@@ -105,7 +117,8 @@ class Loop:
                     self._send(controlwords, counts)
                     self._exchange.listen(PAUSE_POLL_S)
             self._link.flush()
-        future.result()
+        self.slot = slot
+        return future.result()
 
     def _send(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
         self.counts = list(counts)

@@ -148,7 +148,7 @@ class Motion:
             fault = find_fault(watch)
             if fault is not None:
                 raise MotionFaultError(fault)
-            if row and not feedback.missing:
+            if row and feedback.settled:
                 keep(row - 1, feedback)
 
     def stop(self) -> list[str]:
@@ -166,14 +166,14 @@ class Motion:
         end_s = time.monotonic() + 2.0 * STOP_TIMEOUT_S
         try:
             for _ in range(round(STOP_TIMEOUT_S / self._cycle_s)):
-                loop.give_up(supervision.silent())
+                given_up = loop.give_up(supervision.silent())
                 feedback = loop.cycle([Command.QUICK_STOP] * 6, frozen)
                 supervision.count_missing(feedback)
                 for slot, position in enumerate(feedback.position):
                     rests = slot not in feedback.missing and abs(position - before[slot]) <= STAND_COUNTS
                     still[slot] = still[slot] + 1 if rests else 0
                 before = list(feedback.position)
-                done = all(self._stopped(slot, still) or slot in supervision.silent() for slot in range(6))
+                done = all(self._stopped(slot, still) or slot in given_up for slot in range(6))
                 if done or time.monotonic() > end_s:
                     break
         except (can.CanError, OSError) as error:

@@ -15,19 +15,21 @@ from pathlib import Path
 
 import can
 import numpy as np
+from numpy.typing import NDArray
 
-from hexdbb import __version__
 from hexdbb.capture.boot import Devices, add_devices, boot, release
 from hexdbb.capture.bus_load import check_load
 from hexdbb.capture.checks import Fault, Watch
+from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange, Feedback
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import Motion, MotionFaultError
 from hexdbb.capture.samples import Samples
+from hexdbb.capture.settings import check_counts, interpolation_period
 from hexdbb.capture.setup import Confirm, pauses, setup_changes
-from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.supervision import SILENT_AFTER, Supervision
 from hexdbb.errors import RunError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
@@ -74,6 +76,7 @@ class Request:
     record : path of the record to be made
     overwrite : whether an existing record may be replaced
     confirm : asks the operator to mount the bar; None where nobody has to
+    silent_after : SYNCs in a row a node may leave unanswered before all axes stop
     metadata : what else to keep in the record
     """
 
@@ -84,6 +87,7 @@ class Request:
     record: Path
     overwrite: bool = False
     confirm: Confirm | None = None
+    silent_after: int = SILENT_AFTER
     metadata: dict[str, object] = field(default_factory=dict)
 
 
@@ -97,6 +101,8 @@ def prepare(request: Request) -> Programme:
     """
     can_setup = request.machine.can_setup
     check_load(1.0 / request.cycle_s, can_setup.bitrate_bit_s, len(can_setup.drive_nodes))
+    interpolation_period(request.cycle_s)
+    check_counts(request.machine)
     return plan_programme(request.plan, request.machine, request.cycle_s, request.origin)
 
 
@@ -151,7 +157,9 @@ class _Run:
         self.counts_per_mm = can_setup.counts_per_mm
         labels = tuple(device.label for device in devices)
         limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
-        supervision = Supervision(labels, [device.node_id for device in devices], link.notify, limit_s)
+        supervision = Supervision(
+            labels, [device.node_id for device in devices], link.notify, limit_s, request.silent_after
+        )
         exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
         self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0)
         self.watch = Watch(
@@ -172,18 +180,7 @@ class _Run:
         self.progress.stage = "asking where the axes stand"
         stand_mm = np.array(self.motion.stand()) / self.counts_per_mm
         self.motion.check_homed()
-        way = approach(stand_mm, self.programme, self.request.machine, self.request.origin)
-        programme = self.programme.after(way)
-        plan = self.request.plan
-        journal = Journal(
-            self.request.record,
-            machine=self.request.machine,
-            gauge=plan.gauge,
-            mounts=plan.mounts,
-            circles=plan.circles,
-            metadata={**self.request.metadata, "hexdbb_version": __version__},
-            overwrite=self.request.overwrite,
-        )
+        programme, journal = self.loop.hold_while(lambda: self._made_ready(stand_mm), [Command.DISABLE_VOLTAGE] * 6)
         with journal:
             samples = Samples(programme, journal, self.counts_per_mm)
             cause = self._move(programme, samples)
@@ -195,6 +192,21 @@ class _Run:
         if cause is not None:
             raise RunError(f"{cause}; {samples.count} samples kept in {record.path}, marked incomplete")
         return record
+
+    def _made_ready(self, stand_mm: NDArray[np.float64]) -> tuple[Programme, Journal]:
+        """Compute the way from where the axes stand, and open the journal."""
+        request, plan = self.request, self.request.plan
+        way = approach(stand_mm, self.programme, request.machine, request.origin)
+        journal = Journal(
+            request.record,
+            machine=request.machine,
+            gauge=plan.gauge,
+            mounts=plan.mounts,
+            circles=plan.circles,
+            metadata=request.metadata,
+            overwrite=request.overwrite,
+        )
+        return self.programme.after(way), journal
 
     def _move(self, programme: Programme, samples: Samples) -> str | None:
         """Enable, follow, disable; returns the cause where a fault stopped it."""
@@ -213,6 +225,7 @@ class _Run:
         table, progress = programme.table, self.progress
         progress.programme, progress.rows, progress.stage = programme, len(table), "moving"
         capture = table.capture.tolist()
+        self.loop.restart_time()
 
         def keep(row: int, feedback: Feedback) -> None:
             progress.row, progress.slot, progress.reading_um = row, self.loop.slot, feedback.reading_um

@@ -21,6 +21,7 @@ QUICK_STOP_AND_STAY = 6
 ABORT_CONNECTION_QUICK_STOP = 3
 """6007h: quick stop when the connection is lost."""
 FOLLOWING_ERROR_TIME_MS = 10
+MAX_COUNTS = 2**31 - 1
 MICROMETRE = 0xFA010000
 """Unit of CiA 303-2: prefix 10^-6, metre."""
 
@@ -96,6 +97,17 @@ def interpolation_period(cycle_s: float) -> tuple[int, int]:
         f"cycle rate {1.0 / cycle_s:g} Hz: the period {cycle_s * 1e3:.6g} ms does not fit object 60C2h "
         "(expected a period of 1 to 255 units of 1 ms, 0.1 ms, 0.01 ms or 1 µs, such as 250 Hz)"
     )
+
+
+def check_counts(machine: MachineFile) -> None:
+    """Raise `InputError` where the travel, in counts, does not fit the 32 bits of object 607Ah."""
+    scale = machine.can_setup.counts_per_mm
+    for end_mm in machine.sliders.travel_mm:
+        if abs(end_mm * scale) > MAX_COUNTS:
+            raise InputError(
+                f"{machine.path or machine.name}: can.counts_per_mm: {scale:g} "
+                f"(expected at most {MAX_COUNTS / abs(end_mm):.0f}: {end_mm:g} mm must fit 32 bits)"
+            )
 
 
 def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:

@@ -17,8 +17,8 @@ from hexdbb.capture.exchange import SLOTS, Feedback
 EMCY_BASE, HEARTBEAT_BASE = 0x080, 0x700
 NODE_MASK = 0x7F
 NO_ERROR = 0x0000
-MISSING_IN_A_ROW = 3
-"""SYNCs a node may leave unanswered before it counts as silent."""
+SILENT_AFTER = 3
+"""SYNCs in a row a node leaves unanswered before it counts as silent."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,7 @@ class Supervision:
     nodes : node id of each slot
     passed_on : called with every frame, for SDO answers
     heartbeat_limit_s : age at which a heartbeat counts as lost
+    silent_after : SYNCs in a row a node leaves unanswered before it counts as silent
 
     Attributes
     ----------
@@ -54,6 +55,7 @@ class Supervision:
     nodes: Sequence[int]
     passed_on: Callable[[int, bytearray, float], None]
     heartbeat_limit_s: float
+    silent_after: int = SILENT_AFTER
     emergencies: dict[int, Emergency] = field(default_factory=dict)
     nmt_states: dict[int, int] = field(default_factory=dict)
     heard_s: dict[int, float] = field(default_factory=dict)
@@ -80,8 +82,8 @@ class Supervision:
         ]
 
     def silent(self) -> list[int]:
-        """Slots whose answers have stayed out `MISSING_IN_A_ROW` times in a row."""
-        return [slot for slot, count in enumerate(self.missing_in_a_row) if count >= MISSING_IN_A_ROW]
+        """Slots whose answers have stayed out `silent_after` times in a row."""
+        return [slot for slot, count in enumerate(self.missing_in_a_row) if count >= self.silent_after]
 
     def late_heartbeat(self) -> tuple[int, float] | None:
         """Slot and age (s) of a heartbeat that is lost; nodes are watched from their first heartbeat on (CiA 301)."""

@@ -17,6 +17,8 @@ from hexdbb.errors import InputError
 
 EXAMPLES = "socketcan:can0, pcan:PCAN_USBBUS1, kvaser:0, socketcand:127.0.0.1:29536"
 CONNECT_TIMEOUT_S = 3.0
+DRIVER_ERRORS = (can.CanError, OSError, OverflowError, ImportError, ValueError, TypeError, NameError)
+"""What python-can's interfaces raise where bus, channel or the maker's library is not there (kvaser: NameError)."""
 SOCKETCAND_CHANNEL = "can0"
 
 
@@ -40,7 +42,7 @@ def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
         try:
             arguments = ARGUMENTS.get(interface, _with_bitrate)(channel, bitrate_bit_s, until_open)
             return can.Bus(interface=interface, **arguments)
-        except (can.CanError, OSError, OverflowError, ImportError, ValueError, TypeError) as error:
+        except DRIVER_ERRORS as error:
             line = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
             raise InputError(f"--bus {spec}: not there: {line} (expected a bus, for example {EXAMPLES})") from error
 

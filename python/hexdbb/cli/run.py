@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import can
@@ -24,6 +25,9 @@ from hexdbb.errors import InputError
 from hexdbb.plan import load_plan
 from hexdbb.record import Record
 from hexdbb.trajectory import Programme
+
+SIMULATED_SILENT_AFTER = 25
+"""A simulated rig on a busy desktop may be held up for longer than a real node, and can break nothing."""
 
 HELP = """Drive a plan's circles and record slider positions and ball-bar readings.
 
@@ -91,7 +95,11 @@ def command(
     if rig_options and not simulated:
         raise InputError(f"{rig_options[0]}: is an option of the simulated rig (expected no --bus with it)")
     refuse_existing(record, overwrite)
-    request = _request(plan_name, record, rate_hz, overwrite, None if simulated or yes else _ask(console))
+    request = _request(plan_name, record, rate_hz, overwrite)
+    if simulated:
+        request = replace(request, silent_after=SIMULATED_SILENT_AFTER)
+    elif not yes:
+        request = replace(request, confirm=_ask(console))
     lockstep = simulated if lockstep is None else lockstep
     programme = prepare(request)
     console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
@@ -110,7 +118,7 @@ def main() -> None:
     reports_errors(command)
 
 
-def _request(plan_name: str, record: Path, rate_hz: float | None, overwrite: bool, confirm: Confirm | None) -> Request:
+def _request(plan_name: str, record: Path, rate_hz: float | None, overwrite: bool) -> Request:
     plan = load_plan(plan_name)
     machine = plan.machine_file()
     if record.suffix != ".parquet":
@@ -118,7 +126,7 @@ def _request(plan_name: str, record: Path, rate_hz: float | None, overwrite: boo
     rate_hz = rate_hz or machine.can_setup.cycle_rate_hz
     metadata: dict[str, object] = {"plan": plan_name, "cycle_rate_hz": rate_hz}
     origin = str(plan.path) if plan.path is not None and Path(plan_name).exists() else plan_name
-    return Request(plan, machine, origin, 1.0 / rate_hz, record, overwrite, confirm, metadata)
+    return Request(plan, machine, origin, 1.0 / rate_hz, record, overwrite, metadata=metadata)
 
 
 def _rig_options(truth: Path | None, seed: int | None, faults: tuple[str, ...]) -> list[str]:

@@ -89,7 +89,7 @@ class _Maker:
         limits = path_limits(
             one_turn,
             self.machine,
-            lambda row: describe(self.origin, self.runs, Phase.ARC, index, run.direction * row * PROBE_DEG),
+            lambda row: describe(self.origin, self.runs, Phase.ARC, index, row * PROBE_DEG),
         )
         limits = replace(limits, velocity_mm_s=run.feed_mm_min / 60.0)
         overshoot_mm = radius_mm * math.radians(self.overshoot_deg)
