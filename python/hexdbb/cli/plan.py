@@ -18,6 +18,7 @@ from hexdbb.trajectory import Programme, plan_programme
 
 LIMITED = (("velocity", "mm_s"), ("acceleration", "mm_s2"), ("jerk", "mm_s3"))
 """Rates of the sliders that have a limit, in order of differentiation, with the unit of their keys."""
+HEADINGS = ("circle", "mm/min", "sense", "samples", "travel", "gap", "velocity %", "accel. %", "jerk %")
 
 
 @click.group("plan")
@@ -98,16 +99,7 @@ def _print(
     """Print the table for people."""
     limits = machine.can_setup.limits
     sheet = Sheet(title=f"plan {plan_name}: within reach and limits", title_justify="left", box=SIMPLE_HEAD)
-    headings = (
-        "circle",
-        "mm/min",
-        "sense",
-        "samples",
-        "travel left",
-        "gap left",
-        *(f"{name} %" for name, _ in LIMITED),
-    )
-    for heading in headings:
+    for heading in HEADINGS:
         sheet.add_column(heading, justify="right", no_wrap=True)
     for run in runs:
         shares = [100.0 * run[f"{name}_{unit}"] / getattr(limits, f"{name}_{unit}") for name, unit in LIMITED]

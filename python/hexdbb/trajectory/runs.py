@@ -97,7 +97,9 @@ class _Maker:
         angle_rad = run.direction * law.u_mm / radius_mm
         poses = circle_poses(run, angle_rad, np.full_like(angle_rad, radius_mm))
         lap = np.where(law.capture, np.floor((law.u_mm + SAME_POSE_MM) / turn_mm).astype(np.int64), -1)
-        return Stretch(Phase.ARC, index, *poses, np.mod(np.degrees(angle_rad), 360.0), lap, law.capture)
+        # Twice, because the remainder of a tiny negative angle rounds to 360 itself.
+        angle_deg = np.degrees(angle_rad) % 360.0 % 360.0
+        return Stretch(Phase.ARC, index, *poses, angle_deg, lap, law.capture)
 
     def transfer(self, index: int, before: Stretch, after: Stretch) -> list[Stretch]:
         """From the end of one run to the beginning of the next; nothing where they are one place."""

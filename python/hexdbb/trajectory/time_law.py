@@ -68,6 +68,7 @@ def feed_law(overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s
     lead_mm = ramp_mm + overshoot_mm + (lead_cycles * cycle_s - to_capture_s) * feed_mm_s
     trajectory = _fastest(capture_mm + 2 * lead_mm, limits)
     u_mm = _sampled(trajectory, math.ceil(trajectory.duration / cycle_s), cycle_s) - lead_mm
+    u_mm[lead_cycles] = 0.0  # where it is but for rounding
     capture = (np.arange(len(u_mm)) >= lead_cycles) & (u_mm < capture_mm - ROUNDING)
     return FeedLaw(u_mm, capture, lead_mm)
 
