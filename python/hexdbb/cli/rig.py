@@ -33,7 +33,7 @@ Examples:
   hexdbb rig --port 29536
   hexdbb rig --truth truth.toml --fault drive-fault:3@2.5=0x2310
   hexdbb rig --seed 7 --write-truth hidden.toml
-  hexdbb-run --plan thesis --bus socketcand:can0@127.0.0.1:29536 -o demo.parquet
+  hexdbb-run --plan thesis --bus socketcand:127.0.0.1:29536 -o demo.parquet
 
 \b
 Faults, KIND[:node][@time_s][=value], time counted from the moment all drives are enabled:

@@ -8,16 +8,19 @@ Source: CiA 301 (data types, SDO abort codes), CiA 306 (EDS).
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import canopen
 from canopen.objectdictionary import ODVariable
+from canopen.objectdictionary.datatypes import INTEGER32, UNSIGNED32
 from canopen.sdo import SdoAbortedError
 
 from hexdbb.errors import InputError
 
 Value = bool | int | float | bytes
+Key = tuple[int, int]
+"""Index and sub-index."""
 WriteHook = Callable[[Value], None]
 """Called with the new value before an SDO download is stored; raises `SdoAbortedError` to refuse it."""
 
@@ -102,45 +105,43 @@ class Dictionary:
         The EDS file.
     node_id : int
         Resolves ``$NODEID`` in the defaults.
+    required : tuple of (index, sub-index)
+        Objects without which the device cannot be what it is.
+    assumed : mapping of (index, sub-index) to value
+        Objects a device may lack; where the EDS does, the device works with this value and nobody sees it on the bus.
 
     Raises
     ------
     InputError
-        The file is not there or not an EDS.
+        The file is not there, or lacks a required object.
     """
 
-    def __init__(self, eds: Path, node_id: int) -> None:
+    def __init__(
+        self, eds: Path, node_id: int, required: Sequence[Key] = (), assumed: Mapping[Key, int] | None = None
+    ) -> None:
         if not eds.is_file():
             raise InputError(f"{eds}: no such file (expected the EDS of node {node_id})")
         with eds.open(encoding="latin-1") as file:
             self.od = canopen.import_od(file, node_id)
-        self.hooks: dict[tuple[int, int], WriteHook] = {}
-        self._entries: dict[tuple[int, int], Entry] = {}
+        self.hooks: dict[Key, WriteHook] = {}
+        self._entries: dict[Key, Entry] = {}
         for item in self.od.values():
             for variable in [item] if isinstance(item, ODVariable) else item.values():
                 self._entries[variable.index, variable.subindex] = Entry(variable)
-        if (0x1000, 0) not in self._entries:
-            raise InputError(f"{eds}: object 1000h is missing (expected the EDS of a CANopen device)")
         self._indices = {index for index, _ in self._entries}
+        for index, subindex in required:
+            if (index, subindex) not in self._entries:
+                raise InputError(f"{eds}: object {index:04X}h:{subindex:02X} is missing (expected for node {node_id})")
+        self._inner = dict(self._entries)
+        for key, value in (assumed or {}).items():
+            self._inner.setdefault(key, _unseen(key, value))
 
-    def __iter__(self) -> Iterator[Entry]:
-        return iter(self._entries.values())
-
-    def __contains__(self, key: tuple[int, int]) -> bool:
+    def __contains__(self, key: Key) -> bool:
         return key in self._entries
 
     def entry(self, index: int, subindex: int = 0) -> Entry:
-        """Give one entry.
-
-        Raises
-        ------
-        SdoAbortedError
-            There is no such object or sub-index.
-        """
-        found = self._entries.get((index, subindex))
-        if found is None:
-            raise SdoAbortedError(ABORT_NO_SUBINDEX if index in self._indices else ABORT_NO_OBJECT)
-        return found
+        """Give one entry to the device itself: of the EDS, or assumed."""
+        return self._inner[index, subindex]
 
     def number(self, index: int, subindex: int = 0) -> int:
         """Give the value of an integer entry."""
@@ -152,14 +153,14 @@ class Dictionary:
 
     def upload(self, index: int, subindex: int) -> bytes:
         """Answer an SDO upload; raises `SdoAbortedError` where it is not allowed."""
-        entry = self.entry(index, subindex)
+        entry = self._seen(index, subindex)
         if not entry.readable:
             raise SdoAbortedError(ABORT_READ_WRITE_ONLY)
         return entry.encode()
 
     def download(self, index: int, subindex: int, data: bytes) -> None:
         """Take an SDO download; raises `SdoAbortedError` where it is not allowed."""
-        entry = self.entry(index, subindex)
+        entry = self._seen(index, subindex)
         if not entry.writable:
             raise SdoAbortedError(ABORT_WRITE_READ_ONLY)
         value = entry.decode(data)
@@ -167,3 +168,15 @@ class Dictionary:
         if hook is not None:
             hook(value)
         entry.value = value
+
+    def _seen(self, index: int, subindex: int) -> Entry:
+        found = self._entries.get((index, subindex))
+        if found is None:
+            raise SdoAbortedError(ABORT_NO_SUBINDEX if index in self._indices else ABORT_NO_OBJECT)
+        return found
+
+
+def _unseen(key: Key, value: int) -> Entry:
+    variable = ODVariable("assumed", *key)
+    variable.data_type, variable.default = INTEGER32 if value < 0 else UNSIGNED32, value
+    return Entry(variable)

@@ -11,12 +11,13 @@ from __future__ import annotations
 import logging
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from canopen.sdo import SdoAbortedError
 
 from hexdbb.rig import cia402
 from hexdbb.rig.cia402 import State
-from hexdbb.rig.dictionary import ABORT_VALUE_RANGE, Value
+from hexdbb.rig.dictionary import ABORT_VALUE_RANGE, Key, Value
 from hexdbb.rig.node import CURRENT, GENERIC, PROFILE, Node, Send
 from hexdbb.rig.servo import ServoAxis
 
@@ -58,6 +59,30 @@ class DriveNode(Node):
     """
 
     device_name = b"simulated CiA 402 drive"
+    required = (
+        *Node.required,
+        *((0x1400, 1), (0x1600, 0)),
+        *((index, 0) for index in (0x6040, 0x6041, 0x6060, 0x6061, 0x6064, 0x607A)),
+    )
+    assumed: ClassVar[dict[Key, int]] = {
+        **Node.assumed,
+        (0x6007, 0): ABORT_QUICK_STOP,
+        (0x605A, 0): 2,
+        (0x603F, 0): 0,
+        (0x606C, 0): 0,
+        (0x60F4, 0): 0,
+        (0x60FD, 0): 0,
+        (0x6065, 0): 10_000,
+        (0x6066, 0): 20,
+        (0x607F, 0): 5_000_000,
+        (0x6085, 0): 20_000_000,
+        (0x607D, 1): 0,
+        (0x607D, 2): 0,
+        (0x608F, 1): 1,
+        (0x6092, 1): 1,
+        (0x60C2, 1): 4,
+        (0x60C2, 2): -3,
+    }
 
     def __init__(self, node_id: int, eds: Path, send: Send, setup: DriveSetup, stall_tolerance_s: float = 0.0) -> None:
         self.setup = setup

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
-from hexdbb.rig.dictionary import Value
+from hexdbb.rig.dictionary import Key, Value
 from hexdbb.rig.node import Node, Send
 from hexdbb.rig.plant import Mounted
 
@@ -41,6 +42,15 @@ class GaugeNode(Node):
     """
 
     device_name = b"simulated CiA 404 ball bar gauge"
+    required = (*Node.required, *((0x2100, subindex) for subindex in range(1, 9)), (0x6130, 1), (0x6150, 1))
+    assumed: ClassVar[dict[Key, int]] = {
+        **Node.assumed,
+        (0x2101, 1): 0,
+        (0x2101, 2): 0,
+        (0x6126, 1): 1,
+        (0x6132, 1): 1,
+        (0x9130, 1): 0,
+    }
 
     def __init__(self, node_id: int, eds: Path, send: Send, setup: GaugeSetup, stall_tolerance_s: float = 0.0) -> None:
         self.setup = setup

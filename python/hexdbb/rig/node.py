@@ -12,10 +12,11 @@ import logging
 from collections.abc import Callable
 from enum import IntEnum
 from pathlib import Path
+from typing import ClassVar
 
 from canopen.sdo import SdoServer
 
-from hexdbb.rig.dictionary import Dictionary
+from hexdbb.rig.dictionary import Dictionary, Key
 from hexdbb.rig.pdo import MAX_SYNC_TYPE, Pdo
 
 log = logging.getLogger(__name__)
@@ -83,6 +84,19 @@ class Node:
     """
 
     device_name = b"simulated node"
+    required: tuple[Key, ...] = ((0x1000, 0), (0x1800, 1), (0x1A00, 0))
+    """Objects its EDS must have."""
+    assumed: ClassVar[dict[Key, int]] = {
+        (0x1001, 0): 0,
+        (0x1006, 0): 0,
+        (0x1008, 0): 0,
+        (0x1016, 1): 0,
+        (0x1017, 0): 0,
+        (0x1018, 4): 0,
+        (0x1029, 1): 0,
+        **{(0x1003, subindex): 0 for subindex in range(5)},
+    }
+    """What it works with where its EDS lacks an object."""
 
     def __init__(self, node_id: int, eds: Path, send: Send, stall_tolerance_s: float = 0.0) -> None:
         self.node_id = node_id
@@ -95,7 +109,7 @@ class Node:
 
     def _power_up(self) -> None:
         """Set everything to its power-on state (also NMT reset)."""
-        self.dictionary = Dictionary(self._eds, self.node_id)
+        self.dictionary = Dictionary(self._eds, self.node_id, self.required, self.assumed)
         self.dictionary.entry(0x1008).value = self.device_name
         self.dictionary.entry(0x1018, 4).value = self.node_id
         self.dictionary.hooks[0x1016, 1] = self._watch_heartbeat
