@@ -12,8 +12,9 @@ import click
 
 from hexdbb.errors import InputError
 from hexdbb.machine import load_machine, shipped_machine
-from hexdbb.rig.bus import Frame, Rig
+from hexdbb.rig.bus import Rig
 from hexdbb.rig.faults import FAULTS, parse_fault
+from hexdbb.rig.frame import Frame
 from hexdbb.rig.socketcand import SocketcandServer
 from hexdbb.rig.truth import RANDOM_SEED, TruthFile, random_truth
 from hexdbb.validation import dump_toml, load_toml

@@ -21,16 +21,15 @@ from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile, shipped
 from hexdbb.rig.drive import DriveNode, DriveSetup
 from hexdbb.rig.faults import Injection
+from hexdbb.rig.frame import HEARTBEAT_BASE, NMT, SDO_REQUEST_BASE, SYNC, Frame
 from hexdbb.rig.gauge import GaugeNode, GaugeSetup
 from hexdbb.rig.geometry import Array, rotation_rpy, true_geometry
-from hexdbb.rig.node import HEARTBEAT_BASE, SDO_REQUEST_BASE, Node
+from hexdbb.rig.node import Node
 from hexdbb.rig.plant import Plant
 from hexdbb.rig.truth import TruthFile
 
 log = logging.getLogger(__name__)
 
-Frame = tuple[int, bytes]
-NMT, SYNC = 0x000, 0x080
 COAST_AFTER_S = 0.1
 """A drive that must stop waits this long for a SYNC to move in."""
 COAST_LIMIT_S = 10.0

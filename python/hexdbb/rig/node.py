@@ -17,13 +17,13 @@ from typing import ClassVar
 from canopen.sdo import SdoServer
 
 from hexdbb.rig.dictionary import Dictionary, Key
+from hexdbb.rig.frame import EMCY_BASE, HEARTBEAT_BASE, SDO_REQUEST_BASE, SDO_RESPONSE_BASE
 from hexdbb.rig.pdo import MAX_SYNC_TYPE, Pdo
 
 log = logging.getLogger(__name__)
 
 Send = Callable[[int, bytes], None]
 
-EMCY_BASE, SDO_RESPONSE_BASE, SDO_REQUEST_BASE, HEARTBEAT_BASE = 0x80, 0x580, 0x600, 0x700
 ERROR_HEARTBEAT, ERROR_RPDO_TIMEOUT, ERROR_PDO_LENGTH = 0x8130, 0x8250, 0x8210
 GENERIC, CURRENT, VOLTAGE, COMMUNICATION, PROFILE = 0x01, 0x02, 0x04, 0x10, 0x20
 """Bits of the error register 1001h."""

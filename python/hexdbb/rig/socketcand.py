@@ -17,10 +17,10 @@ import time
 from collections.abc import Callable
 
 from hexdbb.errors import InputError
+from hexdbb.rig.frame import Frame
 
 log = logging.getLogger(__name__)
 
-Frame = tuple[int, bytes]
 POLL_S = 0.002
 RECEIVE_BYTES = 65536
 LONGEST_MESSAGE = 200
