@@ -106,8 +106,9 @@ def _serve(rig: Rig, port: int, outlet: list[SocketcandServer], *, once: bool, e
 
     server = SocketcandServer(port, rig.receive, poll, last_client_gone)
     outlet.append(server)
-    for number in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(number, lambda *_: server.stop())
+    signal.signal(signal.SIGTERM, lambda *_: server.stop())
+    # Ctrl-C reaches the controller too, which needs the bus to stop the axes.
+    signal.signal(signal.SIGINT, lambda *_: server.stop_when_alone())
     click.echo(READY.format(port=server.port))
     sys.stdout.flush()
     server.serve()

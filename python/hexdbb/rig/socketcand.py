@@ -82,7 +82,7 @@ class SocketcandServer:
             raise InputError(f"--port {port}: {error.strerror} (expected a free port, or 0)") from None
         self._listener.listen()
         self._selector.register(self._listener, selectors.EVENT_READ)
-        self._running = True
+        self._running, self._ending = True, False
 
     @property
     def port(self) -> int:
@@ -92,6 +92,12 @@ class SocketcandServer:
     def stop(self) -> None:
         """Make `serve` return; may be called from a signal handler or a callback."""
         self._running = False
+
+    def stop_when_alone(self) -> None:
+        """Make `serve` return once no client is connected; asked twice, at once."""
+        if self._ending or not self._clients:
+            self.stop()
+        self._ending = True
 
     def serve(self) -> None:
         """Serve until told to stop."""
@@ -152,6 +158,7 @@ class SocketcandServer:
         log.info("client disconnected")
         if not self._clients:
             self._on_last_client_gone()
+            self._running = self._running and not self._ending
 
     def _read(self, client: _Client) -> None:
         try:

@@ -239,6 +239,25 @@ def test_ends_on_sigterm_and_speaks_only_its_one_line(rig_process):
         assert out == ""
 
 
+def test_ctrl_c_leaves_the_bus_to_the_controller_until_it_has_gone(rig_process, connect):
+    with rig_process() as (port, process):
+        controller = connect(port)
+        at = controller.ready()
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.2)
+        words = controller.statuswords(controller.cycle(0x02, at))
+        assert all(word & 0x006F == 0x0027 for word in words)
+        assert all(word & 0x006F == 0x0040 for word in controller.statuswords(controller.cycle(0x00, at)))
+        controller.close()
+        assert process.wait(20.0) == 0
+
+
+def test_ctrl_c_without_a_controller_ends_at_once(rig_process):
+    with rig_process() as (_, process):
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20.0) == 0
+
+
 def test_two_clients_share_one_bus(rig_process, connect):
     with rig_process() as (port, _):
         first, second = connect(port), connect(port)
