@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -116,3 +118,13 @@ def test_screw_and_drift():
 def test_every_registered_mechanism_is_named_by_its_kind():
     for kind, table in MECHANISMS.items():
         assert table.model_fields["kind"].annotation.__args__ == (kind,)
+
+
+def test_example_of_the_manual_loads(tmp_path):
+    manual = (Path(__file__).parents[3] / "docs" / "simulated-rig.md").read_text(encoding="utf-8")
+    example = manual.split("```toml\n")[1].split("```")[0]
+    path = tmp_path / "truth.toml"
+    path.write_text(example, encoding="utf-8")
+    truth = load_toml(path, TruthFile)
+    assert [table.kind for table in truth.mechanism] == list(MECHANISMS)
+    assert truth.model_fields_set == set(TruthFile.model_fields)
