@@ -22,7 +22,6 @@ PACKAGE = ROOT / "python" / "hexdbb"
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
     "units": set(),
-    "redundancy": set(),
     "_core": set(),
     "atomic_file": {"errors"},
     "validation": {"errors"},
@@ -35,6 +34,7 @@ ALLOWED: dict[str, set[str]] = {
     # the machine's line
     "kinematics": {"errors", "machine", "_core"},
     "model": {"errors", "validation", "atomic_file", "units", "machine", "kinematics", "_core"},
+    "redundancy": {"model"},
     "noise": {"record"},
     "prediction": {"errors", "record", "kinematics", "model", "_core"},
     "diagnosis": {"errors", "units", "record", "model", "noise", "prediction", "redundancy", "_core"},
