@@ -13,7 +13,7 @@ PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
 CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
 CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
 CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) -name '*.[ch]pp' -o -name '*.h')
-PYTHON_SOURCES := python tests/python scripts firmware_interfaces
+PYTHON_SOURCES := python tests/python scripts firmware_interfaces cpp/bench
 
 MAKEFLAGS += --no-print-directory
 .DELETE_ON_ERROR:
@@ -80,10 +80,10 @@ demo: setup  ## a circular test on the simulated rig, diagnosed and compared
 	@PATH="$(CURDIR)/$(BIN):$$PATH" scripts/demo.sh
 
 .PHONY: bench
-bench: setup  ## benchmarks
+bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md
 	@$(STEP) "Configure the benchmarks" cmake --preset bench
 	@$(STEP) "Compile the benchmarks" cmake --build --preset bench
-	@build/bench/cpp/bench/hexdbb_bench
+	@$(BIN)/python cpp/bench/report.py build/bench/cpp/bench/hexdbb_bench --output docs/benchmarks.md
 
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 
