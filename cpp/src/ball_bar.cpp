@@ -132,7 +132,7 @@ bool reading_sensitivity_six(const NominalGeometry& nominal, const Mechanism& me
   wanted << along.direction, along.arm.cross(along.direction);
   const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> lu(wrench);
   const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff() > kSingularRatio * pivots.maxCoeff())) return false;
+  if (!(pivots.minCoeff<Eigen::PropagateNaN>() > kSingularRatio * pivots.maxCoeff())) return false;
   fill(nominal, mechanism, pose, along, leg, lu.solve(wanted), sensitivity);
   return true;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "multiversion.hpp"
 #include "rssr_kernel.hpp"
@@ -142,6 +143,7 @@ ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triang
     }
     const rssr::LoopJacobian<double> jacobian = rssr::loop_jacobian(circle, c, s, loops);
     if (!(jacobian.determinant * jacobian.determinant > limit_squared)) {
+      if (std::isnan(out.residual_mm)) out.residual_mm = std::numeric_limits<double>::infinity();
       out.status = Status::kSingular;
       return out;
     }
@@ -173,8 +175,9 @@ ForwardResult forward_six(const Mechanism& mechanism, const Pose& start) noexcep
       error[k] = length - mechanism.leg_length[k];
       jacobian.row(k) << leg.transpose() / length, arm.cross(leg).transpose() / length;
     }
-    out.residual_mm = error.cwiseAbs().maxCoeff();
+    out.residual_mm = error.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!(out.residual_mm < 1e6)) {
+      out.residual_mm = std::numeric_limits<double>::infinity();
       out.pose = start;
       out.status = Status::kUnreachable;
       return out;
@@ -186,7 +189,7 @@ ForwardResult forward_six(const Mechanism& mechanism, const Pose& start) noexcep
       return out;
     }
     const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> lu(jacobian);
-    if (!(lu.matrixLU().diagonal().cwiseAbs().minCoeff() > kSingularRatio)) {
+    if (!(lu.matrixLU().diagonal().cwiseAbs().minCoeff<Eigen::PropagateNaN>() > kSingularRatio)) {
       out.pose = start;
       out.status = Status::kSingular;
       return out;

@@ -1,4 +1,7 @@
 // Unknowns of the set-up: where the cup really is, where the ball really sits, how long the bar really is.
+#include <stdexcept>
+#include <string>
+
 #include "constant_effect.hpp"
 
 namespace hexdbb {
@@ -23,6 +26,11 @@ class CupPosition : public Effect {
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
     for (Eigen::Index row = 0; row < block.count; ++row) {
+      if (3 * block.mount(row) >= values.size()) {
+        throw std::invalid_argument("mount[" + std::to_string(block.first + row) + "] is " +
+                                    std::to_string(block.mount(row)) + ", expected 0 to " +
+                                    std::to_string(values.size() / 3 - 1));
+      }
       ports.block<1, 3>(row, port::kCup) += values.segment<3>(3 * block.mount(row)).transpose();
     }
   }
