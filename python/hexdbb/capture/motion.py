@@ -24,6 +24,7 @@ from hexdbb.capture.cia402 import (
 )
 from hexdbb.capture.exchange import Feedback
 from hexdbb.capture.loop import Loop
+from hexdbb.capture.transport import one_line
 from hexdbb.errors import RunError
 
 STEP_TIMEOUT_S = 2.0
@@ -177,7 +178,9 @@ class Motion:
                 if done or time.monotonic() > end_s:
                     break
         except (can.CanError, OSError) as error:
-            return [f"the bus is gone ({error}): the drives stop by themselves when targets and heartbeat stay out"]
+            return [
+                f"the bus is gone ({one_line(error)}): the drives stop by themselves when targets and heartbeat stay out"
+            ]
         return [self._unstopped(slot) for slot in range(6) if not self._stopped(slot, still)]
 
     def disable(self) -> None:

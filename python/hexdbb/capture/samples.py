@@ -16,8 +16,8 @@ from hexdbb.capture.exchange import Feedback
 from hexdbb.record import SLIDER_COLUMNS, TARGET_COLUMNS, Journal
 from hexdbb.trajectory import Programme
 
-BLOCK = 125
-"""Samples handed over at once: half a second at 250 Hz."""
+BLOCK_S = 0.25
+"""Machine time of the samples handed over at once: with the journal's own period, well under a second is unwritten."""
 MISSED_BEFORE = 1 << 8
 """Bit of the status column: cycles were missed just before this sample. Bits 0-7 are the gauge's status 6150h."""
 
@@ -44,6 +44,7 @@ class Samples:
         self._direction = np.array([run.direction for run in runs])
         self._feed_mm_min = np.array([run.feed_mm_min for run in runs])
         self._block: list[tuple[float, ...]] = []
+        self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
         self.count = 0
 
     def keep(self, row: int, slot: int, missed: int, feedback: Feedback) -> None:
@@ -51,7 +52,7 @@ class Samples:
         status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
         self._block.append((row, slot, status, feedback.reading_um, *feedback.position))
         self.count += 1
-        if len(self._block) >= BLOCK:
+        if len(self._block) >= self._block_size:
             self.flush()
 
     def flush(self) -> None:

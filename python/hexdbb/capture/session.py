@@ -30,6 +30,7 @@ from hexdbb.capture.samples import Samples
 from hexdbb.capture.settings import check_counts, interpolation_period
 from hexdbb.capture.setup import Confirm, pauses, setup_changes
 from hexdbb.capture.supervision import SILENT_AFTER, Supervision
+from hexdbb.capture.transport import one_line
 from hexdbb.errors import RunError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
@@ -245,7 +246,11 @@ class _Run:
         """Stop all axes and say why, when, and whether they all stand."""
         time_s = self.loop.slot * self.request.cycle_s
         self.progress.stage = "stopping all axes"
-        cause = str(error) if isinstance(error, RunError) else str(Fault("bus", f"{error} (expected a working bus)"))
+        cause = (
+            str(error)
+            if isinstance(error, RunError)
+            else str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
+        )
         unstopped = self.motion.stop()
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"
         return f"{cause} at t = {time_s:.3f} s; {outcome}"

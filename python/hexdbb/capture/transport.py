@@ -43,8 +43,15 @@ def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
             arguments = ARGUMENTS.get(interface, _with_bitrate)(channel, bitrate_bit_s, until_open)
             return can.Bus(interface=interface, **arguments)
         except DRIVER_ERRORS as error:
-            line = str(error).strip().splitlines()[0] if str(error).strip() else type(error).__name__
-            raise InputError(f"--bus {spec}: not there: {line} (expected a bus, for example {EXAMPLES})") from error
+            raise InputError(
+                f"--bus {spec}: not there: {one_line(error)} (expected a bus, for example {EXAMPLES})"
+            ) from error
+
+
+def one_line(error: Exception) -> str:
+    """Give the first line of what a driver says; some of python-can's put a traceback behind it."""
+    said = str(error).strip()
+    return said.splitlines()[0] if said else type(error).__name__
 
 
 def _with_bitrate(channel: str, bitrate_bit_s: int, until_open: ExitStack) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from hexdbb.trajectory import Programme, plan_programme
 
 LIMITED = (("velocity", "mm_s"), ("acceleration", "mm_s2"), ("jerk", "mm_s3"))
 """Rates of the sliders that have a limit, in order of differentiation, with the unit of their keys."""
-HEADINGS = ("circle", "mm/min", "sense", "samples", "travel", "gap", "velocity %", "accel. %", "jerk %")
+HEADINGS = ("circle", "mm/min", "sense", "samples", "travel", "gap", "speed%", "accel.%", "jerk%")
 
 
 @click.group("plan")
@@ -98,7 +98,9 @@ def _print(
 ) -> None:
     """Print the table for people."""
     limits = machine.can_setup.limits
-    sheet = Sheet(title=f"plan {plan_name}: within reach and limits", title_justify="left", box=SIMPLE_HEAD)
+    sheet = Sheet(
+        title=f"plan {plan_name}: within reach and limits", title_justify="left", box=SIMPLE_HEAD, pad_edge=False
+    )
     for heading in HEADINGS:
         sheet.add_column(heading, justify="right", no_wrap=True)
     for run in runs:

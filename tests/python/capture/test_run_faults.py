@@ -1,0 +1,172 @@
+"""Every fault stops all six axes together and keeps what was captured; seen in the rig itself, over its bus.
+
+The rig runs as one process, `hexdbb-run` as another. After the run the drives are asked where they are; a drive that
+had not been stopped by then would have been stopped by the rig when its controller left, which its log would say.
+"""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from hexdbb.capture.cia402 import State
+from hexdbb.record import Record, read_record
+
+RATE_HZ = 100.0
+FAULT_S = 6.0
+"""In the middle of the capture, counted from when the drives are enabled."""
+DRIVES = list(range(1, 7))
+
+STOPPED = "all six axes stopped"
+SILENT = "does not answer, not seen to have stopped"
+FAULTS = [
+    # kind of fault, its node, what names the cause, what is said of the axes
+    ("drive-fault:3={time}=0x2310", 3, r"node 3 \(slider 3\): object 6041:00 is \w+h, fault.*EMCY 2310h", STOPPED),
+    (
+        "following-error:1",
+        1,
+        r"node 1 \(slider 1\): object 60(41|64):00 is .*(following error|from its target)",
+        STOPPED,
+    ),
+    ("gauge-out-of-range", 7, r"node 7 \(gauge\): object 6150:01 is 03h, not valid, positive overload", STOPPED),
+    ("gauge-break", 7, r"node 7 \(gauge\): object 6150:01 is 01h, not valid", STOPPED),
+    ("limit-switch:6", 6, r"node 6 \(slider 6\): object 6041:00 is \w+h, quick stop active, EMCY 8612h", STOPPED),
+    ("enable-lost:1", 1, r"node 1 \(slider 1\): object 6041:00 is \w+h, switch on disabled", STOPPED),
+    ("mode-lost:4", 4, r"node 4 \(slider 4\): object 6061:00 is 0 \(expected 8", STOPPED),
+    ("emcy:7", 7, r"node 7 \(gauge\): EMCY FF00h, error register 01h", STOPPED),
+    (
+        "node-missing:5",
+        5,
+        r"node 5 \(slider 5\): TPDO1 has stayed out 3 SYNCs in a row",
+        f"node 5 (slider 5): {SILENT}",
+    ),
+    ("boot-up:2", 2, r"node 2 \(slider 2\): heartbeat says NMT state 0", f"node 2 (slider 2): {SILENT}"),
+]
+
+
+def incomplete(path: Path) -> Record:
+    """Read the record a fault left, and see that it holds good samples up to about the fault, and says that it ends."""
+    record = read_record(path)
+    assert not record.complete
+    assert not path.with_name(path.name + ".journal").exists()
+    assert len(record) > 50
+    assert abs(record.columns["reading_um"]).max() < 1000.0
+    return record
+
+
+@pytest.mark.parametrize(("fault", "node", "cause", "axes"), FAULTS, ids=[row[0].partition(":")[0] for row in FAULTS])
+def test_fault_while_capturing(
+    fault: str,
+    node: int,
+    cause: str,
+    axes: str,
+    start_rig: Callable[..., object],
+    run: Callable[..., subprocess.CompletedProcess[str]],
+    tmp_path: Path,
+) -> None:
+    kind, _, value = fault.partition("={time}")
+    with start_rig("--fault", f"{kind}@{FAULT_S}{value}") as rig:
+        done = run("--bus", rig.bus, "--yes")
+        others = [drive for drive in DRIVES if drive != node]
+        assert rig.states(others) == [State.QUICK_STOP_ACTIVE] * len(others)
+        assert rig.velocities(others) == [0] * len(others)
+        assert "nobody on the bus" not in re.sub(rf"node {node}: .*", "", rig.log.read_text())
+    assert done.returncode == 1, done.stderr
+    message = done.stderr.splitlines()[-1]
+    assert re.match(f"error: {cause}", message)
+    assert axes in message
+    stopped_s = float(re.search(r" at t = ([0-9.]+) s; ", message)[1])
+    record = incomplete(tmp_path / "run.parquet")
+    assert re.search(cause, record.metadata["incomplete_because"])
+    assert f"{len(record)} samples kept" in message
+    # The last good sample is the one before the fault was seen, at most the silence that was waited for earlier.
+    assert stopped_s - 6 / RATE_HZ < record.columns["t_s"][-1] < stopped_s
+
+
+def test_one_answer_that_stays_out_costs_its_sample_and_nothing_else(
+    start_rig: Callable[..., object], run: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
+) -> None:
+    with start_rig("--fault", f"tpdo-missing:3@{FAULT_S}=1") as rig:
+        done = run("--bus", rig.bus, "--yes")
+    assert done.returncode == 0, done.stderr
+    record = read_record(tmp_path / "run.parquet")
+    assert record.complete
+    gaps = [round(gap * RATE_HZ) for gap in record.columns["t_s"][1:] - record.columns["t_s"][:-1]]
+    assert sorted(gaps)[-1] == 3  # the sample itself, and the one after it, whose pairing is not sure
+    assert sorted(gaps)[-2] == 1
+
+
+@pytest.mark.parametrize(
+    ("fault", "cause"),
+    [
+        ("node-missing:2", r"node 2 \(slider 2\): no answer reading 1000:00"),
+        ("node-missing:7", r"node 7 \(gauge\): no answer reading 1000:00"),
+        ("gauge-unit", r"node 7 \(gauge\): object 6131:01 is FD010000h \(expected FA010000h, micrometre\)"),
+        ("not-homed:4", r"node 4 \(slider 4\): object 6041:00 is \w+h, not homed"),
+    ],
+)
+def test_what_is_wrong_before_motion_is_refused_and_nothing_moves(
+    fault: str,
+    cause: str,
+    start_rig: Callable[..., object],
+    run: Callable[..., subprocess.CompletedProcess[str]],
+    tmp_path: Path,
+) -> None:
+    with start_rig("--fault", fault) as rig:
+        done = run("--bus", rig.bus, "--yes")
+        assert "OPERATION_ENABLED" not in rig.log.read_text()
+    assert done.returncode == 1
+    assert re.match(f"error: {cause}", done.stderr.splitlines()[-1])
+    assert list(tmp_path.glob("run*")) == []
+
+
+def wait_for_samples(process: subprocess.Popen[str], record: Path) -> None:
+    """Wait until the journal holds samples."""
+    journal = record.with_name(record.name + ".journal")
+    while not (journal.exists() and journal.stat().st_size):
+        assert process.poll() is None, process.communicate()[1]
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_interrupted_run_stops_and_keeps(
+    number: signal.Signals, start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    with start_rig() as rig:
+        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+        wait_for_samples(process, tmp_path / "run.parquet")
+        process.send_signal(number)
+        _, said = process.communicate(timeout=30)
+        assert rig.states(DRIVES) == [State.QUICK_STOP_ACTIVE] * 6
+        assert rig.velocities(DRIVES) == [0] * 6
+        assert "nobody on the bus" not in rig.log.read_text()
+    assert process.returncode == 1
+    assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
+    record = read_record(tmp_path / "run.parquet")
+    assert not record.complete
+    assert len(record) > 10
+
+
+def test_rig_that_dies_ends_the_run_and_keeps_what_was_captured(
+    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    with start_rig() as rig:
+        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+        wait_for_samples(process, tmp_path / "run.parquet")
+        rig.process.kill()
+        _, said = process.communicate(timeout=60)
+    assert process.returncode == 1
+    message = said.splitlines()[-1]
+    assert re.match(r"error: bus: ", message)
+    assert "the drives stop by themselves" in message or SILENT in message
+    record = read_record(tmp_path / "run.parquet")
+    assert not record.complete
+    assert len(record) > 0
