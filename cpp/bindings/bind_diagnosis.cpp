@@ -8,10 +8,9 @@ namespace py = pybind11;
 namespace {
 
 FitResult fit_with(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, double noise_mm,
-                   bool noise_is_stated, std::vector<bool> free, int max_iterations) {
+                   std::vector<bool> free, int max_iterations) {
   FitOptions options;
   options.noise_mm = noise_mm;
-  options.noise_is_stated = noise_is_stated;
   options.free = std::move(free);
   options.max_iterations = max_iterations;
   return fit(model, samples, measured_mm, options);
@@ -30,8 +29,7 @@ void bind_diagnosis(py::module_& module) {
   py::class_<FitResult>(module, "FitResult", "Estimates, covariance, rank, unidentifiable directions, termination.")
       .def_readonly("values", &FitResult::values)
       .def_readonly("covariance", &FitResult::covariance)
-      .def_readonly("identifiable", &FitResult::identifiable)
-      .def_readonly("identifiability", &FitResult::identifiability)
+      .def_readonly("machine", &FitResult::machine)
       .def_readonly("free_columns", &FitResult::free_columns)
       .def_readonly("residual_mm", &FitResult::residual_mm)
       .def_readonly("rms_before_mm", &FitResult::rms_before_mm)
@@ -41,7 +39,7 @@ void bind_diagnosis(py::module_& module) {
       .def_readonly("usable", &FitResult::usable)
       .def_readonly("termination", &FitResult::termination);
   module.def("fit", &fit_with, py::arg("model"), py::arg("samples"), py::arg("measured_mm"), py::kw_only(),
-             py::arg("noise_mm"), py::arg("noise_is_stated"), py::arg("free") = std::vector<bool>(),
+             py::arg("noise_mm"), py::arg("free") = std::vector<bool>(),
              py::arg("max_iterations") = 50, py::call_guard<py::gil_scoped_release>(),
              "Fit the free values of a model to readings.");
   module.def("expected_sizes", &expected_sizes, py::arg("model"), "Prior sigma of each value of a model.");

@@ -5,10 +5,16 @@
 
 namespace hexdbb {
 
+namespace {
+
+constexpr double kNuisanceRank = 1e-6;
+
+}  // namespace
+
 Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double relative, double absolute) {
   Identifiability out;
   const Eigen::Index unknowns = scaled_jacobian.cols();
-  if (unknowns == 0) return out;
+  if (unknowns == 0 || scaled_jacobian.rows() == 0) return out;
   // The triangular factor has the same singular values and directions as the tall matrix, at a fraction of the work.
   const Eigen::Index rows = std::min(scaled_jacobian.rows(), unknowns);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled_jacobian);
@@ -24,11 +30,12 @@ Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double re
 }
 
 RowMajorMatrix project_out(const RowMajorMatrix& jacobian, const RowMajorMatrix& nuisance) {
-  if (nuisance.cols() == 0) return jacobian;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(nuisance);
-  qr.setThreshold(1e-12);
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(nuisance.rows(), qr.rank());
+  if (nuisance.cols() == 0 || jacobian.cols() == 0) return jacobian;
+  // Columns that the nuisance cannot tell from its others within a millionth must not take part of the rest with them.
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(kNuisanceRank);
+  qr.compute(nuisance);
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(nuisance.rows(), qr.rank());
   return jacobian - basis * (basis.transpose() * jacobian);
 }
 

@@ -1,8 +1,9 @@
-"""Diagnosis: the values of a model's effects that explain readings best, how well they are known, what cannot be.
+"""Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, what cannot be.
 
-Nonlinear least squares over the identifiable directions of the free values (the engine's `diagnosis.hpp`): directions
-no reading can tell keep their place instead of being given a value. A value that is known only in combination with
-others has no uncertainty of its own: its sigma is nan, and `unidentifiable` says with what it is entangled.
+The most probable values given the readings and the expected size of every value (the engine's `diagnosis.hpp`). A value counts
+as identifiable where the readings narrow it to `KNOWN_PART` of its expected size, so that its uncertainty is the readings' and not
+the expectation's. A value that is known only in combination with others has no uncertainty of its own: its sigma is nan, and
+`unidentifiable` says with what it is entangled.
 """
 
 from __future__ import annotations
@@ -25,13 +26,20 @@ from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
 
+KNOWN_PART = 0.2
+"""A value or direction is known where its uncertainty is at most this part of its expected size: the prior's weight is then
+under 4 %."""
+UNKNOWN_PART = 0.5
+"""Of a direction whose uncertainty is above this part of its expected size the readings tell nothing."""
+
 
 @dataclass(frozen=True)
 class Diagnosis:
     """What a fit found.
 
-    `model` has the fitted values; `covariance` (engine units, shape (size, size)) is that of their identifiable part;
-    `identifiable_directions` (size, rank) are unit vectors of scaled values (value / prior sigma), zero where not free.
+    `rank` and `condition` are those of the machine's own values, with all that unknowns of the set-up can explain taken out.
+    `model` has the fitted values; `covariance` (engine units, shape (size, size)) is theirs, expected sizes included, zero
+    where not free.
     """
 
     model: Model
@@ -44,10 +52,23 @@ class Diagnosis:
     iterations: int
     termination: str
     covariance: Floats
-    identifiable_directions: Floats
     residual_mm: Floats
     unidentifiable: tuple[str, ...]
     warnings: tuple[str, ...]
+
+    def known_directions(self) -> tuple[Floats, Floats]:
+        """Combinations of the values that the readings tell.
+
+        Returns
+        -------
+        directions : ndarray, shape (size, k)
+            Orthonormal columns, values in units of their prior sigma, best known first.
+        sigma : ndarray, shape (k,)
+            Standard deviation along each, in the same units; at most `KNOWN_PART`.
+        """
+        variances, directions = _principal(self.covariance, self.model)
+        known = (variances > 0.0) & (variances < KNOWN_PART**2)
+        return directions[:, known], np.sqrt(variances[known])
 
     def to_json(self) -> dict[str, Any]:
         """Give the object that `hexdbb diagnose --json` prints."""
@@ -115,15 +136,14 @@ def diagnose(records: Sequence[Record], model: Model) -> Diagnosis:
         rms_before_um=result.rms_before_mm * 1e3,
         rms_after_um=result.rms_after_mm * 1e3,
         noise_um=noise_mm * 1e3,
-        rank=result.identifiability.rank,
-        condition=result.identifiability.condition,
+        rank=result.machine.rank,
+        condition=result.machine.condition,
         usable=result.usable,
         iterations=result.iterations,
         termination=result.termination,
         covariance=result.covariance,
-        identifiable_directions=_spread(result.identifiability.identifiable, result.free_columns, len(parameters)),
         residual_mm=result.residual_mm,
-        unidentifiable=tuple(sentences(result.identifiability.unidentifiable, free)),
+        unidentifiable=tuple(sentences(_unknown_directions(result.covariance, known, result.free_columns), free)),
         warnings=tuple(_warnings(fitted, result, noise_mm)),
     )
 
@@ -163,7 +183,6 @@ def _fit(records: Sequence[Record], model: Model, free: NDArray[np.bool_]) -> tu
             samples_of(records, model),
             measured,
             noise_mm=noise_mm,
-            noise_is_stated=stated is not None,
             free=[bool(each) for each in free],
         )
     except ValueError as error:
@@ -172,8 +191,9 @@ def _fit(records: Sequence[Record], model: Model, free: NDArray[np.bool_]) -> tu
 
 
 def _fitted_model(model: Model, result: _core.FitResult) -> Model:
-    identifiable = np.array(result.identifiable, dtype=bool)
-    sigma = np.where(identifiable, np.sqrt(np.diag(result.covariance)), np.nan)
+    spread = np.sqrt(np.diag(result.covariance))
+    identifiable = spread <= KNOWN_PART * _sizes(model)
+    sigma = np.where(identifiable, spread, np.nan)
     held = np.ones(len(sigma), bool)
     held[result.free_columns] = False
     keep = np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)])
@@ -198,10 +218,21 @@ def _mount_sentence(record: Record, model: Model, element: str, key: MountKey) -
     return f"{record.name}: mount {key.mount_id} is new to the model; its cup was fitted first: {', '.join(moved)}"
 
 
-def _spread(directions: Floats, columns: Sequence[int], size: int) -> Floats:
-    out = np.zeros((size, directions.shape[1]))
-    out[list(columns)] = directions
-    return out
+def _sizes(model: Model) -> Floats:
+    return np.array([parameter.prior_sigma for parameter in model.parameters()])
+
+
+def _principal(covariance: Floats, model: Model) -> tuple[Floats, Floats]:
+    """Variances and directions of the values in units of their prior sigma, best known first."""
+    sizes = _sizes(model)
+    variances, directions = np.linalg.eigh(covariance / np.outer(sizes, sizes))
+    return variances, directions
+
+
+def _unknown_directions(covariance: Floats, model: Model, columns: Sequence[int]) -> Floats:
+    """Directions of the free values (columns) of which the readings tell nothing."""
+    variances, directions = _principal(covariance, model)
+    return directions[np.ix_(list(columns), np.flatnonzero(variances > UNKNOWN_PART**2))]
 
 
 def _warnings(model: Model, result: _core.FitResult, noise_mm: float) -> list[str]:

@@ -1,9 +1,11 @@
 // Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, and what cannot be.
 //
-// Nonlinear least squares (Levenberg-Marquardt in Ceres) on residuals divided by the noise, over the identifiable directions of the
-// free unknowns only: z = z0 + V w, so that unknown combinations stay where they were instead of being given a value, and among
-// all solutions that explain the readings equally well the one nearest to the nominal machine is returned (minimum norm in
-// units of the expected sizes). Identifiability is judged at the nominal machine, where redundancies are exact to first order.
+// Model: reading = predict(values) + noise, and every free value has an expected size, its prior: value ~ N(0, prior sigma).
+// Estimate: the most probable values (Levenberg-Marquardt in Ceres, analytic derivatives), minimizing
+//   sum ((measured - predicted) / noise)^2 + sum (value / prior sigma)^2.
+// Where the readings speak, the prior is thousands of times weaker than they are; along combinations that no reading can tell it
+// keeps the values near the nominal machine, and it carries into the covariance what those unknown combinations do to the
+// others through second-order geometry, which a fit restricted to the identifiable directions would leave out.
 #pragma once
 
 #include <string>
@@ -13,24 +15,24 @@
 namespace hexdbb {
 
 struct FitOptions {
-  double noise_mm = 0.5e-3;        // standard deviation of one reading, for the weights and for what counts as identifiable
-  bool noise_is_stated = true;     // false: the noise is taken from the residuals
-  std::vector<bool> free;          // one a value of the model; empty: all
+  double noise_mm = 0.5e-3;      // standard deviation of one reading
+  std::vector<bool> free;        // one a value of the model; empty: all
   int max_iterations = 50;
-  // A direction is identifiable where the readings narrow its expected size at least to this fraction.
-  double prior_fraction = 0.5;
+  // Readings say something of a direction where they narrow its expected size to at most this part.
+  double telling_part = 0.5;
 };
 
 struct FitResult {
-  Eigen::VectorXd values;      // of the whole model
-  Eigen::MatrixXd covariance;  // of the identifiable part of the values, whole model; zero rows where not free
-  std::vector<bool> identifiable;     // value is determined on its own, not only in combination
-  Identifiability identifiability;    // directions of the free values, scaled by expected size
-  std::vector<int> free_columns;      // which value each row of the directions is
-  Eigen::VectorXd residual_mm;        // measured - predicted, after
+  Eigen::VectorXd values;        // of the whole model
+  Eigen::MatrixXd covariance;    // of the whole model's values, prior included; zero where not free
+  std::vector<int> free_columns;
+  // Of the machine's own free values at the nominal machine, after all that unknowns of the set-up can explain is taken out,
+  // columns scaled by expected sizes: rank and condition by which plans are compared.
+  Identifiability machine;
+  Eigen::VectorXd residual_mm;   // measured - predicted, after
   double rms_before_mm = 0.0;
   double rms_after_mm = 0.0;
-  double noise_mm = 0.0;  // used for the covariance: the larger of the stated noise and the residuals' own
+  double noise_mm = 0.0;  // used for the covariance: the larger of the given noise and the residuals' own
   int iterations = 0;
   bool usable = false;
   std::string termination;

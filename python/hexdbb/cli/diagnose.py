@@ -56,8 +56,8 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
         highlight=False,
     )
     console.print(
-        f"rank {found.rank} of {int(found.model.free.sum())} free values, condition {found.condition:.0f},"
-        f" {found.iterations} iterations",
+        f"rank {found.rank} of {_machine_values(found.model)} errors of the machine (set-up unknowns taken out),"
+        f" condition {found.condition:.0f}, {found.iterations} iterations",
         highlight=False,
     )
     console.print(_values_table(found.model))
@@ -97,6 +97,10 @@ def _values_table(model: Model) -> Table:
 def _model_of(record: Record, path: Path, messages: Console) -> Model:
     messages.print(f"{path}: new model of {record.machine.name} with the thesis' geometric errors", highlight=False)
     return new_model(record.machine)
+
+
+def _machine_values(model: Model) -> int:
+    return sum(not each.is_set_up for each, free in zip(model.parameters(), model.free, strict=True) if free)
 
 
 def _rows(record: Record) -> int:

@@ -65,7 +65,8 @@ class GaugeNode(Node):
         """Nothing is mounted; the noise starts from its seed."""
         entry = self.dictionary.entry
         self.mounted: Mounted | None = None
-        self._restart_noise(0)
+        self._set_ups = 0
+        self._restart_noise()
         self.dictionary.hooks[0x2100, 1] = self._mount
         entry(0x2101, 1).value, entry(0x2101, 2).value = -self.setup.range_um, self.setup.range_um
         entry(0x6126, 1).value = 1.0
@@ -77,14 +78,15 @@ class GaugeNode(Node):
         number = int(value)
         x = [self.dictionary.real(0x2100, k) for k in range(2, 9)]
         self.mounted = Mounted(number - 1, (x[0], x[1], x[2]), (x[3], x[4], x[5]), x[6]) if number else None
-        self._restart_noise(number)
+        self._restart_noise()
 
-    def _restart_noise(self, number: int) -> None:
-        """Give each set-up its own noise, one sequence at rest and one in motion.
+    def _restart_noise(self) -> None:
+        """Give every announcement of a set-up noise of its own, one sequence at rest and one in motion.
 
-        So the samples of a path do not depend on the number of cycles spent waiting before it.
+        So the samples of a path do not depend on the number of cycles spent waiting before it, and no two paths share theirs.
         """
-        self._noise = [np.random.default_rng([self.setup.seed, number, moving]) for moving in (0, 1)]
+        self._noise = [np.random.default_rng([self.setup.seed, self._set_ups, moving]) for moving in (0, 1)]
+        self._set_ups += 1
 
     def on_sample(self) -> None:
         """Write reading and status of this instant."""
