@@ -1,7 +1,8 @@
 """The power drive state machine of CiA 402 as a table.
 
 Model: a controlword is decoded into one command; each row of `TRANSITIONS` takes one state and command to the next
-state. Commands that skip a state (shutdown straight to enable) run through the table once per state.
+state. Commands that skip a state (shutdown straight to enable) run through the table once per state. Transitions 13 to
+15 (fault, end of its reaction, reset by a rising edge of bit 7) are made by no command and stand with the drive.
 Source: CiA 402-2, state machine with transitions 0 to 16, coding of controlword 6040h and statusword 6041h.
 """
 
@@ -35,7 +36,7 @@ VOLTAGE_ENABLED, REMOTE, INTERNAL_LIMIT, FOLLOWS_COMMAND, FOLLOWING_ERROR, REFER
     1 << 15,
 )
 
-FAULT_RESET_BIT = 1 << 7
+FAULT_RESET_BIT, HALT_BIT = 1 << 7, 1 << 8
 
 
 class Command(Enum):
@@ -67,9 +68,6 @@ TRANSITIONS: dict[tuple[State, Command], tuple[int, State]] = {
     (_S.QUICK_STOP_ACTIVE, _C.ENABLE_OPERATION): (16, _S.OPERATION_ENABLED),
 }
 """(state, command) -> (number of the transition in CiA 402, next state); what is not named is no transition."""
-
-FAULT_TRANSITIONS = {"fault": 13, "reaction completed": 14, "reset": 15}
-"""Transitions that no controlword command makes: any state to the reaction, its end, and the rising edge of bit 7."""
 
 _COMMANDS: list[Command | None] = [
     next((command for command in Command if word & command.value[0] == command.value[1]), None) for word in range(16)

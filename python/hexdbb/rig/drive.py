@@ -122,6 +122,10 @@ class DriveNode(Node):
         return self.state is State.OPERATION_ENABLED
 
     @property
+    def _halted(self) -> bool:
+        return bool(int(self._controlword.value) & cia402.HALT_BIT)
+
+    @property
     def stopping(self) -> bool:
         """Whether the drive is on its way to a stand of its own accord."""
         return not self.enabled and (not self.axis.standing or self._after_stop() is not None)
@@ -144,7 +148,8 @@ class DriveNode(Node):
             word |= cia402.INTERNAL_LIMIT
         if self._late_s > 0.0:
             word |= cia402.FOLLOWING_ERROR
-        if self.enabled and self._mode_display.value == CSP_MODE and not self._limited:
+        following = self.enabled and self._mode_display.value == CSP_MODE
+        if following and not self._limited and not self._halted:
             word |= cia402.FOLLOWS_COMMAND
         self._statusword.value = word
 
@@ -153,7 +158,7 @@ class DriveNode(Node):
         self._obey_controlword()
         if self._mode.value in (0, CSP_MODE):
             self._mode_display.value = self._mode.value
-        if self.enabled and self._mode_display.value == CSP_MODE:
+        if self.enabled and self._mode_display.value == CSP_MODE and not self._halted:
             self._follow(dt_s)
         else:
             self._limited = False

@@ -83,7 +83,8 @@ class GaugeNode(Node):
     def _restart_noise(self) -> None:
         """Give every announcement of a set-up noise of its own, one sequence at rest and one in motion.
 
-        So the samples of a path do not depend on the number of cycles spent waiting before it, and no two paths share theirs.
+        So the samples of a path do not depend on the number of cycles spent waiting before it, and no two paths share
+        theirs.
         """
         self._noise = [np.random.default_rng([self.setup.seed, self._set_ups, moving]) for moving in (0, 1)]
         self._set_ups += 1

@@ -15,14 +15,14 @@ FAULT, ENABLED, DISABLED, QUICK_STOP = 0x0008, 0x0027, 0x0040, 0x0007
 AFTER_S, CYCLES = 0.2, 120  # 50 cycles of 4 ms, and time for reactions
 
 
-def run(start, spec: str, tpdos: int = 7, wait_s: float = 20.0):
+def run(start, spec: str, cycles: int = CYCLES, wait_s: float = 20.0):
     """Enable, move slowly through the fault; gives the controller and the answers of all cycles."""
     controller = start("--fault", spec)
     controller.mount(ball_mm=(100.0, 0.0, 80.0))
     at = controller.ready()
     answers = []
-    for step in range(CYCLES):
-        answers.append(controller.cycle(0x0F, [count + 10 * step for count in at], tpdos, wait_s))
+    for step in range(cycles):
+        answers.append(controller.cycle(0x0F, [count + 10 * step for count in at], wait_s=wait_s))
     return controller, answers
 
 
@@ -125,14 +125,14 @@ def test_missing_tpdos_come_back_after_their_count(start):
 
 
 def test_boot_up_resets_the_node(start):
-    controller, answers = run(start, f"boot-up:1@{AFTER_S}", wait_s=0.05)
+    controller, answers = run(start, f"boot-up:1@{AFTER_S}", cycles=60, wait_s=0.1)
     assert any(m.arbitration_id == 0x701 and bytes(m.data) == b"\0" for m in controller.other)
     assert 1 in answers[0]
     assert 1 not in answers[-1]
 
 
 def test_nmt_change_takes_the_node_out_and_stops_it(start):
-    controller, answers = run(start, f"nmt-change:1@{AFTER_S}", wait_s=0.05)
+    controller, answers = run(start, f"nmt-change:1@{AFTER_S}", cycles=60, wait_s=0.1)
     assert 1 not in answers[-1]
     controller.talk()
     assert controller.nodes[1].sdo[0x6041].raw & 0x006F == DISABLED
