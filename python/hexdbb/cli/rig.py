@@ -106,6 +106,7 @@ def _serve(rig: Rig, port: int, outlet: list[SocketcandServer], *, once: bool, e
 
     server = SocketcandServer(port, rig.receive, poll, last_client_gone)
     outlet.append(server)
+    rig.on_bus_lost = server.disconnect_all
     signal.signal(signal.SIGTERM, lambda *_: server.stop())
     # Ctrl-C reaches the controller too, which needs the bus to stop the axes.
     signal.signal(signal.SIGINT, lambda *_: server.stop_when_alone())

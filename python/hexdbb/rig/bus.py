@@ -66,6 +66,7 @@ class Rig:
         stall_tolerance_s: float = 0.0,
     ) -> None:
         self._transmit = transmit
+        self.on_bus_lost: Callable[[], None] = lambda: None
         self._outbox: list[Frame] = []
         self._injections = list(injections or [])
         position, rotation = np.array(truth.start.position_mm), rotation_rpy(*np.radians(truth.start.rpy_deg))

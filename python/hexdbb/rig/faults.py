@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 SPEC = re.compile(r"(?P<kind>[a-z-]+)(:(?P<node>\d+))?(@(?P<time>[0-9.]+))?(=(?P<value>[-+0-9a-fA-Fx.]+))?")
 Apply = Callable[["Rig", int, float], None]
 FOREVER = 10**12
+WITHOUT_NODE = ("gauge", "bus")
 MILLIMETRE_UNIT = 0xFD010000
 """Object 6131h for a value in mm: prefix 10^-3 (FDh), metre (01h)."""
 
@@ -33,7 +34,7 @@ class FaultKind:
     text: str
     apply: Apply
     on: str = "drive"
-    """`drive`, `gauge` (node not to be given) or `any`."""
+    """`drive` or `any`, which are given a node; `gauge` or `bus`, which are not."""
     value: float = 0.0
 
 
@@ -101,6 +102,10 @@ def _break(rig: Rig, node: int, value: float) -> None:
     rig.gauge.broken = True
 
 
+def _lose_bus(rig: Rig, node: int, value: float) -> None:
+    rig.on_bus_lost()
+
+
 def _unit(rig: Rig, node: int, value: float) -> None:
     rig.gauge.dictionary.entry(0x6131, 1).value = int(value)
 
@@ -127,6 +132,7 @@ FAULTS: dict[str, FaultKind] = {
     "tpdo-missing": FaultKind("no TPDO for this many cycles (0: for good)", _mute_tpdo, on="any"),
     "boot-up": FaultKind("the node resets itself", _reset, on="any"),
     "nmt-change": FaultKind("the node goes pre-operational by itself", _leave_operational, on="any"),
+    "bus-lost": FaultKind("the connection to the bus breaks", _lose_bus, on="bus"),
     "gauge-out-of-range": FaultKind("the reading jumps by this many um", _offset, on="gauge", value=3000.0),
     "gauge-frozen": FaultKind("the reading no longer changes", _freeze, on="gauge"),
     "gauge-break": FaultKind("sensor break: the status says not valid", _break, on="gauge"),
@@ -160,7 +166,7 @@ class Injection:
         InputError
             It has not, or the node is not of the kind this fault is for.
         """
-        if FAULTS[self.kind].on == "gauge":
+        if FAULTS[self.kind].on in WITHOUT_NODE:
             return
         drives = [drive.node_id for drive in rig.drives]
         known = drives if FAULTS[self.kind].on == "drive" else [*drives, rig.gauge.node_id]
@@ -186,8 +192,8 @@ def parse_fault(spec: str) -> Injection:
     kind = FAULTS.get(match["kind"])
     if kind is None:
         raise InputError(f"--fault {spec}: no fault {match['kind']} (expected one of {', '.join(FAULTS)})")
-    if (match["node"] is None) != (kind.on == "gauge"):
-        wanted = "no node, it is the gauge's" if kind.on == "gauge" else f"a node, {match['kind']}:NODE"
+    if (match["node"] is None) != (kind.on in WITHOUT_NODE):
+        wanted = f"no node, it is the {kind.on}'s" if kind.on in WITHOUT_NODE else f"a node, {match['kind']}:NODE"
         raise InputError(f"--fault {spec}: expected {wanted}")
     return Injection(
         match["kind"],

@@ -126,6 +126,11 @@ class SocketcandServer:
         """Send frames to all clients, in one piece."""
         self._broadcast(frames, None)
 
+    def disconnect_all(self) -> None:
+        """Break all connections; new clients may come."""
+        for client in list(self._clients.values()):
+            self._drop(client)
+
     def _broadcast(self, frames: list[Frame], but: _Client | None) -> None:
         listening = [client for client in self._clients.values() if client.hears and client is not but]
         if listening:

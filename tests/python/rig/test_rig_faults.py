@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 
+import can
 import pytest
 from canopen.sdo import SdoCommunicationError
 
@@ -154,6 +155,20 @@ def test_frozen_gauge_repeats_itself(start):
     assert values[-1][1] == 0
 
 
+def test_lost_bus_stops_the_drives_and_can_be_had_again(rig_process, connect):
+    with rig_process("--fault", f"bus-lost@{AFTER_S}") as (port, _):
+        controller = connect(port)
+        at = controller.ready()
+        with pytest.raises((can.CanError, OSError)):
+            for step in range(200):
+                controller.cycle(0x0F, [count + 10 * step for count in at], wait_s=0.1)
+        controller.close()
+        again = connect(port)
+        again.talk()
+        assert all(again.nodes[node].sdo[0x6041].raw & 0x006F == DISABLED for node in DRIVES)
+        again.close()
+
+
 def test_gauge_of_another_unit_says_so(start):
     controller = start("--fault", "gauge-unit")
     controller.talk()
@@ -162,7 +177,7 @@ def test_gauge_of_another_unit_says_so(start):
 
 def test_every_kind_has_a_text_and_is_tested_here():
     named = {"node-missing", "drive-fault", "following-error", "limit-switch", "enable-lost", "mode-lost", "not-homed"}
-    named |= {"emcy", "heartbeat-lost", "tpdo-missing", "boot-up", "nmt-change"}
+    named |= {"bus-lost", "emcy", "heartbeat-lost", "tpdo-missing", "boot-up", "nmt-change"}
     named |= {"gauge-out-of-range", "gauge-break", "gauge-frozen", "gauge-unit"}
     assert set(FAULTS) == named
     assert all(kind.text for kind in FAULTS.values())
@@ -172,7 +187,8 @@ def test_every_kind_has_a_text_and_is_tested_here():
     ("spec", "says"),
     [
         ("drive-fault", "expected a node"),
-        ("gauge-frozen:7", "expected no node"),
+        ("gauge-frozen:7", "expected no node, it is the gauge's"),
+        ("bus-lost:1", "expected no node, it is the bus's"),
         ("earthquake:1", "no fault earthquake (expected one of node-missing, "),
         ("emcy:1=0xZZ", "expected KIND[:node][@time_s][=value]"),
         ("emcy:1=1.2.3", "1.2.3 is not a number"),
