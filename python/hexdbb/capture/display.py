@@ -95,6 +95,11 @@ def _live(progress: RunProgress, console: Console, finished: threading.Event) ->
         while not finished.wait(LIVE_PERIOD_S):
             said = _print_notes(progress, console, said)
             text = "  ".join(part for part in (words.place(), words.numbers()) if part)
+            if progress.paused:
+                bar.stop()
+                while progress.paused and not finished.wait(LIVE_PERIOD_S):
+                    pass
+                bar.start()
             bar.update(task, total=progress.rows or None, completed=progress.row, description=text)
     _print_notes(progress, console, said)
 

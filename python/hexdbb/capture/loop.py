@@ -6,9 +6,10 @@ SYNC no other frame order exists on the bus.
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable, Collection, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from typing import TypeVar
 
 import can
@@ -102,21 +103,25 @@ class Loop:
         self.slot = -1
         self.missed = 0
 
-    def hold_while(self, work: Callable[[], T], controlwords: Sequence[int]) -> T:
+    def hold_while(
+        self, work: Callable[[], T], controlwords: Sequence[int], check: Callable[[], None] = lambda: None
+    ) -> T:
         """Hold the present targets while `work` runs in a thread that may use SDO; its result or exception comes back.
 
         In lockstep no SYNC is sent meanwhile, so that the number of cycles does not depend on how long it takes.
+        `check` is called all along; what it raises ends the hold at once, and leaves the thread to itself.
         """
         counts, slot = list(self.counts), self.slot
-        with ThreadPoolExecutor(1, thread_name_prefix="hexdbb-pause") as pool:
-            future: Future[T] = pool.submit(work)
-            while not future.done():
-                if self.clock.real_time:
-                    self.cycle(controlwords, counts)
-                else:
-                    self._send(controlwords, counts)
-                    self._exchange.listen(PAUSE_POLL_S)
-            self._link.flush()
+        future: Future[T] = Future()
+        threading.Thread(target=_run, args=(work, future), name="hexdbb-pause", daemon=True).start()
+        while not future.done():
+            if self.clock.real_time:
+                self.cycle(controlwords, counts)
+            else:
+                self._send(controlwords, counts)
+                self._exchange.listen(PAUSE_POLL_S)
+            check()
+        self._link.flush()
         self.slot = slot
         return future.result()
 
@@ -128,3 +133,11 @@ class Loop:
         if now_s >= self._heartbeat_due_s:
             self._link.bus.send(self._heartbeat)
             self._heartbeat_due_s = now_s + self._heartbeat_s
+
+
+def _run(work: Callable[[], T], future: Future[T]) -> None:
+    """Do the work of a pause, and hand its result or its exception over."""
+    try:
+        future.set_result(work())
+    except BaseException as error:  # whatever it is, it is raised again in the loop, which would wait for ever
+        future.set_exception(error)

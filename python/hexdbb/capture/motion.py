@@ -139,18 +139,24 @@ class Motion:
         rows = len(counts)
         for row in range(rows + 1):
             if row in pauses:
-                loop.hold_while(pauses[row], enabled)
+                watch.expected = loop.counts
+                loop.hold_while(pauses[row], enabled, self._check)
             # The answers to this SYNC show where the targets sent before it have led.
             watch.expected = loop.counts
             watch.gauge_watched = row > 0 and bool(gauge_watched[row - 1])
             feedback = loop.cycle(enabled, counts[min(row, rows - 1)].tolist())
-            watch.supervision.count_missing(feedback)
-            watch.stalled, watch.missed = loop.last_missed, loop.missed
-            fault = find_fault(watch)
-            if fault is not None:
-                raise MotionFaultError(fault)
+            self._check()
             if row and feedback.settled:
                 keep(row - 1, feedback)
+
+    def _check(self) -> None:
+        """Look at the answers to the last SYNC; raises `MotionFaultError` where a check finds a fault."""
+        watch, loop = self._watch, self._loop
+        watch.supervision.count_missing(loop.feedback)
+        watch.stalled, watch.missed = loop.last_missed, loop.missed
+        fault = find_fault(watch)
+        if fault is not None:
+            raise MotionFaultError(fault)
 
     def stop(self) -> list[str]:
         """Quick stop on all axes together, targets frozen, until every one is seen to stand.
@@ -178,9 +184,8 @@ class Motion:
                 if done or time.monotonic() > end_s:
                     break
         except (can.CanError, OSError) as error:
-            return [
-                f"the bus is gone ({one_line(error)}): the drives stop by themselves when targets and heartbeat stay out"
-            ]
+            gone = f"the bus is gone ({one_line(error)})"
+            return [f"{gone}: the drives stop by themselves when targets and heartbeat stay out"]
         return [self._unstopped(slot) for slot in range(6) if not self._stopped(slot, still)]
 
     def disable(self) -> None:

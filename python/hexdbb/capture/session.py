@@ -25,13 +25,13 @@ from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange, Feedback
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
-from hexdbb.capture.motion import Motion, MotionFaultError
+from hexdbb.capture.motion import Motion
 from hexdbb.capture.samples import Samples
 from hexdbb.capture.settings import check_counts, interpolation_period
 from hexdbb.capture.setup import Confirm, pauses, setup_changes
 from hexdbb.capture.supervision import SILENT_AFTER, Supervision
 from hexdbb.capture.transport import one_line
-from hexdbb.errors import RunError
+from hexdbb.errors import HexdbbError, RunError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
 from hexdbb.record import Journal, Record
@@ -52,6 +52,7 @@ class Progress:
     stage : what is being done, in words
     row, rows : place in the table of targets
     slot, samples, missed, reading_um : as the loop has them
+    paused : whether the operator is being asked something
     notes : what devices or the system lack, and what that means
     """
 
@@ -59,6 +60,7 @@ class Progress:
     row: int = 0
     rows: int = 0
     slot: int = 0
+    paused: bool = False
     samples: int = 0
     missed: int = 0
     reading_um: float = float("nan")
@@ -129,11 +131,13 @@ def measure(request: Request, programme: Programme, bus: can.BusABC, clock: Cloc
     progress.stage = "configuring nodes"
     link = Link(bus)
     devices = add_devices(link, request.machine)
-    with link.threaded():
-        progress.notes += boot(link, devices, request.machine, request.cycle_s)
     try:
+        with link.threaded():
+            progress.notes += boot(link, devices, request.machine, request.cycle_s)
         with link.looped():
             return _Run(request, programme, link, devices, clock, progress).record()
+    except (can.CanError, OSError) as error:
+        raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing had moved") from error
     finally:
         _release(link, devices)
 
@@ -218,8 +222,12 @@ class _Run:
                 self._follow(programme, samples)
                 self.progress.stage = "disabling"
                 self.motion.disable()
-            except (MotionFaultError, RunError, can.CanError, OSError) as error:
+            except (HexdbbError, can.CanError, OSError) as error:
                 return self._stopped(error)
+            except BaseException:
+                # A mistake in the program must not leave axes enabled either.
+                self.motion.stop()
+                raise
         return None
 
     def _follow(self, programme: Programme, samples: Samples) -> None:
@@ -248,7 +256,7 @@ class _Run:
         self.progress.stage = "stopping all axes"
         cause = (
             str(error)
-            if isinstance(error, RunError)
+            if isinstance(error, HexdbbError)
             else str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
         )
         unstopped = self.motion.stop()

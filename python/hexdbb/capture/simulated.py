@@ -29,8 +29,11 @@ def simulated_rig(arguments: Sequence[str]) -> Iterator[str]:
     InputError, RunError
         The rig did not start: carries what it said.
     """
-    command = [sys.executable, "-m", "hexdbb.cli", "rig", *arguments]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    command = [sys.executable, "-m", "hexdbb.cli", "rig", "--exit-with-parent", *arguments]
+    # A session of its own: Ctrl-C in the terminal is for the controller, which must find the rig there to stop it.
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     try:
         yield f"socketcand:{_address(process)}"
     finally:

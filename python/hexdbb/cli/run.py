@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
@@ -21,7 +22,7 @@ from hexdbb.capture.setup import Confirm
 from hexdbb.capture.simulated import simulated_rig
 from hexdbb.capture.transport import open_bus
 from hexdbb.cli.exits import reports_errors
-from hexdbb.errors import InputError
+from hexdbb.errors import InputError, RunError
 from hexdbb.plan import load_plan
 from hexdbb.record import Record
 from hexdbb.trajectory import Programme
@@ -95,15 +96,16 @@ def command(
     if rig_options and not simulated:
         raise InputError(f"{rig_options[0]}: is an option of the simulated rig (expected no --bus with it)")
     refuse_existing(record, overwrite)
-    request = _request(plan_name, record, rate_hz, overwrite)
+    request, progress = _request(plan_name, record, rate_hz, overwrite), Progress()
     if simulated:
         request = replace(request, silent_after=SIMULATED_SILENT_AFTER)
+    elif not yes and not sys.stdin.isatty():
+        progress.notes.append("stdin is no terminal: nobody is asked whether the bar is mounted")
     elif not yes:
-        request = replace(request, confirm=_ask(console))
+        request = replace(request, confirm=_ask(console, progress))
     lockstep = simulated if lockstep is None else lockstep
     programme = prepare(request)
     console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
-    progress = Progress()
     with (
         _bus(bus_spec, request, rig_options) as bus,
         _pace(lockstep, request.cycle_s, progress) as clock,
@@ -158,9 +160,17 @@ def _pace(lockstep: bool, cycle_s: float, progress: Progress) -> Iterator[Clock]
         yield Deadlines(cycle_s)
 
 
-def _ask(console: Console) -> Confirm:
+def _ask(console: Console, progress: Progress) -> Confirm:
+    """Give the question that waits for the operator, the display out of its way."""
+
     def confirm(text: str) -> None:
-        console.input(f"{text}, then press Enter ")
+        progress.paused = True
+        try:
+            console.input(f"{text}, then press Enter ")
+        except EOFError:
+            raise RunError("input ended: nobody has confirmed that the bar is mounted") from None
+        finally:
+            progress.paused = False
 
     return confirm
 

@@ -6,6 +6,7 @@ had not been stopped by then would have been stopped by the rig when its control
 
 from __future__ import annotations
 
+import os
 import re
 import signal
 import subprocess
@@ -152,6 +153,18 @@ def test_interrupted_run_stops_and_keeps(
     record = read_record(tmp_path / "run.parquet")
     assert not record.complete
     assert len(record) > 10
+
+
+def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
+    command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    line = command("--plan", "thesis", "--seed", 1)
+    process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    wait_for_samples(process, tmp_path / "run.parquet")
+    os.killpg(process.pid, signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert process.returncode == 1
+    assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
 
 
 def test_rig_that_dies_ends_the_run_and_keeps_what_was_captured(
