@@ -5,13 +5,15 @@ A thread reads `Progress` a few times a second; the loop knows nothing of it.
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.console import Console, RenderableType
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
+from rich.text import Text
 
 from hexdbb.capture.session import Progress as RunProgress
 from hexdbb.trajectory import Phase
@@ -50,21 +52,38 @@ class Words:
         return f"{number}, circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min: {phase}"
 
     def numbers(self) -> str:
-        """Say what the loop measures."""
+        """Say what the loop measures; nothing before it has."""
         progress = self._progress
-        if not progress.rows:
-            return ""
         now_s, slot = time.monotonic(), progress.slot
         then_s, before = self._at
-        if slot > before and now_s - then_s > LIVE_PERIOD_S / 2:
+        if slot < before:
+            self._at = (now_s, slot)
+        elif slot > before and now_s - then_s > LIVE_PERIOD_S / 2:
             self._cycle_ms = (now_s - then_s) / (slot - before) * 1e3
             self._at = (now_s, slot)
-        parts = [
-            f"reading {progress.reading_um:+8.1f} µm",
-            f"{self._cycle_ms:.2f} ms/cycle",
-            f"{progress.missed} missed",
-        ]
-        return ", ".join(parts)
+        if not progress.row or math.isnan(self._cycle_ms):
+            return ""
+        return f"reading {progress.reading_um:+.1f} µm, {self._cycle_ms:.2f} ms/cycle, {progress.missed} missed"
+
+
+class _Bar(Progress):
+    """A progress bar with two lines of words below it, none of them cut off by the bar.
+
+    Parameters
+    ----------
+    words : what the lines say
+    console : where
+    """
+
+    def __init__(self, words: Words, console: Console) -> None:
+        self._words = words
+        super().__init__(BarColumn(bar_width=40), TaskProgressColumn(), TimeRemainingColumn(), console=console)
+
+    def get_renderables(self) -> Iterator[RenderableType]:
+        """Give the bar and the two lines."""
+        yield self.make_tasks_table(self.tasks)
+        yield Text(self._words.place(), no_wrap=True)
+        yield Text(self._words.numbers(), no_wrap=True)
 
 
 @contextmanager
@@ -82,25 +101,18 @@ def display(progress: RunProgress, console: Console) -> Iterator[None]:
 
 
 def _live(progress: RunProgress, console: Console, finished: threading.Event) -> None:
-    words = Words(progress)
-    columns = (
-        BarColumn(bar_width=24),
-        TaskProgressColumn(),
-        TimeRemainingColumn(),
-        TextColumn("{task.description}"),
-    )
-    with Progress(*columns, console=console, transient=True) as bar:
+    with _Bar(Words(progress), console) as bar:
+        bar.live.transient = True
         task = bar.add_task("", total=None)
         said = 0
         while not finished.wait(LIVE_PERIOD_S):
             said = _print_notes(progress, console, said)
-            text = "  ".join(part for part in (words.place(), words.numbers()) if part)
+            bar.update(task, total=progress.rows or None, completed=progress.row)
             if progress.paused:
                 bar.stop()
                 while progress.paused and not finished.wait(LIVE_PERIOD_S):
                     pass
                 bar.start()
-            bar.update(task, total=progress.rows or None, completed=progress.row, description=text)
     _print_notes(progress, console, said)
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import logging
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 import can
@@ -15,7 +17,7 @@ from rich.console import Console
 
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.capture.clock import Clock, Deadlines, Lockstep
-from hexdbb.capture.display import display
+from hexdbb.capture.display import LIVE_PERIOD_S, display
 from hexdbb.capture.realtime import real_time_process
 from hexdbb.capture.session import Progress, Request, measure, prepare
 from hexdbb.capture.setup import Confirm
@@ -96,14 +98,19 @@ def command(
     if rig_options and not simulated:
         raise InputError(f"{rig_options[0]}: is an option of the simulated rig (expected no --bus with it)")
     refuse_existing(record, overwrite)
+    lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), Progress()
+    request.metadata.update(
+        bus=bus_spec or "simulated rig",
+        pace="lockstep" if lockstep else "real time",
+        started=datetime.now(UTC).isoformat(timespec="seconds"),
+    )
     if simulated:
         request = replace(request, silent_after=SIMULATED_SILENT_AFTER)
     elif not yes and not sys.stdin.isatty():
         progress.notes.append("stdin is no terminal: nobody is asked whether the bar is mounted")
     elif not yes:
         request = replace(request, confirm=_ask(console, progress))
-    lockstep = simulated if lockstep is None else lockstep
     programme = prepare(request)
     console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
     with (
@@ -161,10 +168,11 @@ def _pace(lockstep: bool, cycle_s: float, progress: Progress) -> Iterator[Clock]
 
 
 def _ask(console: Console, progress: Progress) -> Confirm:
-    """Give the question that waits for the operator, the display out of its way."""
+    """Give the question that waits for the operator."""
 
     def confirm(text: str) -> None:
         progress.paused = True
+        time.sleep(2 * LIVE_PERIOD_S)  # until the display is out of the way
         try:
             console.input(f"{text}, then press Enter ")
         except EOFError:
