@@ -6,11 +6,13 @@ when a device did not obey.
 
 from __future__ import annotations
 
+import configparser
 from pathlib import Path
 
 import canopen
 from canopen.sdo.exceptions import SdoAbortedError, SdoCommunicationError
 
+from hexdbb.capture.transport import one_line
 from hexdbb.errors import InputError, RunError
 
 RESPONSE_TIMEOUT_S = 0.5
@@ -123,5 +125,5 @@ def _dictionary(eds: Path, node_id: int) -> canopen.ObjectDictionary:
             return canopen.import_od(file, node_id)
     except OSError as error:
         raise InputError(f"{eds}: cannot be read: {error.strerror} (expected the EDS of node {node_id})") from None
-    except (ValueError, KeyError) as error:
-        raise InputError(f"{eds}: not an EDS: {error} (expected the EDS of node {node_id})") from None
+    except (configparser.Error, ValueError, KeyError) as error:
+        raise InputError(f"{eds}: not an EDS: {one_line(error)} (expected the EDS of node {node_id})") from None

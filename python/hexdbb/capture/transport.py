@@ -49,7 +49,7 @@ def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
 
 
 def one_line(error: Exception) -> str:
-    """Give the first line of what a driver says; some of python-can's put a traceback behind it."""
+    """Give the first line of what a library says; some of python-can's drivers put a traceback behind it."""
     said = str(error).strip()
     return said.splitlines()[0] if said else type(error).__name__
 

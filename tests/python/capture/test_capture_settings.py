@@ -1,0 +1,127 @@
+"""Configuration against a real CANopen node: canopen's LocalNode on python-can's virtual bus."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import can
+import canopen
+import pytest
+
+from hexdbb.capture.boot import DRIVE_PROFILE, GAUGE_PROFILE, identify
+from hexdbb.capture.link import Link
+from hexdbb.capture.pdo import DRIVE_RPDO
+from hexdbb.capture.sdo import RemoteDevice
+from hexdbb.capture.settings import Setting, apply, drive_settings, map_pdo
+from hexdbb.errors import InputError, RunError
+from hexdbb.machine import shipped, shipped_machine
+
+EDS = shipped("eds", "hexglider_drive.eds")
+CYCLE_S = 0.004
+
+
+@pytest.fixture
+def drive(request: pytest.FixtureRequest) -> Iterator[tuple[RemoteDevice, canopen.LocalNode]]:
+    """The controller's side and the node's side of one drive."""
+    channel = request.node.name
+    with can.Bus(interface="virtual", channel=channel) as ours, can.Bus(interface="virtual", channel=channel) as theirs:
+        link = Link(ours)
+        other = canopen.Network(theirs)
+        other.NOTIFIER_CYCLE = 0.02
+        other.connect()
+        with EDS.open() as file:
+            node = other.create_node(3, canopen.import_od(file, 3))
+        with link.threaded():
+            yield RemoteDevice(link, 3, "slider 3", EDS), node
+        other.notifier.stop()
+
+
+def test_every_setting_is_in_the_node_afterwards(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
+    device, node = drive
+    settings = drive_settings(shipped_machine(), CYCLE_S)
+    assert list(apply(device, settings)) == []
+    for setting in settings:
+        entry = node.sdo[setting.index]
+        value = (entry if isinstance(entry, canopen.sdo.SdoVariable) else entry[setting.subindex]).raw
+        assert value == setting.value
+    assert node.sdo[0x60C2][1].raw * 10.0 ** node.sdo[0x60C2][2].raw == pytest.approx(CYCLE_S)
+    assert node.sdo[0x1016][1].raw >> 16 == 127
+
+
+def test_a_node_that_keeps_another_value_is_refused(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
+    device, node = drive
+    node.add_read_callback(lambda index, subindex, od: 1000 if index == 0x6065 else None)
+    expected = r"node 3 \(slider 3\): object 6065:00 reads back 1000 \(expected 30000 as written\)"
+    with pytest.raises(RunError, match=expected):
+        list(apply(device, [Setting(0x6065, 0, 30000, "")]))
+
+
+def test_a_node_that_aborts_is_named_with_object_value_and_reason(
+    drive: tuple[RemoteDevice, canopen.LocalNode],
+) -> None:
+    device, _ = drive
+    with pytest.raises(RunError, match=r"node 3 \(slider 3\): object 6502:00 refuses 128: .*read only"):
+        device.write(0x6502, 0, 128)
+
+
+def test_pdo_is_mapped_in_order_and_read_back(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
+    device, node = drive
+    assert list(map_pdo(device, DRIVE_RPDO, 100)) == []
+    assert [node.sdo[0x1600][k].raw for k in range(3)] == [2, 0x60400010, 0x607A0020]
+    assert [node.sdo[0x1400][k].raw for k in (1, 2, 5)] == [0x203, 1, 100]
+
+
+def test_device_of_another_profile_is_refused(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
+    device, node = drive
+    identify(device, DRIVE_PROFILE)
+    with pytest.raises(RunError, match=r"device type 402 in object 1000:00 \(expected a CiA 404 device\)"):
+        identify(device, GAUGE_PROFILE)
+    node.add_read_callback(lambda index, subindex, od: 99 if (index, subindex) == (0x1018, 2) else None)
+    with pytest.raises(RunError, match=r"product 99 in object 1018:02 \(expected \d+, as in hexglider_drive.eds\)"):
+        identify(device, DRIVE_PROFILE)
+
+
+def test_silent_node_is_named(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
+    device, node = drive
+    node.remove_network()
+    with pytest.raises(RunError, match=r"node 3 \(slider 3\): no answer reading 6041:00"):
+        device.read(0x6041)
+
+
+def without(index: str) -> str:
+    """The drive's EDS without one object."""
+    text = EDS.read_text()
+    text = re.sub(rf"\[{index}(sub\w+)?\]\n(?:[^\[].*\n|\n)*", "", text)
+    return re.sub(rf"(?m)^\d+=0x{index}\n", "", text)
+
+
+@pytest.mark.parametrize(("index", "meaning"), [("60C2", "interpolates over"), ("605A", "stops as its maker chose")])
+def test_missing_object_is_reported_with_its_consequence(index: str, meaning: str, tmp_path: Path) -> None:
+    eds = tmp_path / "lean.eds"
+    eds.write_text(without(index))
+    with can.Bus(interface="virtual", channel=f"lean{index}") as bus:
+        device = RemoteDevice(Link(bus), 3, "slider 3", eds)
+        lacking = [setting for setting in drive_settings(shipped_machine(), CYCLE_S) if f"{setting.index:04X}" == index]
+        notes = list(apply(device, lacking))
+    assert notes
+    for note in notes:
+        assert re.match(rf"node 3 \(slider 3\): no object {index}:0\d in lean\.eds: .*{meaning}", note)
+
+
+def test_drive_without_a_required_object_is_refused(tmp_path: Path) -> None:
+    eds = tmp_path / "lean.eds"
+    eds.write_text(without("6060"))
+    with can.Bus(interface="virtual", channel="required") as bus:
+        device = RemoteDevice(Link(bus), 3, "slider 3", eds)
+        mode = [setting for setting in drive_settings(shipped_machine(), CYCLE_S) if setting.index == 0x6060]
+        with pytest.raises(RunError, match=r"no object 6060:00 in lean\.eds: it cannot be driven"):
+            list(apply(device, mode))
+
+
+@pytest.mark.parametrize(("name", "said"), [("none.eds", "cannot be read"), ("broken.eds", "not an EDS")])
+def test_eds_that_is_none_is_named(name: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "broken.eds").write_text("this is no EDS\n")
+    with can.Bus(interface="virtual", channel=name) as bus, pytest.raises(InputError, match=rf"{name}: {said}"):
+        RemoteDevice(Link(bus), 3, "slider 3", tmp_path / name)
