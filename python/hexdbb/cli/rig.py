@@ -14,7 +14,6 @@ from hexdbb.errors import InputError
 from hexdbb.machine import load_machine, shipped_machine
 from hexdbb.rig.bus import Rig
 from hexdbb.rig.faults import FAULTS, parse_fault
-from hexdbb.rig.frame import Frame
 from hexdbb.rig.socketcand import SocketcandServer
 from hexdbb.rig.truth import RANDOM_SEED, TruthFile, random_truth
 from hexdbb.validation import dump_toml, load_toml
@@ -79,19 +78,13 @@ def command(
     logging.getLogger("hexdbb").setLevel(logging.DEBUG if verbose else logging.WARNING)
     machine = load_machine(machine_path) if machine_path is not None else shipped_machine()
     truth = _truth(truth_path, seed)
-    outlet: list[SocketcandServer] = []
-
-    def transmit(frames: list[Frame]) -> None:
-        for server in outlet:
-            server.transmit(frames)
-
-    rig = Rig(machine, truth, transmit, [parse_fault(spec) for spec in faults], stall_tolerance_s)
+    rig = Rig(machine, truth, [parse_fault(spec) for spec in faults], stall_tolerance_s)
     if write_truth is not None:
         _write(write_truth, truth)
-    _serve(rig, port, outlet, once=once, exit_with_parent=exit_with_parent)
+    _serve(rig, port, once=once, exit_with_parent=exit_with_parent)
 
 
-def _serve(rig: Rig, port: int, outlet: list[SocketcandServer], *, once: bool, exit_with_parent: bool) -> None:
+def _serve(rig: Rig, port: int, *, once: bool, exit_with_parent: bool) -> None:
     parent = os.getppid()
 
     def poll(now_s: float) -> None:
@@ -105,8 +98,7 @@ def _serve(rig: Rig, port: int, outlet: list[SocketcandServer], *, once: bool, e
             server.stop()
 
     server = SocketcandServer(port, rig.receive, poll, last_client_gone)
-    outlet.append(server)
-    rig.on_bus_lost = server.disconnect_all
+    rig.transmit, rig.on_bus_lost = server.transmit, server.disconnect_all
     signal.signal(signal.SIGTERM, lambda *_: server.stop())
     # Ctrl-C reaches the controller too, which needs the bus to stop the axes.
     signal.signal(signal.SIGINT, lambda *_: server.stop_when_alone())

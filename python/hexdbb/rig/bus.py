@@ -44,12 +44,17 @@ class Rig:
         Nominal machine and bus set-up.
     truth : TruthFile
         What it really is.
-    transmit : callable
-        Takes a list of frames for the bus, all at once.
     injections : list of Injection
         Faults to come.
     stall_tolerance_s : float
         See `Node`.
+
+    Attributes
+    ----------
+    transmit : callable
+        Takes a list of frames for the bus, all at once; set by what carries the bus.
+    on_bus_lost : callable
+        Breaks the connection to the bus.
 
     Raises
     ------
@@ -61,21 +66,14 @@ class Rig:
         self,
         machine: MachineFile,
         truth: TruthFile,
-        transmit: Callable[[list[Frame]], None],
         injections: list[Injection] | None = None,
         stall_tolerance_s: float = 0.0,
     ) -> None:
-        self._transmit = transmit
+        self.transmit: Callable[[list[Frame]], None] = lambda frames: None
         self.on_bus_lost: Callable[[], None] = lambda: None
         self._outbox: list[Frame] = []
         self._injections = list(injections or [])
         position, rotation = np.array(truth.start.position_mm), rotation_rpy(*np.radians(truth.start.rpy_deg))
-        start = true_geometry(machine).sliders_for(position, rotation)
-        low, high = machine.sliders.travel_mm
-        if np.any(start < low) or np.any(start > high):
-            raise InputError(
-                f"start pose: sliders {np.round(start, 3).tolist()} mm (expected within {low:g} to {high:g})"
-            )
         self.plant = Plant(
             true_geometry(machine, truth.geometry.errors()),
             truth.setup.errors(),
@@ -83,7 +81,8 @@ class Rig:
             position,
             rotation,
         )
-        self.drives = self._make_drives(machine, truth, start, stall_tolerance_s)
+        start_mm = start_sliders_mm(machine, position, rotation)
+        self.drives = self._make_drives(machine, truth, start_mm, stall_tolerance_s)
         self.gauge = self._make_gauge(machine, truth, stall_tolerance_s)
         self.nodes: dict[int, Node] = {node.node_id: node for node in (*self.drives, self.gauge)}
         for injection in self._injections:
@@ -138,7 +137,7 @@ class Rig:
         """Put what the nodes have sent on the bus."""
         if self._outbox:
             frames, self._outbox = self._outbox, []
-            self._transmit(frames)
+            self.transmit(frames)
 
     def _send(self, cob_id: int, data: bytes) -> None:
         self._outbox.append((cob_id, data))
@@ -226,6 +225,22 @@ class Rig:
             self._step_plant(self.dt_s)
         for drive in moving:
             log.warning("node %d: stands at %.4f mm, %s", drive.node_id, drive.axis.position_mm, drive.state.name)
+
+
+def start_sliders_mm(machine: MachineFile, position_mm: Array, rotation: Array) -> Array:
+    """Give the nominal slider coordinates of a start pose, shape (6,).
+
+    Raises
+    ------
+    InputError
+        It is out of reach or of travel.
+    """
+    sliders = true_geometry(machine).sliders_for(position_mm, rotation)
+    low, high = machine.sliders.travel_mm
+    if np.any(sliders < low) or np.any(sliders > high):
+        found = np.round(sliders, 3).tolist()
+        raise InputError(f"start pose: sliders {found} mm (expected within {low:g} to {high:g})")
+    return sliders
 
 
 def eds_path(machine: MachineFile, name: str) -> Path:
