@@ -55,8 +55,8 @@ def test_rest_to_rest_keeps_its_limits_and_arrives(length_mm: float, v: float, a
         assert np.abs(np.diff(padded, n=order) / CYCLE_S**order).max() <= limit * (1 + 1e-6) + 1e-12 / CYCLE_S**order
 
 
-@settings(max_examples=60, deadline=None)
-@given(overshoot_mm=st.floats(0.0, 200.0), laps=st.integers(1, 3), feed=st.floats(1.0, 150.0))
+@settings(max_examples=40, deadline=None)
+@given(overshoot_mm=st.floats(0.0, 200.0), laps=st.integers(1, 2), feed=st.floats(5.0, 150.0))
 def test_feed_law_captures_from_zero_at_constant_feed(overshoot_mm: float, laps: int, feed: float) -> None:
     turn_mm = 2 * math.pi * 100.0
     law = feed_law(overshoot_mm, laps * turn_mm, PathLimits(feed, 300.0, 5000.0), CYCLE_S)
