@@ -205,10 +205,6 @@ class FitResult:
     @property
     def free_columns(self) -> list[int]: ...
     @property
-    def identifiability(self) -> Identifiability: ...
-    @property
-    def identifiable(self) -> list[bool]: ...
-    @property
     def iterations(self) -> int: ...
     @property
     def machine(self) -> Identifiability: ...
@@ -248,7 +244,6 @@ def fit(
     measured_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
     *,
     noise_mm: typing.SupportsFloat | typing.SupportsIndex,
-    noise_is_stated: bool,
     free: collections.abc.Sequence[bool] = [],
     max_iterations: typing.SupportsInt | typing.SupportsIndex = 50,
 ) -> FitResult:
