@@ -231,6 +231,11 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   samples.validate();
   if (samples.size() == 0) throw std::invalid_argument("there are no readings to fit");
   if (measured_mm.size() != samples.size()) throw std::invalid_argument("as many readings as samples are needed");
+  for (Eigen::Index row = 0; row < measured_mm.size(); ++row) {
+    if (!std::isfinite(measured_mm[row])) {
+      throw std::invalid_argument("measured_mm[" + std::to_string(row) + "] is not finite");
+    }
+  }
   if (!(options.noise_mm > 0.0)) throw std::invalid_argument("noise_mm must be greater than 0");
 
   FitResult out;
