@@ -7,6 +7,7 @@ made up for by a burst.
 
 from __future__ import annotations
 
+import math
 import time
 from typing import Protocol
 
@@ -60,6 +61,8 @@ class Deadlines:
     """
 
     real_time = True
+    LATEST = 0.5
+    """Share of the cycle by which a SYNC may be late; later, its slot is left out: the next would follow too close."""
     ANSWER_SHARE = 0.75
     """Share of the cycle the answers may take; the rest is for checks and the next targets."""
 
@@ -74,10 +77,9 @@ class Deadlines:
     def wait(self) -> int:
         """Sleep until the next deadline, or skip to the slot that is due."""
         now_s = time.monotonic()
-        missed = 0
-        if now_s > self._due_s + self._cycle_s:
-            missed = int((now_s - self._due_s) // self._cycle_s)
-            self._due_s += missed * self._cycle_s
+        late_cycles = (now_s - self._due_s) / self._cycle_s
+        missed = math.ceil(late_cycles) if late_cycles > self.LATEST else 0
+        self._due_s += missed * self._cycle_s
         if now_s < self._due_s:
             time.sleep(self._due_s - now_s)
         self._due_s += self._cycle_s

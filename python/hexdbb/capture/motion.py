@@ -96,17 +96,13 @@ class Motion:
         Raises
         ------
         RunError
-            A drive does not go along; all are disabled again.
+            A drive does not go along; stopping all of them is the caller's business.
         """
         for command, state in ENABLE_SEQUENCE:
             if state is State.OPERATION_ENABLED:
                 # Held from here on: a target that went on following the position would let the axis drift.
                 self._loop.counts = list(self._loop.feedback.position)
-            try:
-                self._until(command, self._all_in(state), state.label, follow=state is not State.OPERATION_ENABLED)
-            except RunError:
-                self.disable()
-                raise
+            self._until(command, self._all_in(state), state.label, follow=state is not State.OPERATION_ENABLED)
         return list(self._loop.counts)
 
     def follow(

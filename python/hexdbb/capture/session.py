@@ -193,7 +193,8 @@ class _Run:
                 samples.flush()
                 record = journal.finish(complete=cause is None, reason=cause)
             except RunError as error:
-                raise RunError(f"{cause}; {error}" if cause else str(error)) from None
+                known = cause is not None and str(error) in cause
+                raise RunError(cause if known else "; ".join(filter(None, (cause, str(error))))) from None
         if cause is not None:
             raise RunError(f"{cause}; {samples.count} samples kept in {record.path}, marked incomplete")
         return record

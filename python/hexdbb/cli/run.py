@@ -119,7 +119,7 @@ def command(
         display(progress, console),
     ):
         made = measure(request, programme, bus, clock, progress)
-    _say_what_was_recorded(made, progress)
+    _say_what_was_recorded(made, programme, progress)
 
 
 def main() -> None:
@@ -192,11 +192,11 @@ def _announcement(programme: Programme, lockstep: bool, origin: str) -> str:
     )
 
 
-def _say_what_was_recorded(record: Record, progress: Progress) -> None:
+def _say_what_was_recorded(record: Record, programme: Programme, progress: Progress) -> None:
     """Print what there is now, and what to type next."""
-    reading = record.columns["reading_um"]
+    reading, planned = record.columns["reading_um"], programme.table.capture.sum()
     click.echo(
-        f"recorded {record.path}: {len(record)} samples, {len(record.sweeps())} sweeps, "
+        f"recorded {record.path}: {len(record)} of {planned} samples, {len(record.sweeps())} sweeps, "
         f"readings {reading.min():+.1f} to {reading.max():+.1f} µm, {progress.missed} missed cycles"
     )
     name = record.path.with_suffix("") if record.path is not None else Path("record")

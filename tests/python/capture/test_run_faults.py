@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from hexdbb.capture.cia402 import State
-from hexdbb.record import Record, read_record
+from hexdbb.record import Record, read_record, recover
 
 RATE_HZ = 100.0
 FAULT_S = 6.0
@@ -165,6 +165,41 @@ def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
     _, said = process.communicate(timeout=30)
     assert process.returncode == 1
     assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
+
+
+def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
+    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    with start_rig() as rig:
+        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        # No file beyond 1000 blocks: the system's own limit stands in for a full disk.
+        limited = ["bash", "-c", 'ulimit -f 1000; exec "$@"', "bash", *line]
+        done = subprocess.run(limited, capture_output=True, text=True, timeout=120)
+        assert rig.states(DRIVES) == [State.QUICK_STOP_ACTIVE] * 6
+        assert "nobody on the bus" not in rig.log.read_text()
+    assert done.returncode == 1
+    journal = tmp_path / "run.parquet.journal"
+    said = done.stderr.splitlines()[-1]
+    assert re.match(rf"error: {re.escape(str(journal))}: cannot be written: .* at t = .*; {STOPPED}$", said)
+    record = recover(journal)
+    assert not record.complete
+    assert len(record) > 500
+
+
+def test_killed_controller_leaves_standing_axes_and_a_journal_to_recover(
+    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    with start_rig() as rig:
+        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        process = subprocess.Popen(line, stderr=subprocess.DEVNULL)
+        wait_for_samples(process, tmp_path / "run.parquet")
+        process.kill()
+        process.wait(timeout=10)
+        assert rig.states(DRIVES) == [State.QUICK_STOP_ACTIVE] * 6
+        assert len(re.findall(r"node \d: stands at .* QUICK_STOP_ACTIVE", rig.log.read_text())) == 6
+    record = recover(tmp_path / "run.parquet.journal")
+    assert not record.complete
+    assert len(record) > 50
 
 
 def test_rig_that_dies_ends_the_run_and_keeps_what_was_captured(
