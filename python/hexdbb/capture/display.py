@@ -15,7 +15,7 @@ from rich.console import Console, RenderableType
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 from rich.text import Text
 
-from hexdbb.capture.session import Progress as RunProgress
+from hexdbb.capture.request import Progress as RunProgress
 from hexdbb.trajectory import Phase
 
 LIVE_PERIOD_S = 0.1

@@ -10,15 +10,12 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from pathlib import Path
 
 import can
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.capture.boot import Devices, add_devices, boot, release
-from hexdbb.capture.bus_load import check_load
 from hexdbb.capture.checks import Fault, Watch
 from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
@@ -26,87 +23,19 @@ from hexdbb.capture.exchange import Exchange, Feedback
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import Motion
+from hexdbb.capture.request import Progress, Request
 from hexdbb.capture.samples import Samples
-from hexdbb.capture.settings import check_counts, interpolation_period
-from hexdbb.capture.setup import Confirm, pauses, setup_changes
-from hexdbb.capture.supervision import SILENT_AFTER, Supervision
+from hexdbb.capture.setup import pauses, setup_changes
+from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import HexdbbError, RunError
-from hexdbb.machine import MachineFile
-from hexdbb.plan import Plan
 from hexdbb.record import Journal, Record
-from hexdbb.trajectory import Phase, Programme, approach, plan_programme
+from hexdbb.trajectory import Phase, Programme, approach
 
 MAX_MISSED = 250
 """Cycles that may be missed in one run."""
 LOCKSTEP_TOLERANCE_S = 1.0
 """What heartbeats may be later in lockstep, where nothing else depends on timing either."""
-
-
-@dataclass
-class Progress:
-    """What a display may show; written by the loop, read by others.
-
-    Attributes
-    ----------
-    stage : what is being done, in words
-    row, rows : place in the table of targets
-    slot, samples, missed, reading_um : as the loop has them
-    paused : whether the operator is being asked something
-    notes : what devices or the system lack, and what that means
-    """
-
-    stage: str = "starting"
-    row: int = 0
-    rows: int = 0
-    slot: int = 0
-    paused: bool = False
-    samples: int = 0
-    missed: int = 0
-    reading_um: float = float("nan")
-    programme: Programme | None = None
-    notes: list[str] = field(default_factory=list)
-
-
-@dataclass(frozen=True)
-class Request:
-    """What to measure and where to keep it.
-
-    Attributes
-    ----------
-    plan, machine : the plan and the machine it names
-    origin : names the plan in errors
-    record : path of the record to be made
-    overwrite : whether an existing record may be replaced
-    confirm : asks the operator to mount the bar; None where nobody has to
-    silent_after : SYNCs in a row a node may leave unanswered before all axes stop
-    metadata : what else to keep in the record
-    """
-
-    plan: Plan
-    machine: MachineFile
-    origin: str
-    cycle_s: float
-    record: Path
-    overwrite: bool = False
-    confirm: Confirm | None = None
-    silent_after: int = SILENT_AFTER
-    metadata: dict[str, object] = field(default_factory=dict)
-
-
-def prepare(request: Request) -> Programme:
-    """Do all that can be done without a bus: reach and limits of the plan, bus load.
-
-    Raises
-    ------
-    InputError
-        The plan or the cycle rate cannot be run.
-    """
-    can_setup = request.machine.can_setup
-    check_load(1.0 / request.cycle_s, can_setup.bitrate_bit_s, len(can_setup.drive_nodes))
-    interpolation_period(request.cycle_s)
-    check_counts(request.machine)
-    return plan_programme(request.plan, request.machine, request.cycle_s, request.origin)
 
 
 def measure(request: Request, programme: Programme, bus: can.BusABC, clock: Clock, progress: Progress) -> Record:
@@ -255,11 +184,10 @@ class _Run:
         """Stop all axes and say why, when, and whether they all stand."""
         time_s = self.loop.slot * self.request.cycle_s
         self.progress.stage = "stopping all axes"
-        cause = (
-            str(error)
-            if isinstance(error, HexdbbError)
-            else str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
-        )
+        if isinstance(error, HexdbbError):
+            cause = str(error)
+        else:
+            cause = str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
         unstopped = self.motion.stop()
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"
         return f"{cause} at t = {time_s:.3f} s; {outcome}"

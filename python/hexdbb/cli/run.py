@@ -19,7 +19,8 @@ from hexdbb.atomic_file import refuse_existing
 from hexdbb.capture.clock import Clock, Deadlines, Lockstep
 from hexdbb.capture.display import LIVE_PERIOD_S, display
 from hexdbb.capture.realtime import real_time_process
-from hexdbb.capture.session import Progress, Request, measure, prepare
+from hexdbb.capture.request import Progress, Request, prepare
+from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
 from hexdbb.capture.simulated import simulated_rig
 from hexdbb.capture.transport import open_bus
