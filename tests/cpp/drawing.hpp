@@ -42,8 +42,9 @@ struct Reached {
   Vector6 sliders_mm;
 };
 
-/// A pose that the sliders reach and that the sliders hold: not closer than `smallest_hold` to a singular pose (smallest singular value of
-/// the legs' Jacobian, turns in units of the platform's circumradius) and on home's side of every singular pose.
+/// A pose that the sliders reach and that the sliders hold: not closer than `smallest_hold` to a singular pose
+/// (smallest singular value of the legs' Jacobian, turns in units of the platform's circumradius) and on home's side of
+/// every singular pose.
 Reached draw_reachable(Drawing& drawing, const NominalGeometry& nominal, const Extent& extent,
                        double smallest_hold = 0.02);
 
@@ -54,8 +55,8 @@ struct Hold {
 };
 Hold hold(const NominalGeometry& nominal, const Vector6& sliders_mm, const Pose& pose);
 
-/// Every port pushed by up to `length_mm`, each guideway turned by up to `angle_rad` about its midpoint on top; the ball joints
-/// of a pair stay one, or not.
+/// Every port pushed by up to `length_mm`, each guideway turned by up to `angle_rad` about its midpoint on top; the
+/// ball joints of a pair stay one, or not.
 Ports draw_push(Drawing& drawing, const NominalGeometry& nominal, const Vector6& sliders_mm, double length_mm,
                 double angle_rad, bool shared_joints);
 

@@ -1,4 +1,5 @@
-// The reading's answer to a push at each of the 55 ports, against central differences and against the six-coordinate form.
+// The reading's answer to a push at each of the 55 ports, against central differences and against the six-coordinate
+// form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +29,8 @@ class BallBar : public ::testing::Test {
     return reading_mm(result.pose, set_up, push);
   }
 
-  void expect_differences(const Ports& sensitivity, const Vector6& sliders_mm, const Ports& push, const Pose& pose) const {
+  void expect_differences(const Ports& sensitivity, const Vector6& sliders_mm, const Ports& push,
+                          const Pose& pose) const {
     constexpr double kStep_mm = 1e-3;
     for (int p = 0; p < port::kCount; ++p) {
       Ports above = push, below = push;
@@ -128,8 +130,8 @@ TEST_F(BallBar, FlatMachineHasNoSensitivity) {
   const Pose flat = make_pose(0, 0, -nominal.machine.joint_plane_height_mm, 0, 0, 0);
   const Mechanism mechanism = assemble(nominal, inverse(nominal, flat).sliders_mm, Ports());
   Ports sensitivity;
-  EXPECT_FALSE(reading_sensitivity(nominal, mechanism, PlatformTriangle(shared_joints(mechanism)), flat, set_up, Ports(),
-                                   sensitivity));
+  EXPECT_FALSE(reading_sensitivity(nominal, mechanism, PlatformTriangle(shared_joints(mechanism)), flat, set_up,
+                                   Ports(), sensitivity));
   EXPECT_FALSE(reading_sensitivity_six(nominal, mechanism, flat, set_up, Ports(), sensitivity));
   EXPECT_TRUE(sensitivity.value.isZero());
 }

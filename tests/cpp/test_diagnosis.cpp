@@ -54,7 +54,8 @@ class Diagnosis : public ::testing::Test {
   }
 };
 
-/// Misses of the free values along the principal directions of their stated covariance, in its own sigmas; best known last.
+/// Misses of the free values along the principal directions of their stated covariance, in its own sigmas; best known
+/// last.
 struct Misses {
   Eigen::VectorXd in_sigmas;
   Eigen::VectorXd sigma;  // in expected sizes

@@ -1,5 +1,5 @@
-// Every effect's derivatives, through the whole prediction, against central differences: at values that are not zero, all
-// other effects present as well. One test an effect, so that a new effect is tested by being known.
+// Every effect's derivatives, through the whole prediction, against central differences: at values that are not zero,
+// all other effects present as well. One test an effect, so that a new effect is tested by being known.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -37,9 +37,7 @@ class EffectGeometry : public ::testing::Test {
   }
 };
 
-TEST_F(EffectGeometry, NominalMachineReadsZero) {
-  EXPECT_LT(readings({}).cwiseAbs().maxCoeff(), 1e-11);
-}
+TEST_F(EffectGeometry, NominalMachineReadsZero) { EXPECT_LT(readings({}).cwiseAbs().maxCoeff(), 1e-11); }
 
 TEST_F(EffectGeometry, PlatformSidesAreExactlyAsLongAsSaid) {
   Drawing drawing(51);
@@ -126,7 +124,8 @@ TEST_F(EffectGeometry, TurnAboutTheBaseCentreIsATurnAboutTheMidpointAndATranslat
 
 TEST_F(EffectGeometry, RedundanciesAreExactToFirstOrder) {
   Model model(machine);
-  for (const char* name : {"slider_offset", "guideway_translation", "guideway_rotation_xy", "guideway_rotation_centre"}) {
+  for (const char* name :
+       {"slider_offset", "guideway_translation", "guideway_rotation_xy", "guideway_rotation_centre"}) {
     model.add(find_effect(machine, 1, name));
   }
   const RowMajorMatrix jacobian = predict(model, samples, true).jacobian;

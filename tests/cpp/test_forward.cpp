@@ -183,7 +183,8 @@ TEST_F(Forward, LegsThatDoNotMeetAreUnreachable) {
 }
 
 TEST_F(Forward, LoopsThatCannotCloseAreSaidSo) {
-  // Legs nearly flat along their guideways: the ball joints stay 9 mm from them, 415 mm and more apart, where sides are 208 mm.
+  // Legs nearly flat along their guideways: the ball joints stay 9 mm from them, 415 mm and more apart, where sides are
+  // 208 mm.
   Vector6 sliders;
   sliders << 33.1, 832.9, 33.1, 832.9, 33.1, 832.9;
   RssrAngles angles;

@@ -16,7 +16,8 @@ RowMajorMatrix random_matrix(Drawing& drawing, int rows, int columns) {
 }
 
 /// rows x sizes.size() with these singular values and random directions.
-RowMajorMatrix with_singular_values(Drawing& drawing, int rows, const Eigen::VectorXd& sizes, Eigen::MatrixXd& directions) {
+RowMajorMatrix with_singular_values(Drawing& drawing, int rows, const Eigen::VectorXd& sizes,
+                                    Eigen::MatrixXd& directions) {
   const int count = static_cast<int>(sizes.size());
   const Eigen::HouseholderQR<Eigen::MatrixXd> left(random_matrix(drawing, rows, count));
   const Eigen::HouseholderQR<Eigen::MatrixXd> right(random_matrix(drawing, count, count));

@@ -92,8 +92,8 @@ TEST_F(Inverse, NotANumberIsUnreachable) {
 }
 
 TEST_F(Inverse, EveryStatusHasAName) {
-  for (Status status : {Status::kOk, Status::kUnreachable, Status::kSingular, Status::kIterationLimit, Status::kTravel,
-                        Status::kGap}) {
+  for (Status status :
+       {Status::kOk, Status::kUnreachable, Status::kSingular, Status::kIterationLimit, Status::kTravel, Status::kGap}) {
     EXPECT_STRNE(status_name(status), "unknown status");
   }
   EXPECT_STREQ(status_name(static_cast<Status>(99)), "unknown status");

@@ -1,5 +1,5 @@
-// The single-pose path allocates nothing. Every allocation made by code linked into this program is counted: `new` is replaced
-// here, the C functions (which Eigen calls for its dynamic matrices) are wrapped by the linker.
+// The single-pose path allocates nothing. Every allocation made by code linked into this program is counted: `new` is
+// replaced here, the C functions (which Eigen calls for its dynamic matrices) are wrapped by the linker.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -69,7 +69,11 @@ class NoAllocation : public ::testing::Test {
 
 TEST_F(NoAllocation, TheCounterCounts) {
   volatile int size = 10;
-  EXPECT_GE(during([&] { Eigen::VectorXd dynamic = Eigen::VectorXd::Zero(size); ASSERT_EQ(dynamic.sum(), 0.0); }), 1);
+  EXPECT_GE(during([&] {
+              Eigen::VectorXd dynamic = Eigen::VectorXd::Zero(size);
+              ASSERT_EQ(dynamic.sum(), 0.0);
+            }),
+            1);
   void* volatile kept = nullptr;  // or the compiler leaves out the pair of new and delete
   EXPECT_GE(during([&] { kept = ::operator new(static_cast<std::size_t>(size)); }), 1);
   ::operator delete(kept);
@@ -97,7 +101,8 @@ TEST_F(NoAllocation, SinglePosePath) {
                   reading_sensitivity(nominal, mechanism, triangle, solved.pose, set_up, push, sensitivity);
                 }),
                 0);
-      EXPECT_EQ(during([&] { reading_sensitivity_six(nominal, mechanism, solved.pose, set_up, push, sensitivity); }), 0);
+      EXPECT_EQ(during([&] { reading_sensitivity_six(nominal, mechanism, solved.pose, set_up, push, sensitivity); }),
+                0);
       EXPECT_NE(sum + sensitivity.value.sum(), 0.0);
     }
   }

@@ -48,8 +48,8 @@ TEST_F(PredictionTest, BatchEqualsTheSixCoordinateSolver) {
     }
     Ports push;
     push.value = pushed.transpose();
-    const ForwardResult six = forward_six(
-        assemble(model.nominal, samples.sliders_mm.row(row).transpose(), push), home_pose(model.nominal));
+    const ForwardResult six =
+        forward_six(assemble(model.nominal, samples.sliders_mm.row(row).transpose(), push), home_pose(model.nominal));
     ASSERT_EQ(six.status, Status::kOk);
     EXPECT_NEAR(reading_mm(six.pose, samples.set_ups[0], push), batch.reading_mm[row], 1e-9);
   }

@@ -1,4 +1,4 @@
-"""The geometric effects through Python: what they are called, what they do to the machine, and what the thesis calls redundant."""
+"""The geometric effects through Python: names, what they do to the machine, and the redundancies among them."""
 
 from __future__ import annotations
 
@@ -90,7 +90,9 @@ def test_unknown_effect_is_named_with_the_known_ones() -> None:
 @pytest.mark.parametrize("name", [*THE_33, *SET_UP])
 def test_derivatives_against_differences(samples: _core.Samples, name: str) -> None:
     info = _core.effect_info(ENGINE, 2, name)
-    size = np.array([{"mm": 0.3, "rad": 1e-3}[info.parameters[k % len(info.parameters)].unit] for k in range(info.size)])
+    size = np.array(
+        [{"mm": 0.3, "rad": 1e-3}[info.parameters[k % len(info.parameters)].unit] for k in range(info.size)]
+    )
     base = size * np.random.default_rng(5).normal(size=info.size)
     jacobian = _core.predict(model_with(**{name: list(base)}), samples, True).jacobian
     for k in range(info.size):
@@ -102,7 +104,7 @@ def test_derivatives_against_differences(samples: _core.Samples, name: str) -> N
 
 
 def test_legs_and_sides_are_as_long_as_said(samples: _core.Samples) -> None:
-    """Ball joints rebuilt from the pose stand the longer legs away from the sliders and the longer sides from each other."""
+    """Ball joints rebuilt from the pose: longer legs away from the sliders, longer sides from each other."""
     longer, sides = np.array([0.3, -0.2, 0.1, 0.4, -0.5, 0.2]), np.array([0.2, -0.1, 0.3])
     model = model_with(leg_length=list(longer), platform_side=list(sides))
     poses, status = _core.forward_table(model, samples)
@@ -118,18 +120,16 @@ def test_legs_and_sides_are_as_long_as_said(samples: _core.Samples) -> None:
 
 
 def meeting_point(joints: Vector, legs: Vector, pose: Vector, pair: int) -> Vector:
-    """Where two legs meet: on the circle of their spheres, the point nearest to the pose's nominal ball joint.
-
-    The sides differ from nominal in the triangle's own plane only, by fractions of a mm: nearest means the same angle to
-    second order, so the point is refined with the platform's plane.
-    """
+    """Where two legs meet in the plane of the platform's joints: sides differ from nominal in that plane only."""
     rotation = pose[3:].reshape(3, 3)
     plane_point = pose[:3] + rotation @ _core.platform_joint(ENGINE, pair)
     normal = rotation[:, 2]
     point = plane_point.copy()
     for _ in range(8):  # Newton on: two leg lengths, in the platform's plane
         arms = point - joints
-        misses = np.array([arms[0] @ arms[0] - legs[0] ** 2, arms[1] @ arms[1] - legs[1] ** 2, normal @ (point - plane_point)])
+        misses = np.array(
+            [arms[0] @ arms[0] - legs[0] ** 2, arms[1] @ arms[1] - legs[1] ** 2, normal @ (point - plane_point)]
+        )
         point = point - np.linalg.solve(np.vstack([2 * arms, normal]), misses)
     return point
 
@@ -138,8 +138,10 @@ def meeting_point(joints: Vector, legs: Vector, pose: Vector, pair: int) -> Vect
     ("name", "local_axis", "about_midpoint"),
     [("guideway_rotation_xy", 2, True), ("guideway_rotation_yz", 0, True), ("guideway_rotation_centre", 2, False)],
 )
-def test_turned_guideway_is_a_rigid_turn(samples: _core.Samples, name: str, local_axis: int, about_midpoint: bool) -> None:
-    """Slider joints turned as one body about the effect's own axis are a leg's length away from the ball joints of the pose."""
+def test_turned_guideway_is_a_rigid_turn(
+    samples: _core.Samples, name: str, local_axis: int, about_midpoint: bool
+) -> None:
+    """Slider joints turned as one body about the effect's axis are a leg's length from the ball joints of the pose."""
     angles = np.array([4e-3, -2e-3, 3e-3])
     poses, status = _core.forward_table(model_with(**{name: list(angles)}), samples)
     assert not status.any()

@@ -1,11 +1,12 @@
 """Errata of the thesis' loop equations (2.11-2.22, chapter 3), each against the point transform it comes from.
 
-The frame is that of Figure 2.4: origin at the vertex which guideways 1 and 2 share, x outward across guideway 1, z up. Guideway 1
-runs along -y, guideway 2 along Rot(z, -60 deg)(0, -1, 0). f and g are the distances of the ball joints' feet from the vertex, r
-and q the ball joints' distances from the guideways, theta and delta their lean inward. b in (2.11) is the platform's side.
+The frame is that of Figure 2.4: origin at the vertex which guideways 1 and 2 share, x outward across guideway 1, z up.
+Guideway 1 runs along -y, guideway 2 along Rot(z, -60 deg)(0, -1, 0). f and g are the distances of the ball joints'
+feet from the vertex, r and q the ball joints' distances from the guideways, theta and delta their lean inward. b in
+(2.11) is the platform's side.
 
-A linear term is right where it is the derivative of |U1 U2|^2 at no error, and where the engine's machine, with that guideway
-moved, obeys it. docs/errata.md lists the findings.
+A linear term is right where it is the derivative of |U1 U2|^2 at no error, and where the engine's machine, with that
+guideway moved, obeys it. docs/errata.md lists the findings.
 """
 
 from __future__ import annotations
@@ -103,7 +104,7 @@ def misses(loops: list[Loop], found: Callable[[Loop], float], wanted: Callable[[
     return np.array([found(loop) - wanted(loop) for loop in loops])
 
 
-# --- the loop equation ---------------------------------------------------------------------------------------------------
+# --- the loop equation ----------------------------------------------------------------------------------------------
 
 
 def distance_squared(loop: Loop) -> float:
@@ -117,7 +118,7 @@ def test_loop_equation_has_a_product_of_cosines(equation: str, loops: list[Loop]
         assert np.abs(misses(loops, Loop.printed_2_11, distance_squared)).min() > 1e3
 
 
-# --- first-order terms of displaced guideways (3.2-3.37) --------------------------------------------------------------------
+# --- first-order terms of displaced guideways (3.2-3.37) ------------------------------------------------------------
 
 
 def shift(x: float, y: float, z: float) -> Move:
@@ -259,7 +260,7 @@ def test_linear_term_is_the_derivative_of_the_point_transform(case: Case, loops:
 
 @case
 def test_engine_obeys_the_corrected_term(case: Case) -> None:
-    """The engine's machine, one guideway moved by its own effect, closes the corrected loop to second order, not the printed one."""
+    """With one guideway moved by its effect, the engine closes the corrected loop to second order, not the printed."""
     printed, correct = engine_misses(case)
     second_order = {0.05: 0.05**2, 1e-4: (1e-4 * 1000) ** 2}[case.small]
     assert np.abs(correct).max() < 2 * second_order
@@ -299,7 +300,7 @@ def engine_misses(case: Case) -> tuple[Vector, Vector]:
 
 
 def loop_of(joints: list[Vector], s: Vector, leg_mm: float) -> Loop:
-    """The thesis' variables of two ball joints given in the frame of Figure 2.4: f and r from the sliders, the lean from the joint."""
+    """Give the thesis' variables of two ball joints: f and r from the sliders, the lean from the joint."""
     feet = [(s[0] + s[1]) / 2, 2 * M - (s[2] + s[3]) / 2]
     radii = [np.sqrt(leg_mm**2 - ((s[2 * i + 1] - s[2 * i]) / 2) ** 2) for i in range(2)]
     second = TO_GUIDEWAY_2.T @ joints[1]
@@ -308,7 +309,7 @@ def loop_of(joints: list[Vector], s: Vector, leg_mm: float) -> Loop:
     )
 
 
-# --- the transforms of turned guideways (3.20-3.35) -------------------------------------------------------------------------
+# --- the transforms of turned guideways (3.20-3.35) -----------------------------------------------------------------
 
 
 def about(point: Vector, first: Vector, second: Vector, u: Vector) -> Vector:
@@ -348,7 +349,9 @@ def test_transform_leaves_the_midpoint_where_it_is(
     error = 1e-3
     np.testing.assert_allclose(corrected(midpoint, error), midpoint, atol=1e-12)
     moved = float(np.linalg.norm(printed(midpoint, error) - midpoint))
-    low, high = {"3.23": (0.0, 1e-12), "3.29": (0.1 * error**2 * M, error**2 * M)}.get(equation, (error * M, 3 * error * M))
+    low, high = {"3.23": (0.0, 1e-12), "3.29": (0.1 * error**2 * M, error**2 * M)}.get(
+        equation, (error * M, 3 * error * M)
+    )
     assert low <= moved <= high
     index = ["3.20", "3.23", "3.26", "3.29"].index(equation)
     wanted = next(each for each in CASES if each.equation == ["3.21", "3.24", "3.27", "3.30"][index])

@@ -1,6 +1,7 @@
-"""Errata of the thesis' chapter 2 beside the loop equation: orientation, inverse kinematics, Newton step, pose from three joints.
+"""Errata of the thesis' chapter 2: orientation, inverse kinematics, Newton step, pose from three joints.
 
-Each printed formula stands here beside the corrected one and the transform or machine it describes. docs/errata.md lists them.
+Each printed formula stands here beside the corrected one and the transform or machine it describes.
+docs/errata.md lists them; the loop equations are in test_errata.py.
 """
 
 from __future__ import annotations
@@ -96,7 +97,7 @@ def test_2_1_entries(poses: list[Reached]) -> None:
 
 
 def test_2_3_to_2_5_joints(poses: list[Reached]) -> None:
-    """Ball joints of a platform frame in the joint plane: (2.3) has one sign wrong in z, (2.5) is garbled, (2.4) is right."""
+    """Ball joints of a frame in the joint plane: (2.3) has one sign wrong in z, (2.5) is garbled, (2.4) is right."""
     for pose in poses:
         u, v, w = pose.rotation.T
         p = pose.p + IH * w  # the thesis' top frame lies in the joint plane in chapter 2-2
@@ -113,7 +114,7 @@ def test_2_3_to_2_5_joints(poses: list[Reached]) -> None:
 
 
 def test_2_6_to_2_8_sliders(poses: list[Reached]) -> None:
-    """Right once read as: t from the vertex, subscripts 2i-1 throughout, S_2i measured from the guideway's other end."""
+    """Right once read as: t from the vertex, subscripts 2i-1 throughout, S_2i from the guideway's other end."""
     for pose in poses:
         for i in range(3):
             vertex = _core.guideway_vertex(ENGINE, i)
@@ -154,9 +155,7 @@ def test_2_16_third_row(poses: list[Reached]) -> None:
     for pose in poses:
         f, r, (theta, _, phi) = pose.feet, pose.radii, pose.angles
 
-        def third(
-            phi_at: float, theta_at: float, f: Vector = f, r: Vector = r
-        ) -> float:
+        def third(phi_at: float, theta_at: float, f: Vector = f, r: Vector = r) -> float:
             return loop(phi_at, theta_at, f[2], SIDE_B - f[0], r[2], r[0])
 
         by_theta = (third(phi, theta + h) - third(phi, theta - h)) / (2 * h)
@@ -224,7 +223,9 @@ def test_2_31_to_2_33_orientation(poses: list[Reached]) -> None:
         assert corrected_beta == pytest.approx(beta, abs=1e-12)
         assert printed_beta == pytest.approx(-beta, abs=1e-12)
         assert np.arctan((u1[1] - p[1]) / (u1[0] - p[0])) == pytest.approx(gamma, abs=1e-12)  # (2.31)
-        assert np.arcsin((u2[2] - u3[2]) / (np.sqrt(3) * UR * np.cos(beta))) == pytest.approx(alpha, abs=1e-12)  # (2.33)
+        assert np.arcsin((u2[2] - u3[2]) / (np.sqrt(3) * UR * np.cos(beta))) == pytest.approx(
+            alpha, abs=1e-12
+        )  # (2.33)
         # With the true platform point even the corrected sign is not enough on a tilted platform.
         assert abs(np.arcsin((IH + pose.p[2] - u1[2]) / UR) - beta) > 1e-5
         np.testing.assert_allclose(

@@ -1,4 +1,4 @@
-"""Kinematics through the Python front: round trips over the whole workspace, symmetry, statuses, and SciPy as a third solver."""
+"""Kinematics through Python: round trips over the whole workspace, symmetry, statuses, SciPy as a third solver."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_a_third_of_a_turn_shifts_the_pairs_by_one(pose: tuple[float, ...], shar
     home = np.array([0, 0, 240.0, 0, 0, 0])
     position, rpy, sliders = reached(tuple(home + share * (np.array(pose) - home)))
     third = np.asarray(Rotation.from_euler("z", 120, degrees=True).as_matrix())
-    # The platform turned with all else about the base's axis is, in its own frame, turned back by a third: joints change places.
+    # Turned with all else about the base's axis, and back by a third in its own frame: ball joints change places.
     turned = Rotation.from_matrix(third @ rotation(rpy) @ third.T).as_euler("xyz")
     shifted, status = solve(third @ position, turned)
     assert status == 0
@@ -141,7 +141,7 @@ def test_orientation_is_thesis_2_27() -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_scipy_finds_the_same_pose(seed: int) -> None:
-    """Least squares on six leg lengths, SciPy's own derivatives, nothing of the engine but the nominal points; pushes present."""
+    """Least squares on six leg lengths, with pushes; nothing of the engine but the nominal points."""
     rng = np.random.default_rng(seed)
     position = np.array([*rng.uniform(-80, 80, 2), rng.uniform(240, 290)])
     rpy = rng.uniform(-0.15, 0.15, 3)
@@ -159,7 +159,9 @@ def test_scipy_finds_the_same_pose(seed: int) -> None:
         ends = x[:3] + JOINTS @ rotation(x[3:]).T - (VERTICES + sliders[:, None] * DIRECTIONS + moved)
         return np.linalg.norm(ends, axis=1) - lengths
 
-    wanted = least_squares(misses, np.r_[HOME, 0, 0, 0], xtol=1e-15, ftol=1e-15, gtol=1e-15, x_scale=[1, 1, 1, 0.01, 0.01, 0.01])
+    wanted = least_squares(
+        misses, np.r_[HOME, 0, 0, 0], xtol=1e-15, ftol=1e-15, gtol=1e-15, x_scale=[1, 1, 1, 0.01, 0.01, 0.01]
+    )
     assert np.abs(wanted.fun).max() < 1e-9
     for solver in (_core.forward_one, _core.forward_six_one):
         found, matrix, residual, _, code = solver(ENGINE, sliders, push)

@@ -1,7 +1,8 @@
-"""Oracle numbers: what circular tests can tell of the 33 geometric errors, against values computed independently of the engine.
+"""Oracle numbers: what circular tests can tell of the 33 geometric errors, computed independently of the engine.
 
-First-order rank and condition of the ball-bar Jacobian for the assumed SP-120, rotations scaled by 1/300 mm; and the thesis'
-Tables 5.1-5.7: which sets of errors one level circle identifies (ball in the joint plane, guideway 3 as reference).
+First-order rank and condition of the ball-bar Jacobian for the assumed SP-120, rotations scaled by 1/300 mm; and
+the thesis' Tables 5.1-5.7: which sets of errors one level circle identifies (ball in the joint plane, guideway 3 as
+reference).
 """
 
 from __future__ import annotations
@@ -112,7 +113,9 @@ ORACLE = [
 oracle = pytest.mark.parametrize(
     ("test", "rank", "condition"),
     ORACLE,
-    ids=[f"{len(t.circles)} circles, ball {t.ball_z_mm:.0f}, unknown {' '.join(t.unknown) or '-'}" for t, _, _ in ORACLE],
+    ids=[
+        f"{len(t.circles)} circles, ball {t.ball_z_mm:.0f}, unknown {' '.join(t.unknown) or '-'}" for t, _, _ in ORACLE
+    ],
 )
 
 
@@ -142,14 +145,18 @@ def test_the_thesis_numbers_thirty_three_errors() -> None:
     assert [info.name for info in INFOS[: len(GEOMETRIC)]] == GEOMETRIC
 
 
-# --- thesis Tables 5.1-5.7 -----------------------------------------------------------------------------------------------------
+# --- thesis Tables 5.1-5.7 ------------------------------------------------------------------------------------------
 
 LEGS = {f"leg {k + 1}": columns_of("leg_length").start + k for k in range(6)}
 TRANSLATIONS = {
-    f"{axis}{i + 1}": columns_of("guideway_translation").start + 3 * i + "xyz".index(axis) for i in range(3) for axis in "xyz"
+    f"{axis}{i + 1}": columns_of("guideway_translation").start + 3 * i + "xyz".index(axis)
+    for i in range(3)
+    for axis in "xyz"
 }
 ROTATIONS = {
-    f"{kind}{i + 1}": columns_of(f"guideway_rotation_{kind}").start + i for kind in ("xy", "yz", "centre") for i in range(3)
+    f"{kind}{i + 1}": columns_of(f"guideway_rotation_{kind}").start + i
+    for kind in ("xy", "yz", "centre")
+    for i in range(3)
 }
 COLUMN = {**LEGS, **TRANSLATIONS, **ROTATIONS}
 FIVE = ["leg 1", "leg 3", "leg 5", "y1", "y2"]
