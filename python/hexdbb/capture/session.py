@@ -138,7 +138,7 @@ class _Run:
             gauge=plan.gauge,
             mounts=plan.mounts,
             circles=plan.circles,
-            metadata=request.metadata,
+            metadata={**request.metadata, "notes": list(self.progress.notes)},
             overwrite=request.overwrite,
         )
         return self.programme.after(way), journal

@@ -31,7 +31,7 @@ from hexdbb.record import Record
 from hexdbb.trajectory import Programme
 
 SIMULATED_SILENT_AFTER = 25
-"""A simulated rig on a busy desktop may be held up for longer than a real node, and can break nothing."""
+"""In real time a simulated rig on a busy desktop may be held up for longer than a node, and can break nothing."""
 
 HELP = """Drive a plan's circles and record slider positions and ball-bar readings.
 
@@ -107,7 +107,7 @@ def command(
         started=datetime.now(UTC).isoformat(timespec="seconds"),
     )
     if simulated:
-        request = replace(request, silent_after=SIMULATED_SILENT_AFTER)
+        request = request if lockstep else replace(request, silent_after=SIMULATED_SILENT_AFTER)
     elif not yes and not sys.stdin.isatty():
         progress.notes.append("stdin is no terminal: nobody is asked whether the bar is mounted")
     elif not yes:

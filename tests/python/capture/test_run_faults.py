@@ -90,6 +90,15 @@ def test_fault_while_capturing(
     assert stopped_s - 6 / RATE_HZ < record.columns["t_s"][-1] < stopped_s
 
 
+def test_fault_is_handed_on_to_the_rig_that_is_started_for_the_run(
+    run: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
+) -> None:
+    done = run("--fault", f"node-missing:5@{FAULT_S}", "--seed", 2)
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith("error: node 5 (slider 5): TPDO1 has stayed out 3 SYNCs in a row")
+    incomplete(tmp_path / "run.parquet")
+
+
 def test_one_answer_that_stays_out_costs_its_sample_and_nothing_else(
     start_rig: Callable[..., object], run: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
 ) -> None:
