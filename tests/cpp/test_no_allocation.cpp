@@ -47,8 +47,9 @@ void* operator new(std::size_t size) {
   if (out == nullptr) throw std::bad_alloc();
   return out;
 }
-void operator delete(void* old) noexcept { std::free(old); }
-void operator delete(void* old, std::size_t) noexcept { std::free(old); }
+// Not inlined: the compiler would take free() in the caller for the wrong partner of new.
+[[gnu::noinline]] void operator delete(void* old) noexcept { std::free(old); }
+[[gnu::noinline]] void operator delete(void* old, std::size_t) noexcept { std::free(old); }
 
 namespace hexdbb::testing {
 namespace {
