@@ -1,5 +1,5 @@
-// Speed of single poses: inverse, forward warm and from home, reading and its whole sensitivity. Poses are drawn over the
-// workspace; a warm start stands 0.1 mm away. Every solution is to 1e-12 mm.
+// Speed of single poses: inverse, forward warm and from home, reading and its whole sensitivity. Poses are drawn over
+// the workspace; a warm start stands 0.1 mm away. Every solution is to 1e-12 mm.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -18,8 +18,8 @@ constexpr int kPoses = 1024;
 struct Case {
   Pose pose;
   Vector6 sliders;
-  RssrAngles solved;      // of the pose itself
-  RssrAngles neighbour;   // of a pose 0.1 mm away
+  RssrAngles solved;     // of the pose itself
+  RssrAngles neighbour;  // of a pose 0.1 mm away
   Pose neighbour_pose;
   Mechanism mechanism;
 };
@@ -122,8 +122,7 @@ void sensitivity_six(benchmark::State& state) {
   const Ports none;
   Ports answer;
   each_case(state, tilted(), [&](const Case& each) {
-    benchmark::DoNotOptimize(
-        reading_sensitivity_six(nominal(), each.mechanism, each.pose, set_up(), none, answer));
+    benchmark::DoNotOptimize(reading_sensitivity_six(nominal(), each.mechanism, each.pose, set_up(), none, answer));
     benchmark::DoNotOptimize(answer);
   });
 }

@@ -27,7 +27,8 @@ void bind_effects(py::module_& module) {
       [](const Machine& machine, int mounts, const std::string& name) {
         return find_effect(machine, mounts, name)->info();
       },
-      py::arg("machine"), py::arg("mounts"), py::arg("name"), "The effect of that name; ValueError where there is none.");
+      py::arg("machine"), py::arg("mounts"), py::arg("name"),
+      "The effect of that name; ValueError where there is none.");
 }
 
 }  // namespace hexdbb::bindings

@@ -10,9 +10,15 @@ void bind_machine(py::module_& module) {
       .def(py::init([](double base_inradius_mm, double platform_circumradius_mm, double joint_plane_height_mm,
                        double leg_length_mm, double travel_min_mm, double travel_max_mm, double min_gap_mm,
                        double screw_lead_mm, double moved_mass_kg) {
-             return Machine{base_inradius_mm, platform_circumradius_mm, joint_plane_height_mm,
-                            leg_length_mm,    travel_min_mm,            travel_max_mm,
-                            min_gap_mm,       screw_lead_mm,            moved_mass_kg};
+             return Machine{base_inradius_mm,
+                            platform_circumradius_mm,
+                            joint_plane_height_mm,
+                            leg_length_mm,
+                            travel_min_mm,
+                            travel_max_mm,
+                            min_gap_mm,
+                            screw_lead_mm,
+                            moved_mass_kg};
            }),
            py::kw_only(), py::arg("base_inradius_mm"), py::arg("platform_circumradius_mm"),
            py::arg("joint_plane_height_mm"), py::arg("leg_length_mm"), py::arg("travel_min_mm"),

@@ -1,7 +1,8 @@
 #include "bindings.hpp"
 
 PYBIND11_MODULE(_core, module) {
-  module.doc() = "The engine of hexdbb: kinematics, effects, prediction, diagnosis. Units: mm, rad, s, N; indices from 0.";
+  module.doc() =
+      "The engine of hexdbb: kinematics, effects, prediction, diagnosis. Units: mm, rad, s, N; indices from 0.";
   using namespace hexdbb::bindings;
   bind_machine(module);
   bind_kinematics(module);

@@ -16,8 +16,7 @@ int main() {
   hexdbb::Ports errors;
   errors.leg()[0] = 0.050;
   hexdbb::RssrAngles angles;  // keep it: the next solution starts from here
-  const hexdbb::ForwardResult real =
-      hexdbb::forward(hexdbb::assemble(machine, sliders.sliders_mm, errors), angles);
+  const hexdbb::ForwardResult real = hexdbb::forward(hexdbb::assemble(machine, sliders.sliders_mm, errors), angles);
   if (real.status != hexdbb::Status::kOk) return 1;
   std::cout << "platform is off by um: " << 1e3 * (real.pose.position - wanted.position).transpose() << '\n'
             << "residual mm: " << real.residual_mm << " after " << real.iterations << " Newton steps\n";

@@ -34,6 +34,6 @@ int main() {
   const hexdbb::FitResult found =
       hexdbb::fit(model, samples, hexdbb::predict(truth, samples, false).reading_mm, hexdbb::FitOptions());
   std::cout << "reading error um: " << 1e3 * found.rms_before_mm << " -> " << 1e3 * found.rms_after_mm << '\n'
-            << "rank " << found.identifiability.rank << " of " << model.size() << " unknowns\n";
+            << "rank " << found.machine.rank << " of the machine's unknowns\n";
   return found.usable && found.rms_after_mm < 1e-6 ? 0 : 1;
 }

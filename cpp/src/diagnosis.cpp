@@ -6,16 +6,17 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
+
+#include "normal_equations.hpp"
 
 namespace hexdbb {
 
 namespace {
 
-// Directions this far below the best known one are redundant in exact arithmetic.
-constexpr double kRedundant = 1e-9;
+// Singular values this far below the largest are redundancies: J'J resolves them to about 1e-8.
+constexpr double kRedundant = 1e-6;
 
-double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
+double rms(double squared, Eigen::Index count) { return std::sqrt(squared / static_cast<double>(count)); }
 
 /// What is estimated: free values in units of their expected sizes.
 struct Unknowns {
@@ -32,20 +33,16 @@ struct Unknowns {
   }
 
   Eigen::VectorXd scaled_start() const { return start(columns).cwiseQuotient(scale); }
-
-  RowMajorMatrix scaled(const RowMajorMatrix& jacobian) const {
-    return jacobian(Eigen::all, columns) * scale.asDiagonal();
-  }
 };
 
-/// Residuals and prior, compressed. With r the whitened readings' residuals and J their Jacobian, Ceres sees the n + p numbers
-/// only through |r|^2, J'r and J'J. A triangular factor U of J'J, U^-T J'r and the part of |r| outside J's range have the same
-/// three, so that a problem of 20,000 residuals becomes one of p + 1, and its dense algebra takes no time.
+/// Residuals and prior, compressed. With r the whitened readings' residuals and J their Jacobian, Ceres sees the n + p
+/// numbers only through |r|^2, J'r and J'J. A triangular factor U of J'J, U^-T J'r and the part of |r| outside J's
+/// range have the same three, so that a problem of 20,000 residuals becomes one of p + 1, and its dense algebra takes
+/// no time.
 class CompressedCost : public ceres::CostFunction {
  public:
-  CompressedCost(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-                 const Unknowns& unknowns, double noise_mm)
-      : model_(model), samples_(samples), measured_mm_(measured_mm), unknowns_(unknowns), noise_mm_(noise_mm) {
+  CompressedCost(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, double noise_mm)
+      : model_(model), accumulator_(accumulator), unknowns_(unknowns), noise_mm_(noise_mm) {
     set_num_residuals(static_cast<int>(unknowns.size()) + 1);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(unknowns.size()));
   }
@@ -53,19 +50,23 @@ class CompressedCost : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::Index size = unknowns_.size();
     const Eigen::Map<const Eigen::VectorXd> z(parameters[0], size);
-    Model model = model_;
-    model.set_values(unknowns_.values(parameters[0]));
-    const Prediction predicted = predict(model, samples_, true);
-    if (predicted.first_failure() >= 0) return false;  // Ceres then takes a shorter step
-    const Eigen::VectorXd r = (measured_mm_ - predicted.reading_mm) / noise_mm_;
-    const RowMajorMatrix j = unknowns_.scaled(predicted.jacobian) / -noise_mm_;
-    Eigen::MatrixXd information = Eigen::MatrixXd::Identity(size, size);  // the prior's residuals are z themselves
-    information.selfadjointView<Eigen::Lower>().rankUpdate(j.transpose());
+    // Ceres asks for the cost of a step first and for its derivatives when it likes it: both come out of one pass.
+    if (kept_at_.size() != size || kept_at_ != z) {
+      Model model = model_;
+      model.set_values(unknowns_.values(parameters[0]));
+      kept_ = accumulator_.at(model);
+      kept_at_ = z;
+    }
+    if (kept_.failure >= 0) return false;  // Ceres then takes a shorter step
+    const auto per_noise = unknowns_.scale / noise_mm_;
+    Eigen::MatrixXd information = per_noise.asDiagonal() * kept_.information * per_noise.asDiagonal();
+    information.diagonal().array() += 1.0;  // the prior's residuals are z themselves
     const Eigen::LLT<Eigen::MatrixXd> factor(information);
-    const Eigen::VectorXd inside = factor.matrixL().solve(j.transpose() * r + z);
-    const double outside_squared = r.squaredNorm() + z.squaredNorm() - inside.squaredNorm();
+    const Eigen::VectorXd gradient = z - per_noise.cwiseProduct(kept_.gradient) / noise_mm_;
+    const Eigen::VectorXd inside = factor.matrixL().solve(gradient);
+    const double squared = kept_.squared / (noise_mm_ * noise_mm_) + z.squaredNorm();
     Eigen::Map<Eigen::VectorXd>(residuals, size) = inside;
-    residuals[size] = std::sqrt(std::max(outside_squared, 0.0));
+    residuals[size] = std::sqrt(std::max(squared - inside.squaredNorm(), 0.0));
     if (jacobians != nullptr && jacobians[0] != nullptr) {
       Eigen::Map<RowMajorMatrix> out(jacobians[0], size + 1, size);
       out.topRows(size) = factor.matrixU();
@@ -76,20 +77,19 @@ class CompressedCost : public ceres::CostFunction {
 
  private:
   const Model& model_;
-  const Samples& samples_;
-  const Eigen::VectorXd& measured_mm_;
+  Accumulator& accumulator_;
   const Unknowns& unknowns_;
   double noise_mm_;
+  mutable NormalEquations kept_;
+  mutable Eigen::VectorXd kept_at_;
 };
 
-Prediction predict_or_throw(const Model& model, const Samples& samples, bool want_jacobian) {
-  Prediction predicted = predict(model, samples, want_jacobian);
-  const Eigen::Index row = predicted.first_failure();
-  if (row >= 0) {
-    throw std::invalid_argument("sample " + std::to_string(row) + ": " +
-                                status_name(static_cast<Status>(predicted.status[row])));
+NormalEquations at_or_throw(Accumulator& accumulator, const Model& model) {
+  NormalEquations out = accumulator.at(model);
+  if (out.failure >= 0) {
+    throw std::invalid_argument("sample " + std::to_string(out.failure) + ": " + status_name(out.failure_status));
   }
-  return predicted;
+  return out;
 }
 
 Unknowns make_unknowns(const Model& model, const FitOptions& options) {
@@ -106,8 +106,9 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
   return out;
 }
 
-/// Rank and condition of the machine's own unknowns at the nominal machine, where redundancies are exact to first order.
-Identifiability machine_identifiability(const Model& model, const Samples& samples, const Unknowns& unknowns,
+/// Rank and condition of the machine's own unknowns at the nominal machine, where redundancies are exact to first
+/// order: the Schur complement of the set-up's part of J'J.
+Identifiability machine_identifiability(const Model& model, Accumulator& accumulator, const Unknowns& unknowns,
                                         const FitOptions& options) {
   std::vector<bool> is_set_up;
   for (const Term& term : model.terms) {
@@ -117,22 +118,22 @@ Identifiability machine_identifiability(const Model& model, const Samples& sampl
   for (Eigen::Index j = 0; j < unknowns.size(); ++j) (is_set_up[unknowns.columns[j]] ? set_up : machine).push_back(j);
   Model nominal = model;
   nominal.set_values(Eigen::VectorXd::Zero(model.size()));
-  const RowMajorMatrix jacobian = unknowns.scaled(predict_or_throw(nominal, samples, true).jacobian);
-  return identifiability(project_out(jacobian(Eigen::all, machine), jacobian(Eigen::all, set_up)), kRedundant,
-                         options.noise_mm / options.telling_part);
+  const Eigen::MatrixXd information =
+      unknowns.scale.asDiagonal() * at_or_throw(accumulator, nominal).information * unknowns.scale.asDiagonal();
+  return identifiability_of(information, machine, set_up, kRedundant, options.noise_mm / options.telling_part);
 }
 
-void minimize(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-              const Unknowns& unknowns, const FitOptions& options, FitResult& out) {
+void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
+              FitResult& out) {
   Eigen::VectorXd z = unknowns.scaled_start();
   ceres::Problem problem;
-  problem.AddResidualBlock(new CompressedCost(model, samples, measured_mm, unknowns, options.noise_mm), nullptr, z.data());
+  problem.AddResidualBlock(new CompressedCost(model, accumulator, unknowns, options.noise_mm), nullptr, z.data());
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = 1e-10;
-  solver.gradient_tolerance = 1e-10;
-  solver.parameter_tolerance = 1e-10;
+  solver.function_tolerance = 1e-9;
+  solver.gradient_tolerance = 1e-9;
+  solver.parameter_tolerance = 1e-9;
   solver.initial_trust_region_radius = 1e8;  // the problem is nearly linear: start with Gauss-Newton steps
   solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -144,30 +145,33 @@ void minimize(const Model& model, const Samples& samples, const Eigen::VectorXd&
 }
 
 /// Covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.
-Eigen::MatrixXd first_order_spread(const RowMajorMatrix& scaled_jacobian, double noise_mm) {
-  const Eigen::Index size = scaled_jacobian.cols();
-  Eigen::MatrixXd information = Eigen::MatrixXd::Identity(size, size);
-  information.selfadjointView<Eigen::Lower>().rankUpdate(scaled_jacobian.transpose(), 1.0 / (noise_mm * noise_mm));
-  return Eigen::LLT<Eigen::MatrixXd>(information).solve(Eigen::MatrixXd::Identity(size, size));
+Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unknowns& unknowns, double noise_mm) {
+  const auto per_noise = unknowns.scale / noise_mm;
+  Eigen::MatrixXd total = per_noise.asDiagonal() * information * per_noise.asDiagonal();
+  total.diagonal().array() += 1.0;
+  return Eigen::LLT<Eigen::MatrixXd>(total).solve(Eigen::MatrixXd::Identity(unknowns.size(), unknowns.size()));
 }
 
 /// What the curvature of the readings along weakly known directions adds to the covariance of the well known ones.
 ///
-/// Along a direction no reading tells to first order (the cup's height under horizontal circles: its square shortens the bar) the
-/// truth may be a whole expected size away, and what that does to the readings to second order is taken for something else.
-/// With unit steps s_k of one standard deviation along the weak directions, reading(x + sum t_k s_k) = ... + sum h_kl t_k t_l,
-/// t standard normal; the estimate is off by P sum h_kl t_k t_l, P = C J' / noise^2, whose second moment is
-/// m m' + 2 sum p_kl p_kl', p_kl = P h_kl, m = sum p_kk. Evenly spaced rows suffice: h is smooth along a circle.
+/// Along a direction no reading tells to first order (the cup's height under horizontal circles: its square shortens
+/// the bar) the truth may be a whole expected size away, and what that does to the readings to second order is taken
+/// for something else. With unit steps s_k of one standard deviation along the weak directions, reading(x + sum t_k
+/// s_k) = ... + sum h_kl t_k t_l, t standard normal; the estimate is off by P sum h_kl t_k t_l, P = C J' / noise^2,
+/// whose second moment is m m' + 2 sum p_kl p_kl', p_kl = P h_kl, m = sum p_kk. Evenly spaced rows suffice: h is smooth
+/// along a circle.
 class Curvature {
  public:
-  Curvature(const Model& model, const Samples& samples, const Unknowns& unknowns, const RowMajorMatrix& scaled_jacobian,
-            const Eigen::MatrixXd& spread, double noise_mm)
+  Curvature(const Model& model, const Samples& samples, const Unknowns& unknowns, const Eigen::MatrixXd& spread,
+            double noise_mm)
       : model_(model), unknowns_(unknowns) {
     const Eigen::Index stride = std::max<Eigen::Index>(1, samples.size() / kRows);
     const Eigen::Index rows = (samples.size() + stride - 1) / stride;
     const auto every = Eigen::seqN(0, rows, stride);
-    rows_ = Samples{samples.sliders_mm(every, Eigen::all), samples.set_up(every), samples.mount(every), samples.set_ups};
-    const RowMajorMatrix seen = scaled_jacobian(every, Eigen::all);
+    rows_ =
+        Samples{samples.sliders_mm(every, Eigen::all), samples.set_up(every), samples.mount(every), samples.set_ups};
+    const RowMajorMatrix seen =
+        predict(model, rows_, true).jacobian(Eigen::all, unknowns.columns) * unknowns.scale.asDiagonal();
     gain_ = (static_cast<double>(stride) / (noise_mm * noise_mm)) * spread * seen.transpose();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(spread);
     for (Eigen::Index k = 0; k < spread.cols(); ++k) {
@@ -242,19 +246,19 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   const Unknowns unknowns = make_unknowns(model, options);
   if (unknowns.size() == 0) throw std::invalid_argument("there is nothing free to fit");
   out.free_columns = unknowns.columns;
-  out.rms_before_mm = rms(measured_mm - predict_or_throw(model, samples, false).reading_mm);
-  out.machine = machine_identifiability(model, samples, unknowns, options);
-  minimize(model, samples, measured_mm, unknowns, options, out);
+  Accumulator accumulator(samples, measured_mm, unknowns.columns);
+  out.rms_before_mm = rms(at_or_throw(accumulator, model).squared, samples.size());
+  out.machine = machine_identifiability(model, accumulator, unknowns, options);
+  minimize(model, accumulator, unknowns, options, out);
 
   Model fitted = model;
   fitted.set_values(out.values);
-  const Prediction after = predict_or_throw(fitted, samples, true);
-  out.residual_mm = measured_mm - after.reading_mm;
-  out.rms_after_mm = rms(out.residual_mm);
+  const NormalEquations after = at_or_throw(accumulator, fitted);
+  out.residual_mm = accumulator.residual_mm();
+  out.rms_after_mm = rms(after.squared, samples.size());
   out.noise_mm = std::max(options.noise_mm, out.rms_after_mm);
-  const RowMajorMatrix jacobian = unknowns.scaled(after.jacobian);
-  Eigen::MatrixXd spread = first_order_spread(jacobian, out.noise_mm);
-  spread += Curvature(fitted, samples, unknowns, jacobian, spread, out.noise_mm).spread();
+  Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, out.noise_mm);
+  spread += Curvature(fitted, samples, unknowns, spread, out.noise_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

@@ -26,14 +26,19 @@ EffectPtr one_to_one(EffectInfo info, int first_port) {
 }
 
 EffectPtr leg_length() {
-  return one_to_one({"leg_length", "A leg is longer than nominal.", "thesis 3.2 (1)", "leg", kSix,
-                     {length("longer")}, {"leg"}},
-                    port::kLeg);
+  return one_to_one(
+      {"leg_length", "A leg is longer than nominal.", "thesis 3.2 (1)", "leg", kSix, {length("longer")}, {"leg"}},
+      port::kLeg);
 }
 
 EffectPtr slider_offset() {
-  return one_to_one({"slider_offset", "A slider stands further along its guideway than it reports.", "thesis 3.2 (2)",
-                     "slider", kSix, {length("offset")}, {"slider"}},
+  return one_to_one({"slider_offset",
+                     "A slider stands further along its guideway than it reports.",
+                     "thesis 3.2 (2)",
+                     "slider",
+                     kSix,
+                     {length("offset")},
+                     {"slider"}},
                     port::kSlider);
 }
 
@@ -49,8 +54,11 @@ EffectPtr guideway_translation() {
   }
   EffectInfo info{"guideway_translation",
                   "A guideway stands displaced: x outward from the base centre, y towards its vertex, z up.",
-                  "thesis 3.2 (3) 1, Figure 3.2 (a)", "guideway", kThree,
-                  {length("x"), length("y"), length("z")}, {"slider_joint"}};
+                  "thesis 3.2 (3) 1, Figure 3.2 (a)",
+                  "guideway",
+                  kThree,
+                  {length("x"), length("y"), length("z")},
+                  {"slider_joint"}};
   return std::make_shared<ConstantEffect>(std::move(info), std::move(links));
 }
 
@@ -58,34 +66,39 @@ EffectPtr rotation(const Machine& machine, const char* name, const char* physics
                    bool about_midpoint) {
   std::vector<Hinge> hinges;
   for (int i = 0; i < kGuideways; ++i) {
-    hinges.push_back({guideway_axes(i).col(local_axis),
-                      about_midpoint ? guideway_midpoint(machine, i) : Vector3(Vector3::Zero())});
+    hinges.push_back(
+        {guideway_axes(i).col(local_axis), about_midpoint ? guideway_midpoint(machine, i) : Vector3(Vector3::Zero())});
   }
   EffectInfo info{name, physics, source, "guideway", kThree, {angle("angle")}, {"slider_joint"}};
   return std::make_shared<GuidewayRotation>(std::move(info), machine, hinges);
 }
 
 EffectPtr platform_side(const Machine& machine) {
-  return std::make_shared<PlatformSides>(
-      EffectInfo{"platform_side", "Two ball joints of the platform are further apart than nominal.",
-                 "thesis 3.2 (3), ball joints", "side", {"12", "23", "31"}, {length("longer")}, {"platform_joint"}},
-      machine);
+  return std::make_shared<PlatformSides>(EffectInfo{"platform_side",
+                                                    "Two ball joints of the platform are further apart than nominal.",
+                                                    "thesis 3.2 (3), ball joints",
+                                                    "side",
+                                                    {"12", "23", "31"},
+                                                    {length("longer")},
+                                                    {"platform_joint"}},
+                                         machine);
 }
 
 }  // namespace
 
 std::vector<EffectPtr> geometric_effects(const Machine& machine) {
-  return {leg_length(),
-          slider_offset(),
-          guideway_translation(),
-          rotation(machine, "guideway_rotation_xy", "A guideway is turned about the vertical through its midpoint.",
-                   "thesis 3.2 (3) 2, Figure 3.2 (b)", 2, true),
-          rotation(machine, "guideway_rotation_yz",
-                   "A guideway is tilted in its vertical plane, about the outward axis through its midpoint.",
-                   "thesis 3.2 (3) 2, Figure 3.2 (b)", 0, true),
-          rotation(machine, "guideway_rotation_centre", "A guideway is turned about the vertical through the base centre.",
-                   "thesis 3.2 (3) 3, Figure 3.2 (c)", 2, false),
-          platform_side(machine)};
+  return {
+      leg_length(),
+      slider_offset(),
+      guideway_translation(),
+      rotation(machine, "guideway_rotation_xy", "A guideway is turned about the vertical through its midpoint.",
+               "thesis 3.2 (3) 2, Figure 3.2 (b)", 2, true),
+      rotation(machine, "guideway_rotation_yz",
+               "A guideway is tilted in its vertical plane, about the outward axis through its midpoint.",
+               "thesis 3.2 (3) 2, Figure 3.2 (b)", 0, true),
+      rotation(machine, "guideway_rotation_centre", "A guideway is turned about the vertical through the base centre.",
+               "thesis 3.2 (3) 3, Figure 3.2 (c)", 2, false),
+      platform_side(machine)};
 }
 
 }  // namespace hexdbb

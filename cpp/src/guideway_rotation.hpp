@@ -1,7 +1,7 @@
 // A guideway turned about an axis through a fixed point: both slider joints move by (Rot(axis, angle) - I)(B - centre).
 //
-// Rodrigues: (Rot - I) r = sin(angle) u + (1 - cos(angle)) w, u = axis x r, w = axis x u; r = V - centre + s d is affine in
-// the slider coordinate, so u and w are too.
+// Rodrigues: (Rot - I) r = sin(angle) u + (1 - cos(angle)) w, u = axis x r, w = axis x u; r = V - centre + s d is
+// affine in the slider coordinate, so u and w are too.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -52,9 +52,8 @@ class GuidewayRotation : public Effect {
       const double angle = values[guideway_of(k)];
       const Affine rate = lever.at(std::cos(angle), std::sin(angle));
       for (int axis = 0; axis < 3; ++axis) {
-        jacobian.col(guideway_of(k)).array() +=
-            sensitivity.col(port::kSliderJoint + 3 * k + axis).array() *
-            (rate.constant[axis] + rate.slope[axis] * block.slider_mm(k).array());
+        jacobian.col(guideway_of(k)).array() += sensitivity.col(port::kSliderJoint + 3 * k + axis).array() *
+                                                (rate.constant[axis] + rate.slope[axis] * block.slider_mm(k).array());
       }
     }
   }

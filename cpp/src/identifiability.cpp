@@ -1,5 +1,6 @@
 #include "hexdbb/identifiability.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -8,6 +9,12 @@ namespace hexdbb {
 namespace {
 
 constexpr double kNuisanceRank = 1e-6;
+
+void count_rank(Identifiability& out, double relative, double absolute) {
+  const double limit = std::max(relative * out.singular_values[0], absolute);
+  while (out.rank < out.singular_values.size() && out.singular_values[out.rank] > limit) ++out.rank;
+  if (out.rank > 0) out.condition = out.singular_values[0] / out.singular_values[out.rank - 1];
+}
 
 }  // namespace
 
@@ -23,9 +30,29 @@ Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double re
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(square, Eigen::ComputeFullV);
   out.singular_values = svd.singularValues();
   out.directions = svd.matrixV();
-  const double limit = std::max(relative * out.singular_values[0], absolute);
-  while (out.rank < unknowns && out.singular_values[out.rank] > limit) ++out.rank;
-  if (out.rank > 0) out.condition = out.singular_values[0] / out.singular_values[out.rank - 1];
+  count_rank(out, relative, absolute);
+  return out;
+}
+
+Identifiability identifiability_of(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& wanted,
+                                   const std::vector<Eigen::Index>& nuisance, double relative, double absolute) {
+  Identifiability out;
+  if (wanted.empty()) return out;
+  Eigen::MatrixXd left = information(wanted, wanted);
+  if (!nuisance.empty()) {
+    const Eigen::MatrixXd cross = information(wanted, nuisance);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(information(nuisance, nuisance));
+    const double floor = kNuisanceRank * kNuisanceRank * own.eigenvalues().maxCoeff();
+    for (Eigen::Index k = 0; k < own.eigenvalues().size(); ++k) {
+      if (own.eigenvalues()[k] <= floor) continue;
+      const Eigen::VectorXd shared = cross * own.eigenvectors().col(k);
+      left -= shared * shared.transpose() / own.eigenvalues()[k];
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(left);
+  out.singular_values = principal.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
+  out.directions = principal.eigenvectors().rowwise().reverse();
+  count_rank(out, relative, absolute);
   return out;
 }
 

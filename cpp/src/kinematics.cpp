@@ -21,14 +21,137 @@ Vector3 vector(const Vec<double>& v) { return {v.x, v.y, v.z}; }
 
 // A determinant this small against its two terms means that locked sliders do not hold the platform.
 constexpr double kSingularRatio = 1e-9;
-// Largest turn of one Newton step, as a tangent: keeps a search from afar on its own branch.
-constexpr double kLargestTurn = 0.5;
+// Largest turn of a Newton step, as a tangent: from a neighbouring pose, where a longer one means that it is none, and
+// from the symmetric start.
+constexpr double kNeighbourTurn = 0.05;
+constexpr double kHomeTurn = 0.5;
 
-/// Square of the determinant below which the loops count as singular: a fraction of its terms' largest possible size.
-double singular_limit_squared(const rssr::Circle<double> (&circle)[3], const PlatformTriangle& triangle) {
+/// The loops of one sample: circles, sides, and the determinant (squared) below which they count as singular, a
+/// fraction of its terms' largest possible size.
+struct LoopProblem {
+  rssr::Circle<double> circle[3];
+  double side_squared[3];
+  double mm_per_f;
+  double limit_squared;
+  double open[3] = {};  // F of the start of a tracked solution
+};
+
+struct LoopState {
+  double c[3], s[3];
+  rssr::Loops<double> loops;
+  double residual_mm = std::numeric_limits<double>::infinity();
+};
+
+bool pose_problem(const Mechanism& mechanism, const PlatformTriangle& triangle, LoopProblem& out) {
   constexpr double kFraction = 64.0 * kSingularRatio * kSingularRatio;
-  return kFraction * (circle[0].radius_squared * triangle.side_squared[0]) *
-         (circle[1].radius_squared * triangle.side_squared[1]) * (circle[2].radius_squared * triangle.side_squared[2]);
+  out.mm_per_f = triangle.mm_per_f;
+  out.limit_squared = kFraction;
+  for (int i = 0; i < kGuideways; ++i) {
+    rssr::Circle<double>& circle = out.circle[i];
+    circle = rssr::meeting_circle(vec(mechanism.slider_joint, 2 * i), vec(mechanism.slider_joint, 2 * i + 1),
+                                  mechanism.leg_length[2 * i], mechanism.leg_length[2 * i + 1]);
+    if (!(circle.radius_squared > 0.0) || !(circle.span_squared > 0.0)) return false;
+    out.side_squared[i] = triangle.side_squared[i];
+    out.limit_squared *= circle.radius_squared * triangle.side_squared[i];
+  }
+  return true;
+}
+
+LoopState start_at(const RssrAngles& angles) {
+  LoopState out;
+  for (int i = 0; i < kGuideways; ++i) {
+    out.c[i] = angles.cosine[i];
+    out.s[i] = angles.sine[i];
+  }
+  return out;
+}
+
+/// Newton on F = `open_part` * open until the residual is below `tolerance_mm`. Ball joints that all move inward
+/// shorten all sides, so that on the way the machine is assembled the determinant is negative; a search that comes to
+/// the other side of a singularity, or takes a step so long that it may have jumped over one, would find another way to
+/// assemble it and is ended.
+Status newton(const LoopProblem& problem, double open_part, double tolerance_mm, double largest_turn, LoopState& state,
+              int& iterations) {
+  constexpr int kMost = 10;
+  for (int steps = 0;; ++steps) {
+    state.loops = rssr::close_loops(problem.circle, state.c, state.s, problem.side_squared);
+    double (&f)[3] = state.loops.f;
+    for (int i = 0; i < kGuideways; ++i) f[i] -= open_part * problem.open[i];
+    state.residual_mm = problem.mm_per_f * std::max({std::abs(f[0]), std::abs(f[1]), std::abs(f[2])});
+    // The step that led here had its determinant checked, so only a solution without a step needs a check of its own.
+    if (state.residual_mm <= tolerance_mm && steps > 0) return Status::kOk;
+    const rssr::LoopJacobian<double> jacobian = rssr::loop_jacobian(problem.circle, state.c, state.s, state.loops);
+    if (!(jacobian.determinant < 0.0) || !(jacobian.determinant * jacobian.determinant > problem.limit_squared)) {
+      return Status::kSingular;
+    }
+    if (steps == kMost) return Status::kIterationLimit;
+    double step[3];
+    rssr::cramer_step(state.loops, jacobian, step);  // (2.18)-(2.21)
+    if (!(std::max({std::abs(step[0]), std::abs(step[1]), std::abs(step[2])}) < largest_turn)) {
+      return Status::kIterationLimit;
+    }
+    for (int i = 0; i < kGuideways; ++i) rssr::turn(step[i], state.c[i], state.s[i]);
+    ++iterations;
+  }
+}
+
+/// The machine with its platform level over the base centre, all sliders at equal distance from the middle of their
+/// guideways, and the angles it then has: where a search from nowhere starts.
+Mechanism symmetric_start(const Mechanism& target, const PlatformTriangle& triangle, LoopState& state) {
+  constexpr double kRadiusPart = 0.66;  // of the squared leg length: half-way up
+  Mechanism out = target;
+  const Vector3 middle = triangle.joints.rowwise().mean();
+  for (int i = 0; i < kGuideways; ++i) {
+    const Vector3 first = target.slider_joint.col(2 * i), second = target.slider_joint.col(2 * i + 1);
+    const Vector3 along = (second - first).normalized();
+    const Vector3 nearest = first - along.dot(first) * along;  // to the base centre
+    const double leg = std::min(target.leg_length[2 * i], target.leg_length[2 * i + 1]);
+    const double half_span = leg * std::sqrt(1.0 - kRadiusPart);
+    out.slider_joint.col(2 * i) = nearest - half_span * along;
+    out.slider_joint.col(2 * i + 1) = nearest + half_span * along;
+    out.leg_length[2 * i] = out.leg_length[2 * i + 1] = leg;
+    const double reach = nearest.norm() - (triangle.joints.col(i) - middle).norm();
+    state.s[i] = std::clamp(reach / (leg * std::sqrt(kRadiusPart)), -0.95, 0.95);
+    state.c[i] = std::sqrt(1.0 - state.s[i] * state.s[i]);
+  }
+  return out;
+}
+
+/// From nowhere: the sliders are moved from the symmetric start to where they stand, in steps that halve where Newton
+/// does not follow, so that the solution is the one the machine reaches without being taken apart.
+Status track(const Mechanism& target, const PlatformTriangle& triangle, LoopState& state, int& iterations) {
+  constexpr double kCoarse_mm = 1e-3;
+  constexpr double kSmallestStep = 1.0 / 1024.0;
+  const Mechanism start = symmetric_start(target, triangle, state);
+  LoopProblem problem;
+  if (!pose_problem(start, triangle, problem)) return Status::kUnreachable;
+  const rssr::Loops<double> at_start = rssr::close_loops(problem.circle, state.c, state.s, problem.side_squared);
+  double done = 0.0, step = 0.25;
+  while (done < 1.0) {
+    const double next_done = std::min(done + step, 1.0);
+    Mechanism between = target;
+    between.slider_joint = (1.0 - next_done) * start.slider_joint + next_done * target.slider_joint;
+    between.leg_length = (1.0 - next_done) * start.leg_length + next_done * target.leg_length;
+    for (int i = 0; i < kGuideways; ++i) problem.open[i] = at_start.f[i];
+    LoopState next = state;
+    Status status = pose_problem(between, triangle, problem) ? Status::kOk : Status::kUnreachable;
+    if (status == Status::kOk) {
+      const double tolerance = next_done < 1.0 ? kCoarse_mm : kResidualTolerance_mm;
+      status = newton(problem, 1.0 - next_done, tolerance, kHomeTurn, next, iterations);
+    }
+    if (status == Status::kOk) {
+      state = next;
+      done = next_done;
+      step *= 2.0;
+      continue;
+    }
+    step *= 0.5;
+    if (step < kSmallestStep) {
+      state.residual_mm = std::max(next.residual_mm, triangle.mm_per_f * (1.0 - done) * problem.side_squared[0]);
+      return status;
+    }
+  }
+  return Status::kOk;
 }
 
 InverseResult failed(Status status, int leg) { return {Vector6::Zero(), status, leg}; }
@@ -54,8 +177,8 @@ void check_limits(const Machine& machine, InverseResult& out) {
   }
 }
 
-/// Position and orientation from three ball joints: R maps Q2-Q1, Q3-Q1 and their cross product. The reference point lies
-/// below the joint plane along the platform's own normal, not along base z as thesis (2.26) has it.
+/// Position and orientation from three ball joints: R maps Q2-Q1, Q3-Q1 and their cross product. The reference point
+/// lies below the joint plane along the platform's own normal, not along base z as thesis (2.26) has it.
 Pose align(const PlatformTriangle& triangle, const rssr::Loops<double>& loops) {
   const Vec<double> x = loops.q[1] - loops.q[0];
   const Vec<double> y = loops.q[2] - loops.q[0];
@@ -111,51 +234,29 @@ Vector3 RssrAngles::angle_rad() const {
   return {std::atan2(sine[0], cosine[0]), std::atan2(sine[1], cosine[1]), std::atan2(sine[2], cosine[2])};
 }
 
-HEXDBB_MULTIVERSION
 ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triangle, RssrAngles& angles) noexcept {
   ForwardResult out;
-  const auto& leg = mechanism.leg_length;
-  rssr::Circle<double> circle[3];
-  for (int i = 0; i < kGuideways; ++i) {
-    circle[i] = rssr::meeting_circle(vec(mechanism.slider_joint, 2 * i), vec(mechanism.slider_joint, 2 * i + 1),
-                                     leg[2 * i], leg[2 * i + 1]);
-    if (!(circle[i].radius_squared > 0.0) || !(circle[i].span_squared > 0.0)) {
-      out.status = Status::kUnreachable;
-      return out;
-    }
+  LoopProblem problem;
+  if (!pose_problem(mechanism, triangle, problem)) {
+    out.status = Status::kUnreachable;
+    return out;
   }
-  const double side_squared[3] = {triangle.side_squared[0], triangle.side_squared[1], triangle.side_squared[2]};
-  const double limit_squared = singular_limit_squared(circle, triangle);
-  double c[3] = {angles.cosine[0], angles.cosine[1], angles.cosine[2]};
-  double s[3] = {angles.sine[0], angles.sine[1], angles.sine[2]};
-
-  for (;;) {
-    const rssr::Loops<double> loops = rssr::close_loops(circle, c, s, side_squared);
-    out.residual_mm =
-        triangle.mm_per_f * std::max({std::abs(loops.f[0]), std::abs(loops.f[1]), std::abs(loops.f[2])});
-    // The step that led here was checked for singularity, so only a solution without a step takes one to be checked.
-    const bool solved = out.residual_mm <= kResidualTolerance_mm;
-    if (solved && out.iterations > 0) {
-      out.pose = align(triangle, loops);
-      angles.cosine << c[0], c[1], c[2];
-      angles.sine << s[0], s[1], s[2];
-      return out;
-    }
-    const rssr::LoopJacobian<double> jacobian = rssr::loop_jacobian(circle, c, s, loops);
-    if (!(jacobian.determinant * jacobian.determinant > limit_squared)) {
-      if (std::isnan(out.residual_mm)) out.residual_mm = std::numeric_limits<double>::infinity();
-      out.status = Status::kSingular;
-      return out;
-    }
-    if (out.iterations == kMaxIterations) {
-      out.status = Status::kIterationLimit;
-      return out;
-    }
-    double step[3];
-    rssr::cramer_step(loops, jacobian, step);  // (2.18)-(2.21)
-    for (int i = 0; i < kGuideways; ++i) rssr::turn(std::clamp(step[i], -kLargestTurn, kLargestTurn), c[i], s[i]);
-    ++out.iterations;
+  const RssrAngles home;
+  LoopState state = start_at(angles);
+  const bool from_home = angles.cosine == home.cosine && angles.sine == home.sine;
+  const double turn = from_home ? kHomeTurn : kNeighbourTurn;
+  out.status = newton(problem, 0.0, kResidualTolerance_mm, turn, state, out.iterations);
+  if (out.status != Status::kOk && !from_home) {
+    state = start_at(home);
+    out.status = newton(problem, 0.0, kResidualTolerance_mm, kHomeTurn, state, out.iterations);
   }
+  if (out.status != Status::kOk) out.status = track(mechanism, triangle, state, out.iterations);
+  out.residual_mm = std::isnan(state.residual_mm) ? std::numeric_limits<double>::infinity() : state.residual_mm;
+  if (out.status != Status::kOk) return out;
+  out.pose = align(triangle, state.loops);
+  angles.cosine << state.c[0], state.c[1], state.c[2];
+  angles.sine << state.s[0], state.s[1], state.s[2];
+  return out;
 }
 
 ForwardResult forward(const Mechanism& mechanism, RssrAngles& angles) noexcept {
@@ -198,7 +299,8 @@ ForwardResult forward_six(const Mechanism& mechanism, const Pose& start) noexcep
     const Vector3 turn = step.tail<3>();
     const double angle = turn.norm();
     // Long steps are shortened to half a radian or 200 mm, so that a search from afar stays on its branch.
-    const double fraction = std::min({1.0, 0.5 / std::max(angle, 1e-300), 200.0 / std::max(step.head<3>().norm(), 1e-300)});
+    const double fraction =
+        std::min({1.0, 0.5 / std::max(angle, 1e-300), 200.0 / std::max(step.head<3>().norm(), 1e-300)});
     out.pose.position += fraction * step.head<3>();
     if (angle > 0.0) {
       out.pose.rotation = Eigen::AngleAxisd(fraction * angle, turn / angle).toRotationMatrix() * out.pose.rotation;

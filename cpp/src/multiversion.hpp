@@ -1,10 +1,13 @@
-// Functions compiled twice, for any x86-64 and for one with AVX2 and FMA; the processor chooses when the program loads, so that
-// one wheel is fast on every machine. Sanitizers cannot follow the resolver and get the plain version.
+// Functions compiled for several processors (any x86-64, AVX2 with FMA, AVX-512), of which the best is chosen when the
+// program loads, so that one build is fast on every machine. Sanitizers cannot follow the resolver and get the plain
+// version.
 #pragma once
 
-#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && !defined(__clang__) && \
+#if defined(__x86_64__) && defined(__gnu_linux__) && defined(__GNUC__) && __GNUC__ >= 12 && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
-#define HEXDBB_MULTIVERSION __attribute__((target_clones("arch=haswell", "default")))
+#define HEXDBB_MULTIVERSION __attribute__((target_clones("arch=x86-64-v3", "default")))
+#define HEXDBB_MULTIVERSION_WIDE __attribute__((flatten, target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
 #define HEXDBB_MULTIVERSION
+#define HEXDBB_MULTIVERSION_WIDE
 #endif

@@ -1,8 +1,8 @@
 // The joint triangle with sides longer than nominal.
 //
-// Three side lengths leave the triangle's place in its plane open; a ball bar whose ball offset is unknown cannot see it. It is
-// fixed as the nearest to the nominal one to first order: the centroid stays, and the joints' moments about it vanish. Exact in
-// the side lengths, by Newton on the six in-plane coordinates.
+// Three side lengths leave the triangle's place in its plane open; a ball bar whose ball offset is unknown cannot see
+// it. It is fixed as the nearest to the nominal one to first order: the centroid stays, and the joints' moments about
+// it vanish. Exact in the side lengths, by Newton on the six in-plane coordinates.
 #pragma once
 
 #include <Eigen/LU>

@@ -1,78 +1,8 @@
 #include "hexdbb/prediction.hpp"
 
-#include <algorithm>
+#include "block_solver.hpp"
 
 namespace hexdbb {
-
-namespace {
-
-// Rows handled at a time: 55 ports x 64 rows of doubles stay in a core's first cache.
-constexpr Eigen::Index kBlockRows = 64;
-
-using PortStore = Eigen::Matrix<double, Eigen::Dynamic, port::kCount>;
-
-/// Solves sample after sample, each starting from the one before; prepares the platform's triangle again only when it changes.
-class SampleSolver {
- public:
-  explicit SampleSolver(const Model& model) : nominal_(model.nominal) {}
-
-  /// Pose and mechanism of one sample; false where there is none.
-  Status solve(const Vector6& sliders_mm, const Ports& push) {
-    mechanism_ = assemble(nominal_, sliders_mm, push);
-    shared_ = joints_are_shared(mechanism_);
-    const Matrix3 joints = shared_joints(mechanism_);
-    if (joints != triangle_.joints || !prepared_) {
-      triangle_ = PlatformTriangle(joints);
-      prepared_ = true;
-    }
-    ForwardResult result = forward(mechanism_, triangle_, angles_);
-    if (result.status != Status::kOk) {  // a jump between circles can be too far for a warm start
-      RssrAngles home;
-      result = forward(mechanism_, triangle_, home);
-      if (result.status == Status::kOk) angles_ = home;
-    }
-    if (result.status == Status::kOk && !shared_) result = forward_six(mechanism_, result.pose);
-    pose_ = result.pose;
-    return result.status;
-  }
-
-  bool sensitivity(const SetUp& set_up, const Ports& push, Ports& out) const {
-    return shared_ ? reading_sensitivity(nominal_, mechanism_, triangle_, pose_, set_up, push, out)
-                   : reading_sensitivity_six(nominal_, mechanism_, pose_, set_up, push, out);
-  }
-
-  const Pose& pose() const { return pose_; }
-
- private:
-  const NominalGeometry& nominal_;
-  PlatformTriangle triangle_;
-  RssrAngles angles_;
-  Mechanism mechanism_;
-  Pose pose_;
-  bool prepared_ = false;
-  bool shared_ = true;
-};
-
-/// Calls visit(block, ports) for block after block, with every effect's push in `ports`.
-template <class Visit>
-void for_each_block(const Model& model, const Samples& samples, Visit visit) {
-  PortStore store(std::min(kBlockRows, samples.size()), int{port::kCount});
-  for (Eigen::Index first = 0; first < samples.size(); first += kBlockRows) {
-    const SampleBlock block{samples, first, std::min(kBlockRows, samples.size() - first)};
-    auto ports = store.topRows(block.count);
-    ports.setZero();
-    for (const Term& term : model.terms) term.effect->push(block, term.values, ports);
-    visit(block, ports);
-  }
-}
-
-Ports port_row(const ConstPortBlock& ports, Eigen::Index row) {
-  Ports out;
-  out.value = ports.row(row).transpose();
-  return out;
-}
-
-}  // namespace
 
 void Model::add(EffectPtr effect) {
   const int size = effect->info().size();
@@ -115,48 +45,27 @@ Prediction predict(const Model& model, const Samples& samples, bool want_jacobia
   out.reading_mm.setZero(samples.size());
   out.status.setZero(samples.size());
   if (want_jacobian) out.jacobian.setZero(samples.size(), model.size());
-  SampleSolver solver(model);
-  PortStore sensitivity(std::min(kBlockRows, samples.size()), int{port::kCount});
-  Eigen::MatrixXd block_jacobian(std::min(kBlockRows, samples.size()), model.size());
-  for_each_block(model, samples, [&](const SampleBlock& block, const ConstPortBlock& ports) {
-    for (Eigen::Index row = 0; row < block.count; ++row) {
-      const Eigen::Index sample = block.first + row;
-      const Ports push = port_row(ports, row);
-      const SetUp& set_up = samples.set_ups[samples.set_up[sample]];
-      Status status = solver.solve(samples.sliders_mm.row(sample).transpose(), push);
-      Ports answer;
-      if (status == Status::kOk) {
-        out.reading_mm[sample] = reading_mm(solver.pose(), set_up, push);
-        if (want_jacobian && !solver.sensitivity(set_up, push, answer)) status = Status::kSingular;
-      }
-      if (want_jacobian) sensitivity.row(row) = answer.value.transpose();
-      out.status[sample] = static_cast<int>(status);
-    }
-    if (!want_jacobian) return;
-    Eigen::Index column = 0;
-    for (const Term& term : model.terms) {
-      auto columns = block_jacobian.block(0, column, block.count, term.values.size());
-      term.effect->chain(block, term.values, sensitivity.topRows(block.count), columns);
-      column += term.values.size();
-    }
-    out.jacobian.middleRows(block.first, block.count) = block_jacobian.topRows(block.count);
-  });
+  Eigen::MatrixXd columns(Block::kRows, model.size());
+  BlockSolver(model, samples)
+      .each_block(0, samples.size(), want_jacobian, [&](const SampleBlock& rows, const Block& block) {
+        out.reading_mm.segment(rows.first, rows.count) = block.reading_mm.head(rows.count);
+        for (Eigen::Index row = 0; row < rows.count; ++row) {
+          out.status[rows.first + row] = static_cast<int>(status_of(block, row));
+        }
+        if (!want_jacobian) return;
+        chain(model, rows, block, columns);
+        out.jacobian.middleRows(rows.first, rows.count) = columns.topRows(rows.count);
+      });
+  for (Eigen::Index row = 0; row < samples.size(); ++row) {
+    if (out.status[row] != 0) out.reading_mm[row] = 0.0;
+  }
   return out;
 }
 
 RowMajorMatrix port_sensitivity(const Model& model, const Samples& samples) {
-  RowMajorMatrix out = RowMajorMatrix::Zero(samples.size(), port::kCount);
-  SampleSolver solver(model);
-  for_each_block(model, samples, [&](const SampleBlock& block, const ConstPortBlock& ports) {
-    for (Eigen::Index row = 0; row < block.count; ++row) {
-      const Eigen::Index sample = block.first + row;
-      const Ports push = port_row(ports, row);
-      Ports answer;
-      if (solver.solve(samples.sliders_mm.row(sample).transpose(), push) == Status::kOk) {
-        solver.sensitivity(samples.set_ups[samples.set_up[sample]], push, answer);
-      }
-      out.row(sample) = answer.value.transpose();
-    }
+  RowMajorMatrix out(samples.size(), int{port::kCount});
+  BlockSolver(model, samples).each_block(0, samples.size(), true, [&](const SampleBlock& rows, const Block& block) {
+    out.middleRows(rows.first, rows.count) = block.sensitivity.topRows(rows.count);
   });
   return out;
 }
@@ -165,15 +74,11 @@ PoseTable forward_table(const Model& model, const Samples& samples) {
   PoseTable out;
   out.pose.setZero(samples.size(), 12);
   out.status.setZero(samples.size());
-  SampleSolver solver(model);
-  for_each_block(model, samples, [&](const SampleBlock& block, const ConstPortBlock& ports) {
-    for (Eigen::Index row = 0; row < block.count; ++row) {
-      const Eigen::Index sample = block.first + row;
-      const Status status = solver.solve(samples.sliders_mm.row(sample).transpose(), port_row(ports, row));
-      out.status[sample] = static_cast<int>(status);
-      if (status != Status::kOk) continue;
-      out.pose.row(sample).head<3>() = solver.pose().position.transpose();
-      for (int i = 0; i < 3; ++i) out.pose.row(sample).segment<3>(3 + 3 * i) = solver.pose().rotation.row(i);
+  BlockSolver(model, samples).each_block(0, samples.size(), false, [&](const SampleBlock& rows, const Block& block) {
+    for (Eigen::Index row = 0; row < rows.count; ++row) {
+      const Status status = status_of(block, row);
+      out.status[rows.first + row] = static_cast<int>(status);
+      if (status == Status::kOk) out.pose.row(rows.first + row) = block.pose.row(row);
     }
   });
   return out;

@@ -1,12 +1,14 @@
 // The RSSR loops on a scalar type T: double for one pose, a pack of doubles for many side by side.
 //
-// Ball joint i: Q_i = C_i + U_i cos + W_i sin, with C_i the centre of the circle in which the spheres about the two slider
-// joints meet, U_i its radius vector in the plane of the axis and the upward normal, W_i the one across, pointing inward.
-// For the nominal machine this is thesis (2.9), (2.10), (2.23)-(2.25). No angle is ever formed: cosine and sine turn by
-// a tangent, so that an iteration calls no trigonometric function.
+// Ball joint i: Q_i = C_i + U_i cos + W_i sin, with C_i the centre of the circle in which the spheres about the two
+// slider joints meet, U_i its radius vector in the plane of the axis and the upward normal, W_i the one across,
+// pointing inward. For the nominal machine this is thesis (2.9), (2.10), (2.23)-(2.25). No angle is ever formed: cosine
+// and sine turn by a tangent, so that an iteration calls no trigonometric function.
 #pragma once
 
 #include <cmath>
+
+#include "lanes.hpp"
 
 namespace hexdbb::rssr {
 
@@ -43,10 +45,10 @@ struct Circle {
   T span_squared;    // squared horizontal distance of the slider joints; zero where up is undefined
 };
 
-/// Where spheres of radii l1, l2 about b1, b2 meet. With d = b2 - b1: centre b1 + t d, t = (d.d + l1^2 - l2^2) / (2 d.d).
+/// Where spheres of radii l1, l2 about b1, b2 meet. With d = b2 - b1: centre b1 + t d, t = (d.d + l1^2 - l2^2) / (2
+/// d.d).
 template <class T>
 inline Circle<T> meeting_circle(const Vec<T>& b1, const Vec<T>& b2, const T& l1, const T& l2) {
-  using std::sqrt;
   const Vec<T> d = b2 - b1;
   const T span_squared = d.x * d.x + d.y * d.y;
   const T d_squared = span_squared + d.z * d.z;
@@ -55,8 +57,8 @@ inline Circle<T> meeting_circle(const Vec<T>& b1, const Vec<T>& b2, const T& l1,
   const T t = 0.5 + 0.5 * (l1 - l2) * (l1 + l2) * inverse_d_squared;
   const T radius_squared = l1 * l1 - t * t * d_squared;
   // d x z has length sqrt(span), z (d.d) - dz d has length sqrt(span d.d): both become radius vectors.
-  const T in_scale = sqrt(radius_squared * inverse * d_squared);
-  const T up_scale = in_scale * sqrt(inverse_d_squared);
+  const T in_scale = root(radius_squared * inverse * d_squared);
+  const T up_scale = in_scale * root(inverse_d_squared);
   return {b1 + t * d,
           {-(up_scale * d.z) * d.x, -(up_scale * d.z) * d.y, up_scale * span_squared},
           {in_scale * d.y, -(in_scale * d.x), in_scale * T{}},
@@ -73,7 +75,8 @@ struct Loops {
 };
 
 template <class T>
-inline Loops<T> close_loops(const Circle<T> (&circle)[3], const T (&c)[3], const T (&s)[3], const T (&side_squared)[3]) {
+inline Loops<T> close_loops(const Circle<T> (&circle)[3], const T (&c)[3], const T (&s)[3],
+                            const T (&side_squared)[3]) {
   Loops<T> out;
   for (int i = 0; i < 3; ++i) out.q[i] = circle[i].centre + c[i] * circle[i].up + s[i] * circle[i].in;
   for (int i = 0; i < 3; ++i) {

@@ -17,8 +17,14 @@ ParameterInfo place(const char* axis) { return {axis, "mm", kPlacePrior_mm, kPla
 class CupPosition : public Effect {
  public:
   explicit CupPosition(int mounts) {
-    info_ = {"cup_position", "The tool cup is fixed elsewhere than planned.", "set-up", "mount", {},
-             {place("x"), place("y"), place("z")}, {"cup"}, true};
+    info_ = {"cup_position",
+             "The tool cup is fixed elsewhere than planned.",
+             "set-up",
+             "mount",
+             {},
+             {place("x"), place("y"), place("z")},
+             {"cup"},
+             true};
     for (int m = 0; m < mounts; ++m) info_.elements.push_back(std::to_string(m + 1));
   }
 
@@ -47,16 +53,20 @@ class CupPosition : public Effect {
 };
 
 EffectPtr ball_offset() {
-  EffectInfo info{"ball_offset", "The bar's ball sits elsewhere on the platform than planned.", "set-up", "machine",
-                  {"1"}, {place("x"), place("y"), place("z")}, {"ball"}, true};
+  EffectInfo info{"ball_offset", "The bar's ball sits elsewhere on the platform than planned.",
+                  "set-up",      "machine",
+                  {"1"},         {place("x"), place("y"), place("z")},
+                  {"ball"},      true};
   return std::make_shared<ConstantEffect>(
       std::move(info), std::vector<Link>{{0, port::kBall, 1.0}, {1, port::kBall + 1, 1.0}, {2, port::kBall + 2, 1.0}});
 }
 
 EffectPtr bar_length() {
   // A longer bar makes the gauge, which shows length minus nominal length, read less at one and the same distance.
-  EffectInfo info{"bar_length", "The ball bar is longer than its calibration says.", "set-up", "machine", {"1"},
-                  {{"longer", "mm", 0.01, 1.0}}, {"reading"}, true};
+  EffectInfo info{"bar_length", "The ball bar is longer than its calibration says.",
+                  "set-up",     "machine",
+                  {"1"},        {{"longer", "mm", 0.01, 1.0}},
+                  {"reading"},  true};
   return std::make_shared<ConstantEffect>(std::move(info), std::vector<Link>{{0, port::kReading, -1.0}});
 }
 

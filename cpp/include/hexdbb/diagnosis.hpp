@@ -1,11 +1,13 @@
-// Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, and what cannot be.
+// Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, and what
+// cannot be.
 //
-// Model: reading = predict(values) + noise, and every free value has an expected size, its prior: value ~ N(0, prior sigma).
-// Estimate: the most probable values (Levenberg-Marquardt in Ceres, analytic derivatives), minimizing
+// Model: reading = predict(values) + noise, and every free value has an expected size, its prior: value ~ N(0, prior
+// sigma). Estimate: the most probable values (Levenberg-Marquardt in Ceres, analytic derivatives), minimizing
 //   sum ((measured - predicted) / noise)^2 + sum (value / prior sigma)^2.
-// Where the readings speak, the prior is thousands of times weaker than they are; along combinations that no reading can tell it
-// keeps the values near the nominal machine, and it carries into the covariance what those unknown combinations do to the
-// others through second-order geometry, which a fit restricted to the identifiable directions would leave out.
+// Where the readings speak, the prior is thousands of times weaker than they are; along combinations that no reading
+// can tell it keeps the values near the nominal machine, and it carries into the covariance what those unknown
+// combinations do to the others through second-order geometry, which a fit restricted to the identifiable directions
+// would leave out.
 #pragma once
 
 #include <string>
@@ -15,21 +17,21 @@
 namespace hexdbb {
 
 struct FitOptions {
-  double noise_mm = 0.5e-3;      // standard deviation of one reading
-  std::vector<bool> free;        // one a value of the model; empty: all
+  double noise_mm = 0.5e-3;  // standard deviation of one reading
+  std::vector<bool> free;    // one a value of the model; empty: all
   int max_iterations = 50;
   // Readings say something of a direction where they narrow its expected size to at most this part.
   double telling_part = 0.5;
 };
 
 struct FitResult {
-  Eigen::VectorXd values;        // of the whole model
-  Eigen::MatrixXd covariance;    // of the whole model's values, prior included; zero where not free
+  Eigen::VectorXd values;      // of the whole model
+  Eigen::MatrixXd covariance;  // of the whole model's values, prior included; zero where not free
   std::vector<int> free_columns;
-  // Of the machine's own free values at the nominal machine, after all that unknowns of the set-up can explain is taken out,
-  // columns scaled by expected sizes: rank and condition by which plans are compared.
+  // Of the machine's own free values at the nominal machine, after all that unknowns of the set-up can explain is taken
+  // out, columns scaled by expected sizes: rank and condition by which plans are compared.
   Identifiability machine;
-  Eigen::VectorXd residual_mm;   // measured - predicted, after
+  Eigen::VectorXd residual_mm;  // measured - predicted, after
   double rms_before_mm = 0.0;
   double rms_after_mm = 0.0;
   double noise_mm = 0.0;  // used for the covariance: the larger of the given noise and the residuals' own

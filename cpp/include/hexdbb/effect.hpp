@@ -1,8 +1,8 @@
-// An effect: a physical cause, its parameters, and what it pushes at the ports. A model is a machine plus a list of effects;
-// nothing above this header knows any one effect by name.
+// An effect: a physical cause, its parameters, and what it pushes at the ports. A model is a machine plus a list of
+// effects; nothing above this header knows any one effect by name.
 //
-// An effect has elements (leg 1..6, guideway 1..3, mount 1.., the whole machine) and the same parameters for each. Values are
-// laid out element by element. Parameters are in the engine's units.
+// An effect has elements (leg 1..6, guideway 1..3, mount 1.., the whole machine) and the same parameters for each.
+// Values are laid out element by element. Parameters are in the engine's units.
 #pragma once
 
 #include <memory>
@@ -24,11 +24,11 @@ struct EffectInfo {
   std::string name;
   std::string physics;  // one sentence
   std::string source;
-  std::string element_kind;             // "leg", "slider", "guideway", "side", "mount", "machine"
-  std::vector<std::string> elements;    // label of each element: "1", "2", or "12"
+  std::string element_kind;               // "leg", "slider", "guideway", "side", "mount", "machine"
+  std::vector<std::string> elements;      // label of each element: "1", "2", or "12"
   std::vector<ParameterInfo> parameters;  // of one element
-  std::vector<std::string> ports;       // names of ports.hpp
-  bool is_set_up = false;               // belongs to the set-up, not to the machine
+  std::vector<std::string> ports;         // names of ports.hpp
+  bool is_set_up = false;                 // belongs to the set-up, not to the machine
 
   int size() const { return static_cast<int>(elements.size() * parameters.size()); }
 };

@@ -1,10 +1,12 @@
 // Inverse kinematics in closed form, forward kinematics by two solvers. No allocation, no exception, no NaN: a status.
 //
-// forward():      the thesis' three RSSR loops. Two spheres about the joints of a pair of sliders meet in a circle on which
-//                 their ball joint lies, whatever the geometric errors are; three angles (theta, delta, phi), three side lengths
-//                 |Q1Q2|, |Q2Q3|, |Q3Q1|. Newton-Raphson, the step by Cramer's rule (2.17)-(2.21). Exact for every error that
-//                 leaves the ball joint of a pair shared.
-// forward_six():  Newton on the six pose coordinates, one leg length each; any platform (6-6), and the test of the first.
+// forward():      the thesis' three RSSR loops. Two spheres about the joints of a pair of sliders meet in a circle on
+// which
+//                 their ball joint lies, whatever the geometric errors are; three angles (theta, delta, phi), three
+//                 side lengths |Q1Q2|, |Q2Q3|, |Q3Q1|. Newton-Raphson, the step by Cramer's rule (2.17)-(2.21). Exact
+//                 for every error that leaves the ball joint of a pair shared.
+// forward_six():  Newton on the six pose coordinates, one leg length each; any platform (6-6), and the test of the
+// first.
 #pragma once
 
 #include "hexdbb/mechanism.hpp"
@@ -28,8 +30,8 @@ struct InverseResult {
   int leg = -1;  // 0-based leg or slider at fault, -1 where none
 };
 
-/// Slider coordinates to report for a pose (thesis 2.6-2.8): s = f -/+ sqrt(l^2 - r^2) with f the ball joint's foot on the
-/// guideway and r its distance from it. `push` must not depend on the sliders themselves.
+/// Slider coordinates to report for a pose (thesis 2.6-2.8): s = f -/+ sqrt(l^2 - r^2) with f the ball joint's foot on
+/// the guideway and r its distance from it. `push` must not depend on the sliders themselves.
 InverseResult inverse(const NominalGeometry& nominal, const Pose& pose, const Ports& push = Ports()) noexcept;
 
 /// The three RSSR angles as cosines and sines: where a solution starts, and the start of the next.

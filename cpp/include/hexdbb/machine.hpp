@@ -1,4 +1,5 @@
-// The nominal HexGlider: three guideways forming a triangle, two sliders on each, six legs of equal length, one platform.
+// The nominal HexGlider: three guideways forming a triangle, two sliders on each, six legs of equal length, one
+// platform.
 //
 // Base frame: origin at the centre of the base triangle, z up. Guideway i (0..2) is the line through the vertex
 //   V_i = Rz(120 deg * i) (BR, sqrt(3) BR, 0)   along   d_i = Rz(120 deg * i) (0, -1, 0).

@@ -1,5 +1,5 @@
-// The mechanism as it really stands in one sample: where the joints on the sliders are, how long the legs are, where the
-// ball joints sit on the platform. Made from the nominal machine, six slider coordinates and a push at every port.
+// The mechanism as it really stands in one sample: where the joints on the sliders are, how long the legs are, where
+// the ball joints sit on the platform. Made from the nominal machine, six slider coordinates and a push at every port.
 //
 // Assumption: pushes add. The joint centre of slider k is V_i + (s_k + slider_k) d_i + slider_joint_k; products of two
 // pushes (50 um on a guideway turned by 0.2 mrad: 0.01 um) are left out here, everything after it is exact.
@@ -25,16 +25,16 @@ struct PlatformTriangle {
   PlatformTriangle() = default;
   explicit PlatformTriangle(const Matrix3& joints_in);
 
-  Matrix3 joints;            // ball joint i as column, platform frame
-  Vector3 side_squared;      // |Q1Q2|^2, |Q2Q3|^2, |Q3Q1|^2, mm^2
-  double mm_per_f;           // error of the shortest side per error of its square
-  Matrix3 frame_inverse;     // of the columns Q2-Q1, Q3-Q1, (Q2-Q1) x (Q3-Q1)
+  Matrix3 joints;         // ball joint i as column, platform frame
+  Vector3 side_squared;   // |Q1Q2|^2, |Q2Q3|^2, |Q3Q1|^2, mm^2
+  double mm_per_f;        // error of the shortest side per error of its square
+  Matrix3 frame_inverse;  // of the columns Q2-Q1, Q3-Q1, (Q2-Q1) x (Q3-Q1)
 };
 
 struct Mechanism {
-  Matrix36 slider_joint;     // base frame
-  Vector6 leg_length;        // mm
-  Matrix36 platform_joint;   // platform frame
+  Matrix36 slider_joint;    // base frame
+  Vector6 leg_length;       // mm
+  Matrix36 platform_joint;  // platform frame
 };
 
 Mechanism assemble(const NominalGeometry& nominal, const Vector6& sliders_mm, const Ports& push) noexcept;

@@ -1,6 +1,6 @@
-// A model, and what it says the ball bar reads: every effect pushes at the ports, then the exact kinematics runs, so that
-// effects combine as in the machine, not as a sum of contours (thesis 3.1 is the linear case). Derivatives are the chain rule:
-// kinematics' sensitivity at the port times the effect's own derivative, analytic throughout.
+// A model, and what it says the ball bar reads: every effect pushes at the ports, then the exact kinematics runs, so
+// that effects combine as in the machine, not as a sum of contours (thesis 3.1 is the linear case). Derivatives are the
+// chain rule: kinematics' sensitivity at the port times the effect's own derivative, analytic throughout.
 #pragma once
 
 #include <vector>
@@ -30,8 +30,8 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 
 struct Prediction {
   Eigen::VectorXd reading_mm;
-  Eigen::VectorXi status;   // of kinematics.hpp, one a sample; the reading is zero where it is not ok
-  RowMajorMatrix jacobian;  // samples x values, d reading / d value; empty unless asked for
+  Eigen::VectorXi status;              // of kinematics.hpp, one a sample; the reading is zero where it is not ok
+  RowMajorMatrix jacobian;             // samples x values, d reading / d value; empty unless asked for
   Eigen::Index first_failure() const;  // row, or -1
 };
 
@@ -40,8 +40,8 @@ Prediction predict(const Model& model, const Samples& samples, bool want_jacobia
 /// Sensitivity of every sample's reading to a push at each port, samples x 55.
 RowMajorMatrix port_sensitivity(const Model& model, const Samples& samples);
 
-/// Poses of the platform for a table of slider coordinates, under all effects of the model: rows of x, y, z and the rotation
-/// matrix row by row; status one a row.
+/// Poses of the platform for a table of slider coordinates, under all effects of the model: rows of x, y, z and the
+/// rotation matrix row by row; status one a row.
 struct PoseTable {
   RowMajorMatrix pose;  // rows x 12
   Eigen::VectorXi status;

@@ -26,7 +26,8 @@ struct Pose {
 /// R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
 Matrix3 rotation_from_rpy(double roll_rad, double pitch_rad, double yaw_rad);
 
-/// Inverse of rotation_from_rpy: (roll, pitch, yaw) in rad, thesis (2.31)-(2.33) for any orientation with |pitch| < 90 deg.
+/// Inverse of rotation_from_rpy: (roll, pitch, yaw) in rad, thesis (2.31)-(2.33) for any orientation with |pitch| < 90
+/// deg.
 Vector3 rpy_from_rotation(const Matrix3& rotation);
 
 }  // namespace hexdbb

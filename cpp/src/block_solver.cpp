@@ -1,0 +1,121 @@
+#include "block_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexdbb {
+
+namespace {
+
+bool is_solved(const Block& block, Eigen::Index row) {
+  return block.residual_mm(row) >= 0.0 && block.residual_mm(row) <= kResidualTolerance_mm;
+}
+
+bool joints_are_shared(const Block& block, Eigen::Index count) {
+  for (int i = 0; i < kGuideways; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int column = port::kPlatformJoint + 6 * i + axis;
+      if (block.ports.col(column).head(count) != block.ports.col(column + 3).head(count)) return false;
+    }
+  }
+  return true;
+}
+
+void store_angles(const RssrAngles& angles, Block& block, Eigen::Index row) {
+  block.angles.row(row) << angles.cosine.transpose(), angles.sine.transpose();
+}
+
+}  // namespace
+
+BlockSolver::BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory)
+    : model_(model), samples_(samples), memory_(memory), block_(std::make_unique<Block>()) {}
+
+void BlockSolver::load(const SampleBlock& rows) {
+  Block& block = *block_;
+  // Whole lanes are solved: rows beyond the last repeat it.
+  for (Eigen::Index row = 0; row < Block::kRows; ++row) {
+    const Eigen::Index sample = rows.first + std::min(row, rows.count - 1);
+    const SetUp& set_up = samples_.set_ups[samples_.set_up[sample]];
+    block.sliders_mm.row(row) = samples_.sliders_mm.row(sample);
+    block.cup_mm.row(row) = set_up.cup_mm.transpose();
+    block.ball_mm.row(row) = set_up.ball_offset_mm.transpose();
+    block.bar_length_mm(row) = set_up.bar_length_mm;
+  }
+  block.ports.setZero();
+  for (const Term& term : model_.terms) term.effect->push(rows, term.values, block.ports.topRows(rows.count));
+  for (Eigen::Index row = rows.count; row < Block::kRows; ++row) block.ports.row(row) = block.ports.row(rows.count - 1);
+}
+
+Start BlockSolver::start(const SampleBlock& rows, bool fresh) {
+  if (memory_ != nullptr) {
+    const auto& kept = memory_->blocks[rows.first / Block::kRows];
+    if (kept(0, 0) != 0.0 || kept(0, 3) != 0.0) {
+      block_->angles = kept;
+      return Start::kAngles;
+    }
+  }
+  if (fresh) last_ = RssrAngles();
+  for (Eigen::Index row = 0; row < Block::kRows; ++row) store_angles(last_, *block_, row);
+  return Start::kNeighbour;
+}
+
+void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fresh) {
+  Block& block = *block_;
+  load(rows);
+  const Start from = start(rows, fresh);
+  if (joints_are_shared(block, rows.count)) {
+    solve_block(model_.nominal, block, rows.count, from, want_sensitivity);
+    for (Eigen::Index row = 0; row < rows.count; ++row) {
+      if (!is_solved(block, row)) solve_row(rows, row, want_sensitivity);
+    }
+  } else {
+    for (Eigen::Index row = 0; row < rows.count; ++row) solve_row(rows, row, want_sensitivity);
+  }
+  for (int i = 0; i < 3; ++i) {
+    last_.cosine[i] = block.angles(rows.count - 1, i);
+    last_.sine[i] = block.angles(rows.count - 1, 3 + i);
+  }
+  if (memory_ != nullptr) memory_->blocks[rows.first / Block::kRows] = block.angles;
+}
+
+/// One row by the single-pose functions, from home: the RSSR loops, then six coordinates where joints are not shared.
+void BlockSolver::solve_row(const SampleBlock& rows, Eigen::Index row, bool want_sensitivity) {
+  Block& block = *block_;
+  Ports push;
+  push.value = block.ports.row(row).transpose();
+  const Mechanism mechanism = assemble(model_.nominal, block.sliders_mm.row(row).transpose(), push);
+  const bool shared = hexdbb::joints_are_shared(mechanism);
+  const PlatformTriangle triangle(shared_joints(mechanism));
+  RssrAngles angles;
+  ForwardResult result = forward(mechanism, triangle, angles);
+  if (result.status == Status::kOk && !shared) result = forward_six(mechanism, result.pose);
+  const SetUp& set_up = samples_.set_ups[samples_.set_up[rows.first + row]];
+  Ports answer;
+  if (result.status == Status::kOk && want_sensitivity) {
+    const bool regular =
+        shared ? reading_sensitivity(model_.nominal, mechanism, triangle, result.pose, set_up, push, answer)
+               : reading_sensitivity_six(model_.nominal, mechanism, result.pose, set_up, push, answer);
+    if (!regular) result.status = Status::kSingular;
+  }
+  store_angles(angles, block, row);
+  block.pose.row(row).head<3>() = result.pose.position.transpose();
+  for (int i = 0; i < 3; ++i) block.pose.row(row).segment<3>(3 + 3 * i) = result.pose.rotation.row(i);
+  block.reading_mm(row) = reading_mm(result.pose, set_up, push);
+  block.sensitivity.row(row) = answer.value.transpose();
+  block.residual_mm(row) = result.status == Status::kOk ? 0.0 : -static_cast<double>(result.status);
+}
+
+Status status_of(const Block& block, Eigen::Index row) {
+  return is_solved(block, row) ? Status::kOk : static_cast<Status>(static_cast<int>(-block.residual_mm(row)));
+}
+
+void chain(const Model& model, const SampleBlock& rows, const Block& block, Eigen::MatrixXd& jacobian) {
+  Eigen::Index column = 0;
+  for (const Term& term : model.terms) {
+    term.effect->chain(rows, term.values, block.sensitivity.topRows(rows.count),
+                       jacobian.block(0, column, rows.count, term.values.size()));
+    column += term.values.size();
+  }
+}
+
+}  // namespace hexdbb

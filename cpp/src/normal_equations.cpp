@@ -1,0 +1,87 @@
+#include "normal_equations.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace hexdbb {
+
+namespace {
+
+constexpr Eigen::Index kBlocksPerThread = 32;  // fewer do not pay for starting one
+
+Eigen::Index blocks_of(const Samples& samples) { return (samples.size() + Block::kRows - 1) / Block::kRows; }
+
+NormalEquations zero(Eigen::Index columns) {
+  NormalEquations out;
+  out.information.setZero(columns, columns);
+  out.gradient.setZero(columns);
+  return out;
+}
+
+/// Accumulated tiles need a number of columns divisible by four.
+Eigen::Index padded(Eigen::Index columns) { return (columns + 3) / 4 * 4; }
+
+}  // namespace
+
+Accumulator::Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns)
+    : samples_(samples), measured_mm_(measured_mm), columns_(columns) {
+  memory_.blocks.assign(blocks_of(samples), Block::Table<6>::Zero());
+  residual_mm_.setZero(samples.size());
+}
+
+NormalEquations Accumulator::at(const Model& model) {
+  const Eigen::Index blocks = blocks_of(samples_);
+  const Eigen::Index cores = std::max<Eigen::Index>(1, std::thread::hardware_concurrency());
+  const Eigen::Index parts = std::clamp<Eigen::Index>(blocks / kBlocksPerThread, 1, cores);
+  std::vector<NormalEquations> sums(parts, zero(padded(columns_.size())));
+  const auto run = [&](Eigen::Index part) {
+    const Eigen::Index first = blocks * part / parts * Block::kRows;
+    const Eigen::Index last = std::min(blocks * (part + 1) / parts * Block::kRows, samples_.size());
+    chunk(model, first, last, sums[part]);
+  };
+  std::vector<std::thread> threads;
+  for (Eigen::Index part = 1; part < parts; ++part) threads.emplace_back(run, part);
+  run(0);
+  for (std::thread& each : threads) each.join();
+
+  NormalEquations out = zero(padded(columns_.size()));
+  for (const NormalEquations& part : sums) {
+    out.information += part.information;
+    out.gradient += part.gradient;
+    out.squared += part.squared;
+    if (out.failure < 0 && part.failure >= 0) {
+      out.failure = part.failure;
+      out.failure_status = part.failure_status;
+    }
+  }
+  const Eigen::Index size = columns_.size();
+  out.information = out.information.topLeftCorner(size, size).selfadjointView<Eigen::Lower>().toDenseMatrix().eval();
+  out.gradient = out.gradient.head(size).eval();
+  return out;
+}
+
+void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index last, NormalEquations& out) {
+  const Eigen::Index columns = padded(columns_.size());
+  Eigen::MatrixXd all(Block::kRows, model.size()), chosen = Eigen::MatrixXd::Zero(Block::kRows, columns);
+  Eigen::VectorXd residual(Block::kRows);
+  BlockSolver(model, samples_, &memory_)
+      .each_block(first, last, true, [&](const SampleBlock& rows, const Block& block) {
+        for (Eigen::Index row = 0; row < rows.count && out.failure < 0; ++row) {
+          out.failure_status = status_of(block, row);
+          if (out.failure_status != Status::kOk) out.failure = rows.first + row;
+        }
+        if (out.failure >= 0) return;
+        chain(model, rows, block, all);
+        residual.head(rows.count) = measured_mm_.segment(rows.first, rows.count) - block.reading_mm.head(rows.count);
+        residual.tail(Block::kRows - rows.count).setZero();
+        residual_mm_.segment(rows.first, rows.count) = residual.head(rows.count);
+        out.squared += residual.squaredNorm();
+        for (std::size_t j = 0; j < columns_.size(); ++j) {
+          chosen.col(j).head(rows.count) = all.col(columns_[j]).head(rows.count);
+        }
+        chosen.bottomRows(Block::kRows - rows.count).setZero();
+        accumulate(chosen.data(), residual.data(), Block::kRows, columns, out.information.data(), out.gradient.data());
+      });
+}
+
+}  // namespace hexdbb

@@ -1,0 +1,40 @@
+// J'J, J'r and r'r of all readings in one pass over the samples, on all cores: what a least-squares step needs of them.
+// The Jacobian itself is never stored.
+#pragma once
+
+#include <vector>
+
+#include "block_solver.hpp"
+
+namespace hexdbb {
+
+struct NormalEquations {
+  Eigen::MatrixXd information;  // J'J, symmetric, for the chosen values
+  Eigen::VectorXd gradient;     // J'r, r = measured - predicted, J = d predicted / d value
+  double squared = 0.0;         // r'r, mm^2
+  Eigen::Index failure = -1;    // first sample without a solution, or -1; the rest is then meaningless
+  Status failure_status = Status::kOk;
+};
+
+/// Works through the same samples again and again, as a fit does; remembers where every solution stood.
+class Accumulator {
+ public:
+  /// `columns`: values of the model that count, in order. All must outlive the accumulator.
+  Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns);
+
+  NormalEquations at(const Model& model);
+
+  /// Residuals of the last call, mm.
+  const Eigen::VectorXd& residual_mm() const { return residual_mm_; }
+
+ private:
+  void chunk(const Model& model, Eigen::Index first, Eigen::Index last, NormalEquations& out);
+
+  const Samples& samples_;
+  const Eigen::VectorXd& measured_mm_;
+  const std::vector<int>& columns_;
+  AngleMemory memory_;
+  Eigen::VectorXd residual_mm_;
+};
+
+}  // namespace hexdbb
