@@ -51,20 +51,17 @@ class CompressedCost : public ceres::CostFunction {
     const Eigen::Index size = unknowns_.size();
     const Eigen::Map<const Eigen::VectorXd> z(parameters[0], size);
     // Ceres asks for the cost of a step first and for its derivatives when it likes it: both come out of one pass.
-    if (kept_at_.size() != size || kept_at_ != z) {
-      Model model = model_;
-      model.set_values(unknowns_.values(parameters[0]));
-      kept_ = accumulator_.at(model);
-      kept_at_ = z;
-    }
-    if (kept_.failure >= 0) return false;  // Ceres then takes a shorter step
+    Model model = model_;
+    model.set_values(unknowns_.values(parameters[0]));
+    const NormalEquations& now = accumulator_.at(model);
+    if (now.failure >= 0) return false;  // Ceres then takes a shorter step
     const auto per_noise = unknowns_.scale / noise_mm_;
-    Eigen::MatrixXd information = per_noise.asDiagonal() * kept_.information * per_noise.asDiagonal();
+    Eigen::MatrixXd information = per_noise.asDiagonal() * now.information * per_noise.asDiagonal();
     information.diagonal().array() += 1.0;  // the prior's residuals are z themselves
     const Eigen::LLT<Eigen::MatrixXd> factor(information);
-    const Eigen::VectorXd gradient = z - per_noise.cwiseProduct(kept_.gradient) / noise_mm_;
+    const Eigen::VectorXd gradient = z - per_noise.cwiseProduct(now.gradient) / noise_mm_;
     const Eigen::VectorXd inside = factor.matrixL().solve(gradient);
-    const double squared = kept_.squared / (noise_mm_ * noise_mm_) + z.squaredNorm();
+    const double squared = now.squared / (noise_mm_ * noise_mm_) + z.squaredNorm();
     Eigen::Map<Eigen::VectorXd>(residuals, size) = inside;
     residuals[size] = std::sqrt(std::max(squared - inside.squaredNorm(), 0.0));
     if (jacobians != nullptr && jacobians[0] != nullptr) {
@@ -80,12 +77,10 @@ class CompressedCost : public ceres::CostFunction {
   Accumulator& accumulator_;
   const Unknowns& unknowns_;
   double noise_mm_;
-  mutable NormalEquations kept_;
-  mutable Eigen::VectorXd kept_at_;
 };
 
-NormalEquations at_or_throw(Accumulator& accumulator, const Model& model) {
-  NormalEquations out = accumulator.at(model);
+const NormalEquations& at_or_throw(Accumulator& accumulator, const Model& model) {
+  const NormalEquations& out = accumulator.at(model);
   if (out.failure >= 0) {
     throw std::invalid_argument("sample " + std::to_string(out.failure) + ": " + status_name(out.failure_status));
   }
@@ -166,10 +161,9 @@ class Curvature {
             double noise_mm)
       : model_(model), unknowns_(unknowns) {
     const Eigen::Index stride = std::max<Eigen::Index>(1, samples.size() / kRows);
-    const Eigen::Index rows = (samples.size() + stride - 1) / stride;
-    const auto every = Eigen::seqN(0, rows, stride);
-    rows_ =
-        Samples{samples.sliders_mm(every, Eigen::all), samples.set_up(every), samples.mount(every), samples.set_ups};
+    rows_ = samples.every(stride);
+    no_reading_.setZero(rows_.size());
+    accumulator_ = std::make_unique<Accumulator>(rows_, no_reading_, unknowns.columns);
     const RowMajorMatrix seen =
         predict(model, rows_, true).jacobian(Eigen::all, unknowns.columns) * unknowns.scale.asDiagonal();
     gain_ = (static_cast<double>(stride) / (noise_mm * noise_mm)) * spread * seen.transpose();
@@ -201,19 +195,21 @@ class Curvature {
   }
 
  private:
-  static constexpr Eigen::Index kRows = 500;
+  static constexpr Eigen::Index kRows = 256;
   static constexpr double kWeak = 0.02;  // directions known better than this have no curvature worth the name
 
   Eigen::VectorXd reading(const Eigen::VectorXd& step) const {
     Model model = model_;
     const Eigen::VectorXd z = model.values()(unknowns_.columns).cwiseQuotient(unknowns_.scale) + step;
     model.set_values(unknowns_.values(z.data()));
-    return predict(model, rows_, false).reading_mm;
+    return accumulator_->reading_mm(model);
   }
 
   const Model& model_;
   const Unknowns& unknowns_;
   Samples rows_;
+  Eigen::VectorXd no_reading_;
+  std::unique_ptr<Accumulator> accumulator_;  // of the rows; remembers where they stood
   Eigen::MatrixXd gain_;
   std::vector<Eigen::VectorXd> steps_;
 };
@@ -253,7 +249,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
 
   Model fitted = model;
   fitted.set_values(out.values);
-  const NormalEquations after = at_or_throw(accumulator, fitted);
+  const NormalEquations& after = at_or_throw(accumulator, fitted);
   out.residual_mm = accumulator.residual_mm();
   out.rms_after_mm = rms(after.squared, samples.size());
   out.noise_mm = std::max(options.noise_mm, out.rms_after_mm);

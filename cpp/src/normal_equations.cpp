@@ -29,7 +29,27 @@ Accumulator::Accumulator(const Samples& samples, const Eigen::VectorXd& measured
   residual_mm_.setZero(samples.size());
 }
 
-NormalEquations Accumulator::at(const Model& model) {
+const NormalEquations& Accumulator::at(const Model& model) {
+  const Eigen::VectorXd values = model.values();
+  if (values.size() != last_values_.size() || values != last_values_) {
+    last_ = sum(model);
+    last_values_ = values;
+  }
+  return last_;
+}
+
+Eigen::VectorXd Accumulator::reading_mm(const Model& model) {
+  Eigen::VectorXd out(samples_.size());
+  BlockSolver(model, samples_, &memory_)
+      .each_block(0, samples_.size(), false, [&](const SampleBlock& rows, const Block& block) {
+        for (Eigen::Index row = 0; row < rows.count; ++row) {
+          out[rows.first + row] = status_of(block, row) == Status::kOk ? block.reading_mm(row) : 0.0;
+        }
+      });
+  return out;
+}
+
+NormalEquations Accumulator::sum(const Model& model) {
   const Eigen::Index blocks = blocks_of(samples_);
   const Eigen::Index cores = std::max<Eigen::Index>(1, std::thread::hardware_concurrency());
   const Eigen::Index parts = std::clamp<Eigen::Index>(blocks / kBlocksPerThread, 1, cores);

@@ -22,12 +22,17 @@ class Accumulator {
   /// `columns`: values of the model that count, in order. All must outlive the accumulator.
   Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns);
 
-  NormalEquations at(const Model& model);
+  /// The values asked for last are answered from memory: a fit's start, its first iteration and the nominal machine are often one.
+  const NormalEquations& at(const Model& model);
 
-  /// Residuals of the last call, mm.
+  /// Residuals of the last at(), mm.
   const Eigen::VectorXd& residual_mm() const { return residual_mm_; }
 
+  /// Predicted readings alone, mm; a sample without a solution reads zero.
+  Eigen::VectorXd reading_mm(const Model& model);
+
  private:
+  NormalEquations sum(const Model& model);
   void chunk(const Model& model, Eigen::Index first, Eigen::Index last, NormalEquations& out);
 
   const Samples& samples_;
@@ -35,6 +40,8 @@ class Accumulator {
   const std::vector<int>& columns_;
   AngleMemory memory_;
   Eigen::VectorXd residual_mm_;
+  Eigen::VectorXd last_values_;
+  NormalEquations last_;
 };
 
 }  // namespace hexdbb

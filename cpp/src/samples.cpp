@@ -5,6 +5,11 @@
 
 namespace hexdbb {
 
+Samples Samples::every(Eigen::Index stride) const {
+  const auto rows = Eigen::seqN(0, (size() + stride - 1) / stride, stride);
+  return {sliders_mm(rows, Eigen::all), set_up(rows), mount(rows), set_ups};
+}
+
 void Samples::validate() const {
   const auto require_length = [this](const char* column, Eigen::Index length) {
     if (length != size()) {

@@ -16,6 +16,9 @@ struct Samples {
 
   Eigen::Index size() const { return sliders_mm.rows(); }
 
+  /// Every `stride`-th row, beginning with the first.
+  Samples every(Eigen::Index stride) const;
+
   /// Throws std::invalid_argument naming the column and row where lengths differ or an index is out of range.
   void validate() const;
 };
