@@ -6,14 +6,14 @@ HEXDBB_WERROR ?= OFF
 
 VENV := .venv
 BIN := $(VENV)/bin
-STEP := scripts/step.sh
+STEP := .ci/scripts/step.sh
 PIP_INSTALL := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
 
 CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
 CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
 CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) -name '*.[ch]pp' -o -name '*.h')
-PYTHON_SOURCES := python tests/python scripts firmware_interfaces cpp/bench
+PYTHON_SOURCES := python tests/python .ci/scripts firmware_interfaces cpp/bench
 
 MAKEFLAGS += --no-print-directory
 .DELETE_ON_ERROR:
@@ -31,11 +31,11 @@ setup: $(VENV)/.module  ## system packages, virtual environment, build; done onc
 
 .PHONY: system
 system:
-	@PYTHON=$(PYTHON) scripts/system_packages.sh
+	@PYTHON=$(PYTHON) .ci/scripts/system_packages.sh
 
-$(VENV)/.dependencies: pyproject.toml scripts/requirements.py | system
+$(VENV)/.dependencies: pyproject.toml .ci/scripts/requirements.py | system
 	@$(STEP) "Virtual environment in $(VENV)" $(PYTHON) -m venv $(VENV)
-	@$(BIN)/python scripts/requirements.py > $(VENV)/requirements.txt
+	@$(BIN)/python .ci/scripts/requirements.py > $(VENV)/requirements.txt
 	@$(STEP) "Python packages" $(PIP_INSTALL) --requirement $(VENV)/requirements.txt
 	@touch $@
 
@@ -77,7 +77,7 @@ sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSan
 
 .PHONY: demo
 demo: setup  ## a circular test on the simulated rig, diagnosed and compared
-	@PATH="$(CURDIR)/$(BIN):$$PATH" scripts/demo.sh
+	@PATH="$(CURDIR)/$(BIN):$$PATH" .ci/scripts/demo.sh
 
 .PHONY: bench
 bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md
@@ -111,7 +111,7 @@ format: $(VENV)/.dependencies  ## rewrite sources in the house format
 
 .PHONY: stubs
 stubs: setup  ## python/hexdbb/_core.pyi from the compiled module
-	$(BIN)/python scripts/make_stubs.py python/hexdbb/_core.pyi
+	$(BIN)/python .ci/scripts/make_stubs.py python/hexdbb/_core.pyi
 
 .PHONY: clean
 clean:  ## remove the builds, the virtual environment and the demo's results

@@ -40,5 +40,5 @@ if [ "$(id -u)" -ne 0 ]; then
   as_root=(sudo)
 fi
 apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300)
-scripts/step.sh "Package lists of the distribution" "${apt[@]}" update
-scripts/step.sh "System packages: ${missing[*]}" "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
+.ci/scripts/step.sh "Package lists of the distribution" "${apt[@]}" update
+.ci/scripts/step.sh "System packages: ${missing[*]}" "${apt[@]}" install --yes --no-install-recommends "${missing[@]}"
