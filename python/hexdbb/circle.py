@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import Field
 
+from hexdbb.kinematics import rotation_from_rpy
 from hexdbb.validation import NotNegative, Positive, StrictModel, Vector3
 
 Identity = Annotated[int, Field(ge=0, le=2**31 - 1)]
@@ -23,18 +24,6 @@ Direction = Literal[1, -1]
 Feeds = Annotated[tuple[Positive, ...], Field(strict=False, min_length=1)]
 Directions = Annotated[tuple[Direction, ...], Field(strict=False, min_length=1)]
 Laps = Annotated[int, Field(ge=1)]
-
-
-def rotation_from_rpy(rpy_rad: ArrayLike) -> NDArray[np.float64]:
-    """Give R = Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3), of roll, pitch and yaw in rad."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy_rad), np.sin(rpy_rad)
-    return np.array(
-        [
-            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
-            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
-            [-sp, cp * sr, cp * cr],
-        ]
-    )
 
 
 class Gauge(StrictModel):
@@ -95,20 +84,16 @@ class Circle(StrictModel):
         """
         angle = np.atleast_1d(np.asarray(angle_rad, dtype=np.float64))
         in_plane = self.radius_mm * np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=1)
-        return (
-            np.asarray(cup_mm, dtype=np.float64)
-            + in_plane @ rotation_from_rpy(np.radians(np.array(self.plane_rpy_deg))).T
-        )
+        plane = rotation_from_rpy(np.radians(self.plane_rpy_deg))
+        return np.asarray(cup_mm, dtype=np.float64) + in_plane @ plane.T
 
     def poses(self, angle_rad: ArrayLike, cup_mm: ArrayLike) -> NDArray[np.float64]:
         """Platform reference point that puts the ball on its circle, the platform held at `platform_rpy_deg`.
 
         Parameters
         ----------
-        angle_rad : array_like, shape (n,) or ()
-            Polar angle in the circle's plane.
-        cup_mm : array_like, shape (3,)
-            Centre of the circle, base frame.
+        angle_rad, cup_mm : array_like
+            As for `ball_mm`.
 
         Returns
         -------

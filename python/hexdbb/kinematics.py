@@ -36,6 +36,28 @@ def status_name(code: int) -> str:
     return _core.status_name(code)
 
 
+def rotation_from_rpy(rpy_rad: ArrayLike) -> Floats:
+    """Rotation matrices R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
+
+    Parameters
+    ----------
+    rpy_rad : array_like, shape (..., 3)
+        Roll, pitch, yaw.
+
+    Returns
+    -------
+    ndarray, shape (..., 3, 3)
+    """
+    rpy = np.asarray(rpy_rad, dtype=np.float64)
+    matrices = [_core.rotation_from_rpy(*angles) for angles in rpy.reshape(-1, 3).tolist()]
+    return np.array(matrices, dtype=np.float64).reshape(*rpy.shape, 3)
+
+
+def rpy_from_rotation(rotation: ArrayLike) -> Floats:
+    """Roll, pitch, yaw (3,) in rad of one rotation matrix (3, 3), pitch within +-90 degrees."""
+    return np.asarray(_core.rpy_from_rotation(np.asarray(rotation, dtype=np.float64)), dtype=np.float64)
+
+
 def inverse(machine: MachineFile, position_mm: ArrayLike, rpy_rad: ArrayLike) -> tuple[Floats, Ints]:
     """Slider coordinates of platform poses (thesis 2.6-2.8).
 

@@ -90,6 +90,11 @@ class MachineFile(FileModel):
         """The `[can]` section, or its defaults where the file has none."""
         return self.can if self.can is not None else CanSetup()
 
+    def eds_path(self, eds: str) -> Path:
+        """Find a node's EDS file: beside the machine file, else the shipped one of that name."""
+        beside = self.path.parent / eds if self.path is not None else Path(eds)
+        return beside if beside.is_file() else shipped("eds", eds)
+
     @model_validator(mode="after")
     def _stands(self) -> MachineFile:
         reach = abs(self.base.inradius_mm - self.platform.circumradius_mm)

@@ -27,7 +27,7 @@ ALLOWED: dict[str, set[str]] = {
     "validation": {"errors"},
     "circle_fit": {"errors"},
     "can_setup": {"errors", "validation"},
-    "circle": {"errors", "validation"},
+    "circle": {"errors", "validation", "kinematics"},
     "machine": {"errors", "validation", "can_setup"},
     "plan": {"errors", "validation", "machine", "circle"},
     "record": {"errors", "validation", "atomic_file", "machine", "circle", "plan"},

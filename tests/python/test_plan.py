@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from hexdbb.circle import Circle, rotation_from_rpy
+from hexdbb.circle import Circle
 from hexdbb.errors import InputError
-from hexdbb.kinematics import inverse, status_name
+from hexdbb.kinematics import inverse, rotation_from_rpy, status_name
 from hexdbb.machine import shipped, shipped_machine
 from hexdbb.plan import Plan, load_plan, shipped_plans
 

@@ -9,12 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexdbb.circle import rotation_from_rpy
 from hexdbb.errors import InputError
-from hexdbb.kinematics import forward, inverse
+from hexdbb.kinematics import forward, inverse, rotation_from_rpy, rpy_from_rotation
 from hexdbb.plan import Plan, load_plan
 from hexdbb.trajectory import Phase, Programme, approach, plan_programme
-from hexdbb.trajectory.poses import rpy_of
 from hexdbb.trajectory.runs import FEED_IN_MM
 from hexdbb.trajectory.time_law import PathLimits, feed_law, rest_to_rest
 
@@ -151,8 +149,8 @@ def test_approach_from_where_no_pose_is_is_refused() -> None:
 
 
 @pytest.mark.parametrize("rpy", [(0.1, -0.2, 0.3), (-1.0, 1.2, 3.0), (0.0, 0.0, 0.0)])
-def test_rpy_of_undoes_the_rotation(rpy: tuple[float, float, float]) -> None:
-    assert rpy_of(rotation_from_rpy(rpy)) == pytest.approx(rpy, abs=1e-12)
+def test_rpy_undoes_the_rotation(rpy: tuple[float, float, float]) -> None:
+    assert rpy_from_rotation(rotation_from_rpy(rpy)) == pytest.approx(rpy, abs=1e-12)
 
 
 @pytest.mark.parametrize(

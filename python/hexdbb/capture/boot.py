@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import canopen
 
@@ -15,7 +14,7 @@ from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
 from hexdbb.capture.sdo import RemoteDevice, name
 from hexdbb.capture.settings import configure_drive, configure_gauge
 from hexdbb.errors import RunError
-from hexdbb.machine import MachineFile, shipped
+from hexdbb.machine import MachineFile
 
 ALL_NODES = 0
 NMT_START, NMT_PRE_OPERATIONAL = 0x01, 0x80
@@ -45,16 +44,10 @@ def add_devices(network: canopen.Network, machine: MachineFile) -> Devices:
     """
     can = machine.can_setup
     drives = tuple(
-        RemoteDevice(network, node, f"slider {k}", eds_path(eds, machine))
+        RemoteDevice(network, node, f"slider {k}", machine.eds_path(eds))
         for k, (node, eds) in enumerate(zip(can.drive_nodes, can.drive_eds, strict=True), start=1)
     )
-    return Devices(drives, RemoteDevice(network, can.gauge_node, "gauge", eds_path(can.gauge_eds, machine)))
-
-
-def eds_path(eds: str, machine: MachineFile) -> Path:
-    """Find an EDS: beside the machine file, else the shipped one of that name."""
-    beside = (machine.path.parent if machine.path is not None else Path()) / eds
-    return beside if beside.is_file() else shipped("eds", eds)
+    return Devices(drives, RemoteDevice(network, can.gauge_node, "gauge", machine.eds_path(can.gauge_eds)))
 
 
 def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float) -> list[str]:

@@ -13,12 +13,11 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 
 from hexdbb.errors import InputError, RunError
-from hexdbb.machine import MachineFile, shipped
+from hexdbb.machine import MachineFile
 from hexdbb.rig.drive import DriveNode, DriveSetup
 from hexdbb.rig.faults import Injection
 from hexdbb.rig.frame import HEARTBEAT_BASE, NMT, SDO_REQUEST_BASE, SYNC, Frame
@@ -110,13 +109,13 @@ class Rig:
                 truth.drive.lag_s,
                 truth.drive.velocity_feedforward,
             )
-            drives.append(DriveNode(node_id, eds_path(machine, name), self._send, setup, stall_tolerance_s))
+            drives.append(DriveNode(node_id, machine.eds_path(name), self._send, setup, stall_tolerance_s))
         return drives
 
     def _make_gauge(self, machine: MachineFile, truth: TruthFile, stall_tolerance_s: float) -> GaugeNode:
         can, gauge = machine.can_setup, truth.gauge
         setup = GaugeSetup(gauge.noise_um, gauge.resolution_um, gauge.range_um, truth.seed)
-        return GaugeNode(can.gauge_node, eds_path(machine, can.gauge_eds), self._send, setup, stall_tolerance_s)
+        return GaugeNode(can.gauge_node, machine.eds_path(can.gauge_eds), self._send, setup, stall_tolerance_s)
 
     def receive(self, cob_id: int, data: bytes) -> None:
         """Take one frame from the bus."""
@@ -241,9 +240,3 @@ def start_sliders_mm(machine: MachineFile, position_mm: Array, rotation: Array) 
         found = np.round(sliders, 3).tolist()
         raise InputError(f"start pose: sliders {found} mm (expected within {low:g} to {high:g})")
     return sliders
-
-
-def eds_path(machine: MachineFile, name: str) -> Path:
-    """Find a node's EDS: beside the machine file, else among the shipped ones."""
-    beside = machine.path.parent / name if machine.path is not None else Path(name)
-    return beside if beside.is_file() else shipped("eds", name)

@@ -11,10 +11,10 @@ import math
 import numpy as np
 
 from hexdbb.errors import InputError
-from hexdbb.kinematics import forward, inverse, status_name
+from hexdbb.kinematics import forward, inverse, rpy_from_rotation, status_name
 from hexdbb.machine import MachineFile
 from hexdbb.trajectory.limits import path_limits
-from hexdbb.trajectory.poses import Array, rpy_of, straight
+from hexdbb.trajectory.poses import Array, straight
 from hexdbb.trajectory.programme import Phase, Programme, Stretch, Table, describe, tabulate
 from hexdbb.trajectory.runs import SAME_POSE_MM, SETTLE_S
 from hexdbb.trajectory.time_law import rest_to_rest
@@ -43,7 +43,7 @@ def approach(sliders_mm: Array, programme: Programme, machine: MachineFile, orig
         raise InputError(
             f"{_stand(sliders_mm)}: {status_name(int(status[0]))} (expected a pose of the nominal machine)"
         )
-    here = (position_mm, rpy_of(rotation[0])[None, :])
+    here = (position_mm, rpy_from_rotation(rotation[0])[None, :])
     first, status = inverse(machine, *here)
     if status[0] or np.abs(first[0] - sliders_mm).max() > START_TOLERANCE_MM:
         raise InputError(f"{_stand(sliders_mm)}: {status_name(int(status[0]))} (expected a pose within travel and gap)")

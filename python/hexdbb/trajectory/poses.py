@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.circle import rotation_from_rpy
+from hexdbb.kinematics import rotation_from_rpy
 from hexdbb.plan import CircleRun
 
 Array = NDArray[np.float64]
@@ -41,28 +41,12 @@ class PosePath:
     poses: Callable[[Array], Poses]
 
 
-def rotations(rpy_rad: Array) -> Array:
-    """Rotation matrices Rz(yaw) Ry(pitch) Rx(roll), equation (2.27); (n, 3) rad -> (n, 3, 3)."""
-    return np.moveaxis(rotation_from_rpy(rpy_rad.T), 2, 0)
-
-
-def rpy_of(rotation: Array) -> Array:
-    """Roll, pitch, yaw (3,) rad of one rotation matrix (3, 3), pitch within ±90°."""
-    return np.array(
-        [
-            np.arctan2(rotation[2, 1], rotation[2, 2]),
-            np.arcsin(np.clip(-rotation[2, 0], -1.0, 1.0)),
-            np.arctan2(rotation[1, 0], rotation[0, 0]),
-        ]
-    )
-
-
 def circle_poses(run: CircleRun, angle_rad: Array, radius_mm: Array) -> Poses:
     """Poses with the ball at polar angles (n,) and distances (n,) from the cup, platform orientation held."""
     cup = np.asarray(run.mount.cup_mm, dtype=float)
     on_circle = run.circle.ball_mm(angle_rad, cup) - cup
     bar = on_circle * np.reshape(radius_mm / run.circle.radius_mm, (-1, 1))
-    return _carrying(run, bar, np.tile(run.circle.platform_rpy_rad, (len(angle_rad), 1)))
+    return _carrying(run, bar, run.circle.platform_rpy_rad[None, :])
 
 
 def radial(run: CircleRun, angle_rad: float, from_radius_mm: float, to_radius_mm: float) -> PosePath:
@@ -112,14 +96,14 @@ def straight(begin: Poses, end: Poses) -> PosePath:
 
 
 def _carrying(run: CircleRun, bar: Array, rpy_rad: Array) -> Poses:
-    """Poses whose ball is `bar` (n, 3) away from the cup."""
-    offset = rotations(rpy_rad) @ np.asarray(run.circle.ball_offset_mm, dtype=float)
-    return np.asarray(run.mount.cup_mm, dtype=float) + bar - offset, rpy_rad
+    """Poses whose ball is `bar` (n, 3) away from the cup, platform held at `rpy_rad` (n, 3) or (1, 3)."""
+    offset = rotation_from_rpy(rpy_rad) @ np.asarray(run.circle.ball_offset_mm, dtype=float)
+    return np.asarray(run.mount.cup_mm, dtype=float) + bar - offset, np.broadcast_to(rpy_rad, bar.shape)
 
 
 def _bar(run: CircleRun, pose: Poses) -> Array:
     """Give the vector (3,) from the cup to the ball at one pose."""
-    offset = rotations(pose[1])[0] @ np.asarray(run.circle.ball_offset_mm, dtype=float)
+    offset = rotation_from_rpy(pose[1][0]) @ np.asarray(run.circle.ball_offset_mm, dtype=float)
     return np.asarray(pose[0][0] + offset - np.asarray(run.mount.cup_mm, dtype=float), dtype=np.float64)
 
 
