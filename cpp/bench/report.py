@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 import scipy
+from numpy.typing import NDArray
 from scipy.optimize import fsolve
 
 from hexdbb import _core
@@ -44,8 +45,8 @@ TITLES = {
     "sensitivity_six": "reading's derivative at all 55 ports (6×6)",
 }
 ELSEWHERE = """\
-Measured elsewhere, on two shared cores of an EPYC with g++ 12 `-O3 -march=native` (quoted, not run here): LinuxCNC's genhexkins
-forward 1455-1715 ns level and 4400-5200 ns tilted, inverse 195-240 ns; Pinocchio's loop 7400 ns.
+Measured elsewhere, on two shared cores of an EPYC with g++ 12 `-O3 -march=native` (quoted, not run here): LinuxCNC's
+genhexkins forward 1455-1715 ns level and 4400-5200 ns tilted, inverse 195-240 ns; Pinocchio's loop 7400 ns.
 """
 
 
@@ -74,9 +75,10 @@ def scipy_forward_ns() -> float:
     sliders, status = inverse(machine, position, np.zeros(3))
     position, sliders = position[status == 0][:50], sliders[status == 0][:50]
 
-    def leg_errors(x: np.ndarray, base: np.ndarray) -> np.ndarray:
+    def leg_errors(x: NDArray[np.float64], base: NDArray[np.float64]) -> NDArray[np.float64]:
         rotation = _core.rotation_from_rpy(*x[3:])
-        return np.linalg.norm(x[:3] + joint @ rotation.T - base, axis=1) - machine.legs.length_mm
+        lengths: NDArray[np.float64] = np.linalg.norm(x[:3] + joint @ rotation.T - base, axis=1)
+        return lengths - machine.legs.length_mm
 
     def solve(index: int) -> None:
         start = np.r_[position[index] + 0.1 / np.sqrt(3), 0, 0, 0]
@@ -111,7 +113,7 @@ def table(engine_ns: dict[str, float], scipy_ns: float) -> str:
         "# Benchmarks",
         "",
         f"Machine: {processor()}. Compiler: {compiler}, `-O3` for any x86-64, AVX2 chosen at load time.",
-        f"SciPy {scipy.__version__}. Medians of {REPETITIONS} repetitions, both sides in one run; made by `make bench`.",
+        f"SciPy {scipy.__version__}. Medians of {REPETITIONS} repetitions, both sides in one run; by `make bench`.",
         "Every solution is to 1e-12 mm and allocates nothing.",
         "",
         "| work | time | to reach | against SciPy's fsolve |",

@@ -1,9 +1,9 @@
-"""Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, what cannot be.
+"""Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, what is not.
 
-The most probable values given the readings and the expected size of every value (the engine's `diagnosis.hpp`). A value counts
-as identifiable where the readings narrow it to `KNOWN_PART` of its expected size, so that its uncertainty is the readings' and not
-the expectation's. A value that is known only in combination with others has no uncertainty of its own: its sigma is nan, and
-`unidentifiable` says with what it is entangled.
+The most probable values given the readings and the expected size of every value (the engine's `diagnosis.hpp`). A value
+counts as identifiable where the readings narrow it to `KNOWN_PART` of its expected size, so that its uncertainty is the
+readings' and not the expectation's. A value that is known only in combination with others has no uncertainty of its
+own: its sigma is nan, and `unidentifiable` says with what it is entangled.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from hexdbb.units import shown_factor, shown_unit
 Floats = NDArray[np.float64]
 
 KNOWN_PART = 0.2
-"""A value or direction is known where its uncertainty is at most this part of its expected size: the prior's weight is then
-under 4 %."""
+"""A value or direction is known where its uncertainty is at most this part of its expected size: the prior's weight is
+then under 4 %."""
 UNKNOWN_PART = 0.5
 """Of a direction whose uncertainty is above this part of its expected size the readings tell nothing."""
 
@@ -37,9 +37,9 @@ UNKNOWN_PART = 0.5
 class Diagnosis:
     """What a fit found.
 
-    `rank` and `condition` are those of the machine's own values, with all that unknowns of the set-up can explain taken out.
-    `model` has the fitted values; `covariance` (engine units, shape (size, size)) is theirs, expected sizes included, zero
-    where not free.
+    `rank` and `condition` are those of the machine's own values, with all that unknowns of the set-up can explain taken
+    out. `model` has the fitted values; `covariance` (engine units, shape (size, size)) is theirs, expected sizes
+    included, zero where not free.
     """
 
     model: Model
@@ -232,7 +232,7 @@ def _principal(covariance: Floats, model: Model) -> tuple[Floats, Floats]:
 def _unknown_directions(covariance: Floats, model: Model, columns: Sequence[int]) -> Floats:
     """Directions of the free values (columns) of which the readings tell nothing."""
     variances, directions = _principal(covariance, model)
-    return directions[np.ix_(list(columns), np.flatnonzero(variances > UNKNOWN_PART**2))]
+    return directions[np.ix_(np.asarray(columns, dtype=np.intp), np.flatnonzero(variances > UNKNOWN_PART**2))]
 
 
 def _warnings(model: Model, result: _core.FitResult, noise_mm: float) -> list[str]:

@@ -1,7 +1,7 @@
 """From a truth file over real CAN frames between processes to the errors it holds.
 
-The rig computes its readings with a solver and a geometry of its own; nothing of the engine is in them. What the readings can
-tell must come back within the uncertainty the diagnosis states; what they cannot is compared nowhere.
+The rig computes its readings with a solver and a geometry of its own; nothing of the engine is in them. What the
+readings can tell must come back within the uncertainty the diagnosis states; what they cannot is compared nowhere.
 """
 
 import json
@@ -47,8 +47,9 @@ def record(folder) -> Record:
     )
     try:
         channel = rig.stdout.readline().split()[-1]
-        run = [Path(sys.executable).with_name("hexdbb-run"), "--plan", folder / "plan.toml", "--bus", f"socketcand:{channel}"]
-        run += ["--lockstep", "--yes", "--rate", RATE_HZ, "-o", folder / "run.parquet"]
+        run = [Path(sys.executable).with_name("hexdbb-run"), "--plan", folder / "plan.toml"]
+        run += ["--bus", f"socketcand:{channel}", "--lockstep", "--yes", "--rate", RATE_HZ]
+        run += ["-o", folder / "run.parquet"]
         subprocess.run(list(map(str, run)), check=True, timeout=300, capture_output=True)
     finally:
         rig.terminate()

@@ -47,7 +47,7 @@ def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no
       hexdbb compare demo.parquet -m model.toml
       hexdbb compare monday.parquet tuesday.csv -m model.toml --plot week
       hexdbb compare demo.parquet -m model.toml --json --no-plot > comparison.json
-    """  # noqa: D301 - click takes the character, not the two letters, as "keep these lines"
+    """
     stem = prefix or records[0].with_name(f"{records[0].stem}-compare")
     if prefix and no_plot:
         raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")

@@ -15,7 +15,7 @@ from hexdbb.record import read_record, write_record
 @click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
 @click.option("--overwrite", is_flag=True, help="Replace OUT if it exists.")
 def command(source: Path, target: Path, overwrite: bool) -> None:
-    r"""Convert a record between its forms, by suffix.
+    """Convert a record between its forms, by suffix.
 
     A record is a Parquet file (.parquet). Its text form is NAME.csv with NAME.toml beside it, and is written
     together with the machine file, NAME.machine.toml.

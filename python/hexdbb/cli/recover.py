@@ -18,7 +18,7 @@ from hexdbb.record import journal_path, recover, write_record
 )
 @click.option("--overwrite", is_flag=True, help="Replace RECORD if it exists.")
 def command(journal: Path, output: Path | None, overwrite: bool) -> None:
-    r"""Make a record of what an interrupted capture left in its journal.
+    """Make a record of what an interrupted capture left in its journal.
 
     The record is marked incomplete. It holds every sample up to a second or less before the interruption, or up to
     the first that is wrong. The journal stays, and may be removed once the record is good.
