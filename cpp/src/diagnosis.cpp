@@ -16,13 +16,26 @@ namespace {
 // Singular values this far below the largest are redundancies: J'J resolves them to about 1e-8.
 constexpr double kRedundant = 1e-6;
 
-double rms(double squared, Eigen::Index count) { return std::sqrt(squared / static_cast<double>(count)); }
+/// One number of every value's parameter, in the order of a model's values.
+template <class Number>
+Eigen::VectorXd of_each_value(const Model& model, Number number) {
+  Eigen::VectorXd out(model.size());
+  Eigen::Index at = 0;
+  for (const Term& term : model.terms) {
+    const EffectInfo& info = term.effect->info();
+    for (int j = 0; j < info.size(); ++j) out[at++] = number(info.parameters[j % info.parameters.size()]);
+  }
+  return out;
+}
+
+double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
 
 /// What is estimated: free values in units of their expected sizes.
 struct Unknowns {
   Eigen::VectorXd start;     // values of the whole model
   std::vector<int> columns;  // of the free ones
   Eigen::VectorXd scale;     // expected sizes of the free ones
+  Eigen::VectorXd limit;     // and their physical limits, engine units
 
   Eigen::Index size() const { return scale.size(); }
 
@@ -87,6 +100,10 @@ const NormalEquations& at_or_throw(Accumulator& accumulator, const Model& model)
   return out;
 }
 
+Eigen::VectorXd physical_limits(const Model& model) {
+  return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.limit; });
+}
+
 Unknowns make_unknowns(const Model& model, const FitOptions& options) {
   if (!options.free.empty() && static_cast<int>(options.free.size()) != model.size()) {
     throw std::invalid_argument("free has " + std::to_string(options.free.size()) + " entries, expected " +
@@ -98,6 +115,7 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
     if (options.free.empty() || options.free[j]) out.columns.push_back(j);
   }
   out.scale = expected_sizes(model)(out.columns);
+  out.limit = physical_limits(model)(out.columns);
   return out;
 }
 
@@ -131,6 +149,11 @@ void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unkn
   solver.parameter_tolerance = 1e-9;
   solver.initial_trust_region_radius = 1e8;  // the problem is nearly linear: start with Gauss-Newton steps
   solver.logging_type = ceres::SILENT;
+  for (Eigen::Index j = 0; j < unknowns.size(); ++j) {
+    const double limit = std::max(unknowns.limit[j] / unknowns.scale[j], std::abs(z[j]));
+    problem.SetParameterLowerBound(z.data(), static_cast<int>(j), -limit);
+    problem.SetParameterUpperBound(z.data(), static_cast<int>(j), limit);
+  }
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   out.usable = summary.IsSolutionUsable();
@@ -217,13 +240,27 @@ class Curvature {
 }  // namespace
 
 Eigen::VectorXd expected_sizes(const Model& model) {
-  Eigen::VectorXd out(model.size());
-  Eigen::Index at = 0;
-  for (const Term& term : model.terms) {
-    const EffectInfo& info = term.effect->info();
-    for (int j = 0; j < info.size(); ++j) out[at++] = info.parameters[j % info.parameters.size()].prior_sigma;
+  return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.prior_sigma; });
+}
+
+double correlation_length(const Eigen::VectorXd& residual, const Eigen::VectorXi& sweep) {
+  const Eigen::Index count = residual.size();
+  const auto covariance = [&](Eigen::Index lag) {
+    double sum = 0.0;
+    for (Eigen::Index row = lag; row < count; ++row) {
+      if (sweep[row] == sweep[row - lag]) sum += residual[row] * residual[row - lag];
+    }
+    return sum;
+  };
+  const double variance = covariance(0);
+  double length = 1.0;
+  if (!(variance > 0.0)) return length;
+  for (Eigen::Index lag = 1; lag + 1 < count; lag += 2) {
+    const double pair = (covariance(lag) + covariance(lag + 1)) / variance;
+    if (!(pair > 0.0)) break;
+    length += 2.0 * pair;
   }
-  return out;
+  return std::max(length, 1.0);
 }
 
 FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
@@ -242,8 +279,9 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   const Unknowns unknowns = make_unknowns(model, options);
   if (unknowns.size() == 0) throw std::invalid_argument("there is nothing free to fit");
   out.free_columns = unknowns.columns;
-  Accumulator accumulator(samples, measured_mm, unknowns.columns);
-  out.rms_before_mm = rms(at_or_throw(accumulator, model).squared, samples.size());
+  Accumulator accumulator(samples, measured_mm, unknowns.columns, options.robust_mm);
+  at_or_throw(accumulator, model);
+  out.rms_before_mm = rms(accumulator.residual_mm());
   out.machine = machine_identifiability(model, accumulator, unknowns, options);
   minimize(model, accumulator, unknowns, options, out);
 
@@ -251,10 +289,13 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   fitted.set_values(out.values);
   const NormalEquations& after = at_or_throw(accumulator, fitted);
   out.residual_mm = accumulator.residual_mm();
-  out.rms_after_mm = rms(after.squared, samples.size());
-  out.noise_mm = std::max(options.noise_mm, out.rms_after_mm);
-  Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, out.noise_mm);
-  spread += Curvature(fitted, samples, unknowns, spread, out.noise_mm).spread();
+  out.rms_after_mm = rms(out.residual_mm);
+  // The weighted rows under Huber's loss leave glitches out of the noise.
+  out.noise_mm = std::max(options.noise_mm, std::sqrt(after.squared / static_cast<double>(samples.size())));
+  if (options.sweep.size() == samples.size()) out.correlation = correlation_length(out.residual_mm, options.sweep);
+  const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
+  Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
+  spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

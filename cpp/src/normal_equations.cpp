@@ -1,6 +1,7 @@
 #include "normal_equations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 namespace hexdbb {
@@ -18,13 +19,28 @@ NormalEquations zero(Eigen::Index columns) {
   return out;
 }
 
+/// Huber's loss: residuals beyond `limit` are scaled down to count linearly. Gives the sum of losses, which for them is
+/// 2 limit |r| - limit^2.
+double weigh(Eigen::VectorXd& residual, double limit, Eigen::VectorXd& weight) {
+  double loss = 0.0;
+  for (Eigen::Index row = 0; row < residual.size(); ++row) {
+    const double size = std::abs(residual[row]);
+    const bool far = size > limit;
+    weight[row] = far ? std::sqrt(limit / size) : 1.0;
+    loss += far ? 2.0 * limit * size - limit * limit : size * size;
+    residual[row] *= weight[row];
+  }
+  return loss;
+}
+
 /// Accumulated tiles need a number of columns divisible by four.
 Eigen::Index padded(Eigen::Index columns) { return (columns + 3) / 4 * 4; }
 
 }  // namespace
 
-Accumulator::Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns)
-    : samples_(samples), measured_mm_(measured_mm), columns_(columns) {
+Accumulator::Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns,
+                         double robust_mm)
+    : samples_(samples), measured_mm_(measured_mm), columns_(columns), robust_mm_(robust_mm) {
   memory_.blocks.assign(blocks_of(samples), Block::Table<6>::Zero());
   residual_mm_.setZero(samples.size());
 }
@@ -83,7 +99,7 @@ NormalEquations Accumulator::sum(const Model& model) {
 void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index last, NormalEquations& out) {
   const Eigen::Index columns = padded(columns_.size());
   Eigen::MatrixXd all(Block::kRows, model.size()), chosen = Eigen::MatrixXd::Zero(Block::kRows, columns);
-  Eigen::VectorXd residual(Block::kRows);
+  Eigen::VectorXd residual(Block::kRows), weight(Block::kRows);
   BlockSolver(model, samples_, &memory_)
       .each_block(first, last, true, [&](const SampleBlock& rows, const Block& block) {
         for (Eigen::Index row = 0; row < rows.count && out.failure < 0; ++row) {
@@ -95,11 +111,16 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
         residual.head(rows.count) = measured_mm_.segment(rows.first, rows.count) - block.reading_mm.head(rows.count);
         residual.tail(Block::kRows - rows.count).setZero();
         residual_mm_.segment(rows.first, rows.count) = residual.head(rows.count);
-        out.squared += residual.squaredNorm();
+        if (robust_mm_ > 0.0) {
+      out.squared += weigh(residual, robust_mm_, weight);
+    } else {
+      out.squared += residual.squaredNorm();
+    }
         for (std::size_t j = 0; j < columns_.size(); ++j) {
           chosen.col(j).head(rows.count) = all.col(columns_[j]).head(rows.count);
         }
-        chosen.bottomRows(Block::kRows - rows.count).setZero();
+        if (robust_mm_ > 0.0) chosen = weight.asDiagonal() * chosen;
+    chosen.bottomRows(Block::kRows - rows.count).setZero();
         accumulate(chosen.data(), residual.data(), Block::kRows, columns, out.information.data(), out.gradient.data());
       });
 }

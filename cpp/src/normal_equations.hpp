@@ -11,7 +11,7 @@ namespace hexdbb {
 struct NormalEquations {
   Eigen::MatrixXd information;  // J'J, symmetric, for the chosen values
   Eigen::VectorXd gradient;     // J'r, r = measured - predicted, J = d predicted / d value
-  double squared = 0.0;         // r'r, mm^2
+  double squared = 0.0;         // r'r, mm^2; under Huber's loss the sum of losses, and J, r are those of the weighted rows
   Eigen::Index failure = -1;    // first sample without a solution, or -1; the rest is then meaningless
   Status failure_status = Status::kOk;
 };
@@ -20,7 +20,9 @@ struct NormalEquations {
 class Accumulator {
  public:
   /// `columns`: values of the model that count, in order. All must outlive the accumulator.
-  Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns);
+  /// `robust_mm`: residuals beyond it count linearly (Huber); 0: least squares.
+  Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns,
+              double robust_mm = 0.0);
 
   /// The values asked for last are answered from memory: a fit's start, its first iteration and the nominal machine are often one.
   const NormalEquations& at(const Model& model);
@@ -38,6 +40,7 @@ class Accumulator {
   const Samples& samples_;
   const Eigen::VectorXd& measured_mm_;
   const std::vector<int>& columns_;
+  double robust_mm_;
   AngleMemory memory_;
   Eigen::VectorXd residual_mm_;
   Eigen::VectorXd last_values_;
