@@ -201,6 +201,8 @@ class FitResult:
     Estimates, covariance, rank, unidentifiable directions, termination.
     """
     @property
+    def correlation(self) -> float: ...
+    @property
     def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
     def free_columns(self) -> list[int]: ...
@@ -246,6 +248,8 @@ def fit(
     noise_mm: typing.SupportsFloat | typing.SupportsIndex,
     free: collections.abc.Sequence[bool] = [],
     max_iterations: typing.SupportsInt | typing.SupportsIndex = 50,
+    robust_mm: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"] = ...,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.

@@ -35,9 +35,8 @@ ALLOWED: dict[str, set[str]] = {
     "kinematics": {"errors", "machine", "_core"},
     "model": {"errors", "validation", "atomic_file", "units", "machine", "kinematics", "_core"},
     "redundancy": {"model"},
-    "noise": {"record"},
     "prediction": {"errors", "record", "kinematics", "model", "_core"},
-    "diagnosis": {"errors", "units", "record", "model", "noise", "prediction", "redundancy", "_core"},
+    "diagnosis": {"errors", "units", "record", "model", "prediction", "redundancy", "_core"},
     # where the model fails; readings come in as arrays, predicted or measured
     "iso230": {"errors", "circle_fit"},
     "compare": {"errors", "record", "circle", "iso230"},

@@ -6,11 +6,15 @@ import json
 from pathlib import Path
 
 import click
+import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.consoles import output_console
 from hexdbb.diagnosis import Diagnosis, diagnose
-from hexdbb.model import Model, load_model, new_model, save_model
+from hexdbb.errors import InputError
+from hexdbb.model import Model, load_model, new_model, parse_selection, save_model
 from hexdbb.record import Record, read_record
 from hexdbb.units import shown_factor, shown_unit
 
@@ -25,36 +29,71 @@ from hexdbb.units import shown_factor, shown_unit
     type=click.Path(path_type=Path),
     help="Model file; made from the record's machine and the thesis' geometric errors where there is none yet.",
 )
+@click.option("--free", "free", help="Effects to fit, as leg_length,slider_offset:2; the machine's others are held.")
+@click.option("--fix", "fix", help="Effects or elements to hold, as guideway_translation:3,bar_length.")
+@click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
-def command(records: tuple[Path, ...], model_path: Path, as_json: bool) -> None:
+def command(
+    records: tuple[Path, ...], model_path: Path, free: str | None, fix: str | None, robust: bool, as_json: bool
+) -> None:
     """Fit the free effects of a model to RECORD... (.parquet or .csv) and write the values into the model file.
 
     \b
     Examples:
       hexdbb diagnose demo.parquet -m demo-model.toml
       hexdbb diagnose monday.parquet tuesday.csv -m model.toml --json
+      hexdbb diagnose monday.parquet -m model.toml --free leg_length,slider_offset --fix leg_length:6 --robust
     """
-    messages = Console(stderr=True)
+    refuse_existing(model_path, overwrite=True)
+    messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
         read = [read_record(path) for path in records]
     model = load_model(model_path) if model_path.exists() else _model_of(read[0], model_path, messages)
+    model = choose_free(model, free, fix)
     with messages.status(f"fitting {int(model.free.sum())} values to {sum(map(_rows, read)):,} readings"):
-        found = diagnose(read, model)
+        found = diagnose(read, model, robust=robust)
     save_model(found.model, model_path)
     if as_json:
         click.echo(json.dumps(found.to_json(), indent=2))
     else:
-        print_diagnosis(found, Console())
-    messages.print(f"{model_path}: values written", highlight=False)
+        print_diagnosis(found, output_console())
+    messages.print(f"{model_path}: values written")
+
+
+def choose_free(model: Model, free: str | None, fix: str | None) -> Model:
+    """Give the model with the values free that --free and --fix leave so.
+
+    --free holds the machine's other effects; unknowns of the set-up stay as they are in the model unless named.
+
+    Raises
+    ------
+    InputError
+        Where the two contradict one another, or name what is not in the model.
+    """
+    chosen = model.free
+    if free is not None:
+        named = parse_selection(free, model, "--free")
+        chosen = named | (chosen & np.array([each.is_set_up for each in model.parameters()]))
+    if fix is not None:
+        held = parse_selection(fix, model, "--fix")
+        if free is not None and not (parse_selection(free, model, "--free") & ~held).any():
+            raise InputError(f'--free "{free}" and --fix "{fix}" leave nothing to fit (expected one value at least)')
+        chosen = chosen & ~held
+    return model.with_free(chosen)
 
 
 def print_diagnosis(found: Diagnosis, console: Console) -> None:
     """Print a diagnosis for people: the fall of the error, values and uncertainties, what cannot be known."""
     console.print(
         f"reading error {found.rms_before_um:.2f} um -> {found.rms_after_um:.2f} um RMS"
-        f" (gauge noise {found.noise_um:.2f} um)",
+        f" (noise {found.noise.sigma_mm * 1e3:.2f} um, from {_source(found)})",
         highlight=False,
     )
+    if found.held_out is not None:
+        console.print(
+            f"circles left out of the fit: {found.held_out.before_um:.2f} um -> {found.held_out.after_um:.2f} um RMS",
+            highlight=False,
+        )
     console.print(
         f"rank {found.rank} of {_machine_values(found.model)} errors of the machine (set-up unknowns taken out),"
         f" condition {found.condition:.0f}, {found.iterations} iterations",
@@ -81,22 +120,31 @@ def _values_table(model: Model) -> Table:
     index = 0
     parameters = model.parameters()
     for term in model.terms:
-        if not term.free:
-            index += len(term.values)
-            continue
+        shown = False
         for place, value in enumerate(term.values):
             each = parameters[index]
+            if not term.free[place] and not value:
+                index += 1
+                continue
             factor = shown_factor(each.unit)
             sigma = f"{term.sigma[place] * factor:.2f}" if term.identifiable[place] else "~"
-            name = each.effect if place == 0 else ""
+            sigma = sigma if term.free[place] else "held"
+            name = "" if shown else each.effect
+            shown = True
             table.add_row(name, each.element, each.name, f"{value * factor:.2f}", sigma, shown_unit(each.unit))
             index += 1
     return table
 
 
 def _model_of(record: Record, path: Path, messages: Console) -> Model:
-    messages.print(f"{path}: new model of {record.machine.name} with the thesis' geometric errors", highlight=False)
+    messages.print(f"{path}: new model of {record.machine.name} with the thesis' geometric errors")
     return new_model(record.machine)
+
+
+def _source(found: Diagnosis) -> str:
+    return {"stated": "the gauge's statement", "roughness": "the readings' roughness"}.get(
+        found.noise.source, found.noise.source
+    )
 
 
 def _machine_values(model: Model) -> int:

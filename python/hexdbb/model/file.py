@@ -19,7 +19,8 @@ from hexdbb.validation import FileModel, NotNegative, Number, StrictModel, dump_
 
 
 class ParameterEntry(StrictModel):
-    """One value of an effect, in the unit it names; without `sigma` it is not known on its own."""
+    """One value of an effect, in the unit it names; without `sigma` it is not known on its own, a free one may be
+    fitted."""
 
     element: str
     name: str
@@ -27,13 +28,13 @@ class ParameterEntry(StrictModel):
     unit: str
     sigma: NotNegative | None = None
     identifiable: bool = False
+    free: bool = True
 
 
 class EffectEntry(StrictModel):
-    """One effect; a diagnosis changes its values where it is free."""
+    """One effect with its values, element by element."""
 
     name: str
-    free: bool = True
     parameters: tuple[ParameterEntry, ...] = Field(default=(), strict=False, alias="parameter")
 
 
@@ -83,7 +84,7 @@ def load_model(path: Path | str) -> Model:
         LedgerStep(entry.step, entry.what, entry.rms_before_um, entry.rms_after_um, entry.records)
         for entry in file.steps
     )
-    return Model(file.machine, terms, mounts, ledger)
+    return Model(file.machine, terms, mounts, ledger, Path(path))
 
 
 def save_model(model: Model, path: Path | str) -> None:
@@ -130,9 +131,10 @@ def _entry(term: Term, parameters: list[Parameter]) -> EffectEntry:
                 unit=shown_unit(parameter.unit),
                 sigma=None if math.isnan(sigma) else sigma * factor,
                 identifiable=bool(term.identifiable[index]),
+                free=bool(term.free[index]),
             )
         )
-    return EffectEntry(name=term.effect, free=term.free, parameter=tuple(entries))
+    return EffectEntry(name=term.effect, parameter=tuple(entries))
 
 
 def _term(model: Model, entry: EffectEntry, where: str) -> Term:
@@ -154,4 +156,5 @@ def _term(model: Model, entry: EffectEntry, where: str) -> Term:
         if given.sigma is not None:
             sigma[index] = given.sigma / shown_factor(unit)
     identifiable = np.array([given.identifiable for given in entry.parameters], dtype=bool)
-    return Term(entry.name, entry.free, values, sigma, identifiable)
+    free = np.array([given.free for given in entry.parameters], dtype=bool)
+    return Term(entry.name, free, values, sigma, identifiable)

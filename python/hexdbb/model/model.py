@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,7 +54,8 @@ class Term:
     """One effect of a model with its values; `sigma` is nan where a value is not known on its own."""
 
     effect: str
-    free: bool
+    free: NDArray[np.bool_]
+    """Which values a diagnosis may change."""
     values: Floats
     sigma: Floats
     identifiable: NDArray[np.bool_]
@@ -79,6 +81,13 @@ class Model:
     terms: tuple[Term, ...]
     mounts: tuple[MountKey, ...] = ()
     ledger: tuple[LedgerStep, ...] = field(default=())
+    path: Path | None = field(default=None, compare=False)
+    """The file it was read from."""
+
+    @property
+    def name(self) -> str:
+        """How errors name it: by its file, where it has one."""
+        return "the model" if self.path is None else str(self.path)
 
     def info(self, effect: str) -> _core.EffectInfo:
         """Describe one effect as it stands in this model."""
@@ -101,7 +110,15 @@ class Model:
     @property
     def free(self) -> NDArray[np.bool_]:
         """Which values a diagnosis may change."""
-        return np.concatenate([np.zeros(0, bool), *(np.full(len(term.values), term.free) for term in self.terms)])
+        return np.concatenate([np.zeros(0, bool), *(term.free for term in self.terms)])
+
+    def with_free(self, free: NDArray[np.bool_]) -> Model:
+        """Give the same model with another choice of free values, shape (size,)."""
+        terms, at = [], 0
+        for term in self.terms:
+            terms.append(replace(term, free=free[at : at + len(term.values)]))
+            at += len(term.values)
+        return replace(self, terms=tuple(terms))
 
     def with_values(self, values: Floats, sigma: Floats, identifiable: NDArray[np.bool_]) -> Model:
         """Give the same model with other values."""
@@ -171,8 +188,13 @@ def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Mod
     terms = []
     for name, free in chosen.items():
         size = effect_info(machine, 1, name).size
-        terms.append(Term(name, free, np.zeros(size), np.full(size, np.nan), np.zeros(size, bool)))
+        terms.append(new_term(name, size, free=free))
     return Model(machine, tuple(terms))
+
+
+def new_term(effect: str, size: int, *, free: bool = True) -> Term:
+    """Make a term with all values zero and nothing known of them."""
+    return Term(effect, np.full(size, free), np.zeros(size), np.full(size, np.nan), np.zeros(size, bool))
 
 
 def _parameters(info: _core.EffectInfo) -> list[Parameter]:
@@ -189,6 +211,7 @@ def _extended(term: Term, size: int) -> Term:
         return term
     return replace(
         term,
+        free=np.append(term.free, np.full(more, bool(term.free.any()) or not len(term.free))),
         values=np.append(term.values, np.zeros(more)),
         sigma=np.append(term.sigma, np.full(more, np.nan)),
         identifiable=np.append(term.identifiable, np.zeros(more, bool)),

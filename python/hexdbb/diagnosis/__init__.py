@@ -1,0 +1,22 @@
+"""Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, what is
+not."""
+
+from hexdbb.diagnosis.fit import diagnose, evaluate_fit
+from hexdbb.diagnosis.heldout import HeldOut, held_out
+from hexdbb.diagnosis.mounts import fit_mounts, with_mounts_fitted
+from hexdbb.diagnosis.noise import Noise, noise_of
+from hexdbb.diagnosis.result import KNOWN_PART, UNKNOWN_PART, Diagnosis
+
+__all__ = [
+    "KNOWN_PART",
+    "UNKNOWN_PART",
+    "Diagnosis",
+    "HeldOut",
+    "Noise",
+    "diagnose",
+    "evaluate_fit",
+    "fit_mounts",
+    "held_out",
+    "noise_of",
+    "with_mounts_fitted",
+]

@@ -1,0 +1,159 @@
+"""Fitting a model to records: the engine's least squares, and what it says put into words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.diagnosis.heldout import Refit, held_out
+from hexdbb.diagnosis.noise import Noise, noise_of
+from hexdbb.diagnosis.result import KNOWN_PART, Diagnosis, prior_sigmas, unknown_directions
+from hexdbb.diagnosis.sanity import warnings_of
+from hexdbb.errors import InputError, RunError
+from hexdbb.model import LedgerStep, Model
+from hexdbb.prediction import mount_keys, samples_of
+from hexdbb.record import Record
+from hexdbb.redundancy import sentences
+
+Floats = NDArray[np.float64]
+
+GLITCH_SIGMAS = 3.0
+"""With a robust loss, residuals beyond this many standard deviations of the noise count linearly."""
+
+
+def evaluate_fit(
+    records: Sequence[Record], model: Model, free: NDArray[np.bool_], noise: Noise, *, robust: bool = False
+) -> tuple[Model, _core.FitResult]:
+    """Fit chosen values of a model, no more: no held-out circles, no words, no ledger.
+
+    Parameters
+    ----------
+    records : sequence of Record
+        Of mounts the model knows.
+    model : Model
+        Start of the fit.
+    free : ndarray of bool, shape (size,)
+    noise : Noise
+    robust : bool
+        Huber's loss beyond `GLITCH_SIGMAS`.
+
+    Raises
+    ------
+    InputError
+        Records of another machine, or a sample the machine cannot reach.
+    RunError
+        Where the fit did not end in a usable solution.
+    """
+    names = ", ".join(record.name for record in records)
+    try:
+        result = _core.fit(
+            model.engine(),
+            samples_of(records, model),
+            np.concatenate([record.reading_mm for record in records]),
+            noise_mm=noise.sigma_mm,
+            free=[bool(each) for each in free],
+            robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
+            sweep=_sweep_numbers(records),
+        )
+    except ValueError as error:
+        raise InputError(f"{names}: {error}") from None
+    if not result.usable:
+        raise RunError(f"{names}: the fit did not succeed: {result.termination}")
+    return _fitted_model(model, result), result
+
+
+def diagnose(
+    records: Sequence[Record], model: Model, *, robust: bool = False, check_held_out: bool = True
+) -> Diagnosis:
+    """Fit a model's free effects to records.
+
+    Parameters
+    ----------
+    records : sequence of Record
+        Every mount counts as one fixing of the cup, with a position of its own.
+    model : Model
+        Start of the fit; its ledger gains a step.
+    robust : bool
+        Let readings far off (a gauge glitch) count less.
+    check_held_out : bool
+        Fit again without each group of circles in turn and predict them, where there are two circles or more.
+
+    Raises
+    ------
+    InputError
+        No records, records of another machine, nothing free, a sample the machine cannot reach, readings that tell
+        nothing.
+    RunError
+        Where the fit did not end in a usable solution.
+    """
+    if not records:
+        raise InputError("no record to diagnose (expected at least one)")
+    if not model.free.any():
+        raise InputError("the model has no free value (expected at least one to fit)")
+    known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
+    noise = noise_of(records)
+    fitted, result = evaluate_fit(records, known, known.free, noise, robust=robust)
+    _require_told(fitted, result, records)
+    checked = held_out(records, known, fitted, _refit(noise, robust)) if check_held_out else None
+    parameters = known.parameters()
+    names = tuple(record.name for record in records)
+    step = LedgerStep(len(model.ledger) + 1, "diagnose", result.rms_before_mm * 1e3, result.rms_after_mm * 1e3, names)
+    unknown = unknown_directions(result.covariance, known, result.free_columns)
+    return Diagnosis(
+        model=replace(fitted, ledger=(*model.ledger, step)),
+        rms_before_um=result.rms_before_mm * 1e3,
+        rms_after_um=result.rms_after_mm * 1e3,
+        noise=noise,
+        noise_um=result.noise_mm * 1e3,
+        correlation=result.correlation,
+        rank=result.machine.rank,
+        condition=result.machine.condition,
+        usable=result.usable,
+        iterations=result.iterations,
+        termination=result.termination,
+        covariance=result.covariance,
+        residual_mm=result.residual_mm,
+        held_out=checked,
+        unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
+        warnings=tuple(warnings_of(fitted, result, noise, checked)),
+    )
+
+
+def _refit(noise: Noise, robust: bool) -> Refit:
+    def refit(records: Sequence[Record], model: Model) -> Model:
+        return evaluate_fit(records, model, model.free, noise, robust=robust)[0]
+
+    return refit
+
+
+def _require_told(model: Model, result: _core.FitResult, records: Sequence[Record]) -> None:
+    spread = np.sqrt(np.diag(result.covariance))[result.free_columns]
+    if (spread > 0.99 * prior_sigmas(model)[result.free_columns]).all():
+        names = ", ".join(record.name for record in records)
+        raise InputError(f"{names}: rank 0: the readings say nothing about any free value (expected one at least)")
+
+
+def _sweep_numbers(records: Sequence[Record]) -> NDArray[np.int32]:
+    """Number the captures through all records."""
+    numbers, first = [], 0
+    for record in records:
+        own = np.zeros(len(record.columns["t_s"]), dtype=np.int32)
+        for sweep, rows in enumerate(record.sweeps()):
+            own[rows] = first + sweep
+        first += len(record.sweeps())
+        numbers.append(own)
+    return np.concatenate(numbers)
+
+
+def _fitted_model(model: Model, result: _core.FitResult) -> Model:
+    spread = np.sqrt(np.diag(result.covariance))
+    identifiable = spread <= KNOWN_PART * prior_sigmas(model)
+    sigma = np.where(identifiable, spread, np.nan)
+    held = np.ones(len(sigma), bool)
+    held[result.free_columns] = False
+    keep = np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)])
+    return model.with_values(result.values, np.where(held, model.sigma, sigma), np.where(held, keep, identifiable))
