@@ -180,13 +180,14 @@ def format_name(name: str) -> str:
 def nearest_key(unknown: str, known: list[str]) -> str:
     """Say which key was probably meant: the same name with its unit, else the nearest spelling, else all there are."""
     for key in known:
-        if _without_unit(key) == _without_unit(unknown):
+        if without_unit(key) == without_unit(unknown):
             return f"{key}: the unit is part of the key"
     close = difflib.get_close_matches(unknown, known, n=1, cutoff=0.6)
     return close[0] if close else "one of " + ", ".join(known)
 
 
-def _without_unit(key: str) -> str:
+def without_unit(key: str) -> str:
+    """Give a key or a column's name without the unit it ends with: `radius_mm` and `radius_um` are both `radius`."""
     parts = key.lower().split("_")
     for first in range(1, len(parts)):
         if "_".join(parts[first:]) in UNITS:

@@ -11,7 +11,7 @@ from hexdbb.cli.exits import reports_errors
 
 COMMANDS = {
     "rig": "the simulated rig as a process of its own",
-    "model": "make and look at model files",
+    "model": "make model files",
     "diagnose": "fit the model's effects to records",
     "compare": "prediction against measurement, ISO 230-4 quantities, where the model fails",
     "plan": "check a plan: reach, limits",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import click
@@ -11,6 +10,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.consoles import output_console
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.tables import comparison_text
 from hexdbb.diagnosis import fit_mounts
@@ -19,13 +19,18 @@ from hexdbb.model import load_model
 from hexdbb.prediction import predict_reading_mm
 from hexdbb.record import read_record
 
-REDIRECTED_WIDTH = 110
-"""Characters per line where stdout is no terminal, so that a table in a file is not folded."""
-
 
 @click.command("compare")
 @click.argument("records", nargs=-1, required=True, metavar="RECORD...", type=click.Path(path_type=Path))
-@click.option("-m", "--model", "model_path", required=True, metavar="MODEL", type=click.Path(path_type=Path))
+@click.option(
+    "-m",
+    "--model",
+    "model_path",
+    required=True,
+    metavar="MODEL",
+    type=click.Path(path_type=Path),
+    help="Model file, as diagnose makes.",
+)
 @click.option(
     "--plot",
     "prefix",
@@ -62,8 +67,7 @@ def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no
     if as_json:
         click.echo(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
     else:
-        width = None if sys.stdout.isatty() else REDIRECTED_WIDTH
-        Console(width=width, highlight=False).print(comparison_text(comparison))
+        output_console().print(comparison_text(comparison))
     if written:
         messages.print(f"pictures: {', '.join(str(path) for path in written)}", markup=False)
 

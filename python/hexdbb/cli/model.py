@@ -16,7 +16,7 @@ def command() -> None:
     """Make model files."""
 
 
-@command.command()
+@command.command(short_help="a model with the named effects, all values zero")
 @click.argument("machine")
 @click.option("-o", "--output", required=True, type=click.Path(path_type=Path), help="Model file to write.")
 @click.option("--effects", help="Comma-separated effects, all free; 'none' for the nominal machine.")

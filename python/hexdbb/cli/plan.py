@@ -7,10 +7,10 @@ import json
 import click
 import numpy as np
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table as Sheet
 
 from hexdbb.capture.bus_load import check_load
+from hexdbb.cli.consoles import output_console
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import load_plan
@@ -32,7 +32,7 @@ def command() -> None:
     """
 
 
-@command.command("check")
+@command.command("check", short_help="reach and limits of a plan")
 @click.argument("plan_name", metavar="PLAN")
 @click.option(
     "--rate", "rate_hz", type=click.FloatRange(min=1.0), help="Cycles per second; default: the machine file's."
@@ -114,7 +114,7 @@ def _print(
             f"{run['to_min_gap_mm']:.1f}",
             *(f"{share:.1f}" for share in shares),
         )
-    Console().print(sheet)
+    output_console().print(sheet)
     of = ", ".join(f"{getattr(limits, f'{name}_{unit}'):g} {unit.replace('_', '/')}" for name, unit in LIMITED)
     click.echo(f"travel: mm left to its ends; gap: mm left between two sliders; % of the sliders' limits, {of}")
     click.echo(f"{programme.duration_s:.0f} s at {1.0 / programme.cycle_s:g} Hz, bus load {load:.0%} at worst")

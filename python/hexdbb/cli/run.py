@@ -113,13 +113,10 @@ def command(
     elif not yes:
         request = replace(request, confirm=_ask(console, progress))
     programme = prepare(request)
-    console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
-    with (
-        _bus(bus_spec, request, rig_options) as bus,
-        _pace(lockstep, request.cycle_s, progress) as clock,
-        display(progress, console),
-    ):
-        made = measure(request, programme, bus, clock, progress)
+    with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
+        console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
+        with display(progress, console):
+            made = measure(request, programme, bus, clock, progress)
     _say_what_was_recorded(made, programme, progress)
 
 

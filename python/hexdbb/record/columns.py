@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.validation import format_name, format_value
+from hexdbb.validation import format_name, format_value, without_unit
 
 Columns = dict[str, NDArray[Any]]
 
@@ -91,6 +91,10 @@ def normalise(columns: Mapping[str, Any], origin: Origin) -> Columns:
     """
     missing = [name for name in REQUIRED_COLUMNS if name not in columns]
     if missing:
+        for present in columns:
+            if present not in COLUMN_TYPES and without_unit(present) == without_unit(missing[0]):
+                expected = f"expected {missing[0]}: the unit is part of the name"
+                raise InputError(f"{origin.name}: column {format_name(present)} ({expected})")
         present = ", ".join(map(format_name, columns)) or "none"
         raise InputError(f"{origin.name}: missing column {', '.join(missing)} (columns present: {present})")
     ordered = [*(name for name in COLUMN_TYPES if name in columns), *(n for n in columns if n not in COLUMN_TYPES)]
