@@ -37,7 +37,7 @@ def samples_of(records: Sequence[Record], model: Model) -> _core.Samples:
     set_ups: list[_core.SetUp] = []
     sliders, set_up_rows, mount_rows = [], [], []
     for record in records:
-        record.require_machine(model.machine, "the model")
+        record.require_machine(model.machine, model.name)
         circle_ids, member = np.unique(record.columns["circle"], return_inverse=True)
         keys = _keys_by_circle(record)
         places = [_place(keys[int(each)], model, record) for each in circle_ids]
