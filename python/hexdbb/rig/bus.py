@@ -73,13 +73,7 @@ class Rig:
         self._outbox: list[Frame] = []
         self._injections = list(injections or [])
         position, rotation = np.array(truth.start.position_mm), rotation_rpy(*np.radians(truth.start.rpy_deg))
-        self.plant = Plant(
-            true_geometry(machine, truth.geometry.errors()),
-            truth.setup.errors(),
-            [table.stepper() for table in truth.mechanism],
-            position,
-            rotation,
-        )
+        self.plant = Plant(truth.true_machine(machine), position, rotation)
         start_mm = start_sliders_mm(machine, position, rotation)
         self.drives = self._make_drives(machine, truth, start_mm, stall_tolerance_s)
         self.gauge = self._make_gauge(machine, truth, stall_tolerance_s)
@@ -180,7 +174,7 @@ class Rig:
 
     def _step_plant(self, dt_s: float) -> None:
         try:
-            self.plant.step(np.array([drive.axis.position_mm for drive in self.drives]), dt_s)
+            self.plant.step(np.array([drive.axis.position_mm for drive in self.drives]), dt_s, self.gauge.mounted)
         except RunError as error:
             if not self._broken:
                 log.error("%s", error)

@@ -22,6 +22,7 @@ from hexdbb.machine import MachineFile
 
 Array = NDArray[np.float64]
 SQRT3 = math.sqrt(3.0)
+STANDARD_GRAVITY_M_S2 = 9.80665
 
 
 def rotation_x(angle_rad: float) -> Array:
@@ -80,34 +81,36 @@ class TrueGeometry:
         Distance between the joints of leg k.
     joints_mm : (6, 3) array
         Ball joint at the platform end of leg k, platform frame.
+    weight_n : float
+        Of platform and tool, at the platform's reference point.
     """
 
     anchors_mm: Array
     directions: Array
     lengths_mm: Array
     joints_mm: Array
+    weight_n: float
 
     def slider_joints_mm(self, sliders_mm: Array) -> Array:
-        """Slider joint centres, shape (6, 3), for slider coordinates of shape (6,)."""
-        return self.anchors_mm + sliders_mm[:, None] * self.directions
+        """Slider joint centres, shape (..., 6, 3), for slider coordinates of shape (..., 6)."""
+        return self.anchors_mm + sliders_mm[..., None] * self.directions
 
     def sliders_for(self, position_mm: Array, rotation: Array) -> Array:
-        """Slider coordinates that hold a pose, shape (6,).
+        """Slider coordinates that hold poses of shapes (..., 3) and (..., 3, 3), shape (..., 6).
 
         Raises
         ------
         InputError
-            A leg does not reach its guideway.
+            A leg does not reach its guideway; names the first such pose.
         """
-        joints = self.joints_mm @ rotation.T + position_mm
+        joints = self.joints_mm @ np.swapaxes(rotation, -1, -2) + position_mm[..., None, :]
         reach = joints - self.anchors_mm
-        foot = np.einsum("ij,ij->i", reach, self.directions)
-        square = self.lengths_mm**2 - np.einsum("ij,ij->i", reach, reach) + foot**2
+        foot = np.einsum("...ij,ij->...i", reach, self.directions)
+        square = self.lengths_mm**2 - np.einsum("...ij,...ij->...i", reach, reach) + foot**2
         if np.any(square < 0.0):
-            leg = int(np.argmin(square)) + 1
-            raise InputError(
-                f"start pose {np.round(position_mm, 3).tolist()} mm: leg {leg} does not reach its guideway"
-            )
+            *pose, leg = np.argwhere(square < 0.0)[0]
+            where = np.round(position_mm[tuple(pose)], 3).tolist()
+            raise InputError(f"pose {where} mm: leg {leg + 1} does not reach its guideway")
         sliders: Array = foot + np.array([-1.0, 1.0] * 3) * np.sqrt(square)
         return sliders
 
@@ -126,6 +129,7 @@ def true_geometry(machine: MachineFile, errors: GeometryErrors | None = None) ->
         directions,
         machine.legs.length_mm + errors.leg_length_mm,
         np.repeat(_joint_triangle(machine, errors.platform_side_mm), 2, axis=0),
+        machine.platform.moved_mass_kg * STANDARD_GRAVITY_M_S2,
     )
 
 

@@ -1,22 +1,29 @@
 """The true machine: from where the drives stand to what the ball bar reads, stepped in time.
 
-Model: y = |p + R ball - cup| - (L0 + bar length error), with p, R from the pose solver under the true geometry,
-displaced by mechanisms; ball and cup are the nominal set-up plus its errors.
-Units: mm, s.
+Model: y = (1 + gain) (|p + R ball - cup| - (L0 + bar length error)) + what is added to the reading, with p, R from the
+pose solver under the true geometry, displaced by mechanisms; ball and cup are the nominal set-up plus its errors. Where
+legs give way, pose and leg forces are brought into balance.
+`Machine` computes any number of instants at once and keeps no state but that of its mechanisms; `Plant` leads it cycle
+by cycle, as the rig's clock does. Both give the same readings.
+Units: mm, s, N.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hexdbb.errors import RunError
 from hexdbb.rig.geometry import Array, TrueGeometry
-from hexdbb.rig.mechanisms import Displaced, Stepper
-from hexdbb.rig.pose_solver import PoseSolver
+from hexdbb.rig.mechanisms import Mechanism, Motion, Push
+from hexdbb.rig.pose_solver import Hexapod, NoPoseError, Poses, leg_forces_n, solve_poses
 
 Point = tuple[float, float, float]
+
+BALANCE_ROUNDS = 3
+"""Each round divides the error of sag by more than 1000 (leg over sag), so that three leave less than 1e-9 mm."""
 
 
 @dataclass(frozen=True)
@@ -38,36 +45,84 @@ class SetupErrors:
     bar_length_mm: float
 
 
+@dataclass(frozen=True)
+class Machine:
+    """What the machine really is."""
+
+    geometry: TrueGeometry
+    setup_errors: SetupErrors
+    mechanisms: Sequence[Mechanism]
+    """In the order in which they act."""
+
+    def displaced(self, motion: Motion) -> Push:
+        """Take the mechanisms through a stretch of n instants."""
+        push = Push(len(motion.time_s))
+        for mechanism in self.mechanisms:
+            mechanism.act(motion, push)
+        return push
+
+    def poses(self, drive_mm: Array, push: Push, guess: Poses) -> Poses:
+        """Find where the platform stands with drives at (n, 6) mm.
+
+        Raises
+        ------
+        RunError
+            The machine has no pose there.
+        """
+        sliders_mm = drive_mm + push.slider_mm
+        hexapod = Hexapod(
+            self.geometry.slider_joints_mm(sliders_mm) + push.slider_joint_mm,
+            self.geometry.joints_mm + push.platform_joint_mm,
+            self.geometry.lengths_mm + push.leg_mm,
+        )
+        try:
+            poses = solve_poses(hexapod, guess)
+            if np.any(push.compliance_mm_n != 0.0):
+                poses = self._balanced(hexapod, push.compliance_mm_n, poses)
+        except NoPoseError as error:
+            where = np.round(sliders_mm[error.instant], 3).tolist()
+            raise RunError(f"the true machine has no pose for sliders {where} mm") from None
+        return poses
+
+    def _balanced(self, stiff: Hexapod, compliance_mm_n: Array, poses: Poses) -> Poses:
+        pressed = stiff
+        for _ in range(BALANCE_ROUNDS):
+            forces = leg_forces_n(pressed, poses, self.geometry.weight_n)
+            pressed = replace(stiff, lengths_mm=stiff.lengths_mm - compliance_mm_n * forces)
+            poses = solve_poses(pressed, poses)
+        return poses
+
+    def reading_mm(self, mounted: Mounted, push: Push, poses: Poses) -> Array:
+        """Give the mounted bar's length minus its nominal length as the gauge shows it, before noise; (n,)."""
+        ball = np.add(mounted.ball_offset_mm, self.setup_errors.ball_offset_mm) + push.ball_mm
+        cup = np.add(mounted.cup_mm, self.setup_errors.cup_mm.get(mounted.mount, (0.0, 0.0, 0.0))) + push.cup_mm
+        bar = poses.position_mm + np.einsum("nij,nj->ni", poses.rotation, ball) - cup
+        length = np.sqrt(np.einsum("ni,ni->n", bar, bar))
+        change = length - (mounted.bar_length_mm + self.setup_errors.bar_length_mm)
+        reading: Array = (1.0 + push.gain) * change + push.reading_mm
+        return reading
+
+
 class Plant:
-    """The machine at work.
+    """The machine at work, cycle by cycle.
 
     Parameters
     ----------
-    geometry : TrueGeometry
-        With its errors.
-    setup_errors : SetupErrors
-        Of cups, ball and bar.
-    mechanisms : sequence of Stepper
-        In the order in which they act.
+    machine : Machine
+        What it is.
     position_mm, rotation : (3,) and (3, 3) arrays
-        Pose near which the machine stands at power-on.
+        Pose near which it stands at power-on.
     """
 
-    def __init__(
-        self,
-        geometry: TrueGeometry,
-        setup_errors: SetupErrors,
-        mechanisms: Sequence[Stepper],
-        position_mm: Array,
-        rotation: Array,
-    ) -> None:
-        self.solver = PoseSolver(geometry, position_mm, rotation)
+    def __init__(self, machine: Machine, position_mm: Array, rotation: Array) -> None:
+        self.machine = machine
         self.time_s = 0.0
-        self._errors, self._mechanisms = setup_errors, list(mechanisms)
-        self._reading_drift_mm = 0.0
+        self.poses = Poses(np.array(position_mm, dtype=float)[None], np.array(rotation, dtype=float)[None])
+        self._push = Push(1)
+        self._before = (self._push, self.poses, 0.0)
 
-    def step(self, drive_mm: Array, dt_s: float) -> None:
-        """Advance by one cycle to drive positions `drive_mm`, shape (6,).
+    def step(self, drive_mm: Array, dt_s: float, mounted: Mounted | None = None) -> None:
+        """Advance by one cycle to drive positions `drive_mm`, shape (6,), with a bar mounted or none.
 
         Raises
         ------
@@ -75,16 +130,21 @@ class Plant:
             The machine has no pose there.
         """
         self.time_s += dt_s
-        machine = Displaced(self.time_s, drive_mm)
-        for mechanism in self._mechanisms:
-            mechanism.step(machine, dt_s)
-        self._reading_drift_mm = machine.reading_mm
-        self.solver.solve(drive_mm + machine.slider_mm, machine.leg_mm)
+        mount = mounted.mount if mounted is not None else None
+        self._before = (self._push, self.poses, dt_s)
+        motion = Motion(np.array([self.time_s]), dt_s, np.asarray(drive_mm, dtype=float)[None], mount)
+        self._push = self.machine.displaced(motion)
+        self.poses = self.machine.poses(motion.drive_mm, self._push, self.poses)
 
     def reading_mm(self, mounted: Mounted) -> float:
-        """Give the mounted bar's true length minus its nominal length, before noise."""
-        ball = np.add(mounted.ball_offset_mm, self._errors.ball_offset_mm)
-        cup = np.add(mounted.cup_mm, self._errors.cup_mm.get(mounted.mount, (0.0, 0.0, 0.0)))
-        bar = self.solver.position_mm + self.solver.rotation @ ball - cup
-        length = float(np.sqrt(bar @ bar))
-        return length - (mounted.bar_length_mm + self._errors.bar_length_mm) + self._reading_drift_mm
+        """Give the mounted bar's length minus its nominal length as the gauge shows it, before noise.
+
+        A gauge that is read earlier or later than the encoders is followed along the straight line through this cycle's
+        reading and the one before: what comes after this cycle has not happened yet.
+        """
+        now = float(self.machine.reading_mm(mounted, self._push, self.poses)[0])
+        push, poses, dt_s = self._before
+        if self._push.delay_s == 0.0 or dt_s == 0.0:
+            return now
+        before = float(self.machine.reading_mm(mounted, push, poses)[0])
+        return now + self._push.delay_s * (now - before) / dt_s

@@ -1,113 +1,153 @@
 """Where the platform of the true machine stands: Newton's method on the six pose coordinates, one ball joint per leg.
 
-Model: residuals f_k = |R q_k + p - B_k| - L_k, k = 1 to 6. With a small rotation w in the base frame, R -> exp([w]x)
-R, the row of the Jacobian is (n_k, (R q_k) x n_k), n_k the unit vector along leg k. Started from the last pose, it
-needs two steps a cycle.
-Assumption: the machine is assembled so that the platform stays on the branch of its last pose.
-Units: mm, rad.
+Model: residuals f_k = |R q_k + p - B_k| - L_k, k = 1 to 6. With a small rotation w in the base frame, R -> C(w) R, the
+row of the Jacobian is (n_k, (R q_k) x n_k), n_k the unit vector along leg k; C is Cayley's map, a rotation for every w
+and equal to exp([w]x) up to the third order, which changes the way to the solution and not the solution.
+Assumption: the machine is assembled so that the platform stays on the branch of the pose it is sought from.
+All instants of a stretch are solved at once, each from its own first guess; quadratic convergence makes that two or
+three steps.
+Units: mm, rad, N.
 """
 
 from __future__ import annotations
 
-import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from hexdbb.errors import RunError
-from hexdbb.rig.geometry import Array, TrueGeometry
+from hexdbb.rig.geometry import Array
 
 STEP_TOLERANCE = 1e-6
 """A step (mm, and rad times mm) this small leaves an error of its square over the leg length: none."""
 MAX_ITERATIONS = 50
-_IDENTITY3 = 3.0 * np.eye(3)
+BLOCK = 512
+"""Instants solved at once: few enough for the processor's cache."""
+_IDENTITY = np.eye(3)
 
 
-class PoseSolver:
-    """Follows the pose of a machine from sample to sample.
+class NoPoseError(RunError):
+    """The legs hold the platform nowhere; `instant` is the first at which they do not."""
+
+    def __init__(self, instant: int) -> None:
+        super().__init__(f"the true machine has no pose at instant {instant}")
+        self.instant = instant
+
+
+@dataclass(frozen=True)
+class Hexapod:
+    """The machine's points at n instants.
+
+    Attributes
+    ----------
+    slider_joints_mm : (n, 6, 3) array
+        Base frame.
+    platform_joints_mm : (n, 6, 3) array
+        Platform frame.
+    lengths_mm : (n, 6) array
+        Of the legs.
+    """
+
+    slider_joints_mm: Array
+    platform_joints_mm: Array
+    lengths_mm: Array
+
+
+@dataclass(frozen=True)
+class Poses:
+    """Where the platform stands at n instants: position (n, 3) mm, rotation (n, 3, 3)."""
+
+    position_mm: Array
+    rotation: Array
+
+    def at(self, rows: slice) -> Poses:
+        """Give some of the instants."""
+        return Poses(self.position_mm[rows], self.rotation[rows])
+
+
+def solve_poses(hexapod: Hexapod, guess: Poses) -> Poses:
+    """Find the poses that the legs hold.
 
     Parameters
     ----------
-    geometry : TrueGeometry
-        The machine.
-    position_mm : (3,) array
-        Where to start.
-    rotation : (3, 3) array
-        Orientation to start from.
+    hexapod : Hexapod
+        At n instants.
+    guess : Poses
+        Where to start, at n instants.
+
+    Raises
+    ------
+    NoPoseError
+        No pose within 50 steps: the sliders tear the machine apart.
     """
+    position, rotation = np.empty_like(guess.position_mm), np.empty_like(guess.rotation)
+    for first in range(0, len(position), BLOCK):
+        rows = slice(first, first + BLOCK)
+        part = Hexapod(hexapod.slider_joints_mm[rows], hexapod.platform_joints_mm[rows], hexapod.lengths_mm[rows])
+        position[rows], rotation[rows] = _solve_block(part, guess.at(rows), first)
+    return Poses(position, rotation)
 
-    def __init__(self, geometry: TrueGeometry, position_mm: Array, rotation: Array) -> None:
-        self._geometry = geometry
-        self.position_mm = np.array(position_mm, dtype=float)
-        self.rotation = np.array(rotation, dtype=float)
-        self.iterations = 0
-        self._jacobian = np.empty((6, 6))
 
-    def solve(self, sliders_mm: Array, longer_mm: Array | None = None) -> tuple[Array, Array]:
-        """Move to the pose that these sliders hold.
+def leg_forces_n(hexapod: Hexapod, poses: Poses, weight_n: float) -> Array:
+    """Thrust of each leg, pressure positive, that carries a weight at the platform's reference point; (n, 6).
 
-        Parameters
-        ----------
-        sliders_mm : (6,) array
-            Where the sliders really are.
-        longer_mm : (6,) array, optional
-            Legs longer by this at this instant.
+    Raises
+    ------
+    RunError
+        The legs cannot carry it: a singular pose.
+    """
+    _, jacobian, _ = _legs(hexapod, poses.position_mm, poses.rotation)
+    # Legs push along n_k: sum f_k n_k = (0, 0, weight), and no moment about the reference point.
+    load = np.zeros((len(jacobian), 6, 1))
+    load[:, 2] = weight_n
+    try:
+        forces: Array = np.linalg.solve(jacobian.transpose(0, 2, 1), load)[:, :, 0]
+    except np.linalg.LinAlgError:
+        raise RunError("the true machine stands in a singular pose: its legs carry no weight") from None
+    return forces
 
-        Returns
-        -------
-        position_mm : (3,) array
-        rotation : (3, 3) array
 
-        Raises
-        ------
-        RunError
-            No pose within 50 steps: the sliders tear the machine apart.
-        """
-        joints = self._geometry.slider_joints_mm(sliders_mm)
-        lengths = self._geometry.lengths_mm if longer_mm is None else self._geometry.lengths_mm + longer_mm
-        position, rotation = self.position_mm, self.rotation
-        for self.iterations in range(1, MAX_ITERATIONS + 1):
-            step = self._step(position, rotation, joints, lengths)
-            position = position + step[:3]
-            rotation = _turn(step[3], step[4], step[5]) @ rotation
-            largest = float(np.abs(step).max())
-            if not math.isfinite(largest):
-                break
-            if largest < STEP_TOLERANCE:
-                # One step of the polar decomposition's iteration keeps R orthonormal over any number of samples.
-                self.position_mm = position
-                self.rotation = 0.5 * rotation @ (_IDENTITY3 - rotation.T @ rotation)
-                return self.position_mm, self.rotation
-        raise RunError(f"the true machine has no pose for sliders {np.round(sliders_mm, 3).tolist()} mm")
-
-    def _step(self, position: Array, rotation: Array, joints: Array, lengths: Array) -> Array:
-        arms = self._geometry.joints_mm @ rotation.T
-        legs = arms + position - joints
-        reach = np.sqrt(np.einsum("ij,ij->i", legs, legs))
-        n = legs / reach[:, None]
-        jacobian = self._jacobian
-        jacobian[:, :3] = n
-        jacobian[:, 3] = arms[:, 1] * n[:, 2] - arms[:, 2] * n[:, 1]
-        jacobian[:, 4] = arms[:, 2] * n[:, 0] - arms[:, 0] * n[:, 2]
-        jacobian[:, 5] = arms[:, 0] * n[:, 1] - arms[:, 1] * n[:, 0]
+def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Array]:
+    position, rotation = guess.position_mm, guess.rotation
+    for _ in range(MAX_ITERATIONS):
+        reach, jacobian, _ = _legs(hexapod, position, rotation)
         try:
-            step: Array = np.linalg.solve(jacobian, lengths - reach)
+            step = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
         except np.linalg.LinAlgError:
-            return np.full(6, np.nan)
-        return step
+            break
+        position = position + step[:, :3]
+        rotation = _turn(step[:, 3:]) @ rotation
+        largest = np.abs(step).max(axis=1)
+        if np.all(largest < STEP_TOLERANCE):
+            # One step of the polar decomposition's iteration keeps R orthonormal over any number of samples.
+            return position, 0.5 * rotation @ (3.0 * _IDENTITY - rotation.transpose(0, 2, 1) @ rotation)
+        if not np.all(np.isfinite(largest)):
+            break
+    reach, _, _ = _legs(hexapod, position, rotation)
+    wrong = ~(np.abs(hexapod.lengths_mm - reach).max(axis=1) < STEP_TOLERANCE)
+    row = int(np.argmax(wrong))
+    raise NoPoseError(first + row)
 
 
-def _turn(x: float, y: float, z: float) -> Array:
-    """Exponential of the rotation vector (x, y, z) by Rodrigues' formula, shape (3, 3)."""
-    square = x * x + y * y + z * z
-    angle = math.sqrt(square)
-    if angle < 1e-4:
-        a, b = 1.0 - square / 6.0, 0.5 - square / 24.0
-    else:
-        a, b = math.sin(angle) / angle, (1.0 - math.cos(angle)) / square
-    return np.array(
-        [
-            [1.0 - b * (y * y + z * z), b * x * y - a * z, b * x * z + a * y],
-            [b * x * y + a * z, 1.0 - b * (x * x + z * z), b * y * z - a * x],
-            [b * x * z - a * y, b * y * z + a * x, 1.0 - b * (x * x + y * y)],
-        ]
-    )
+def _legs(hexapod: Hexapod, position: Array, rotation: Array) -> tuple[Array, Array, Array]:
+    """Lengths (n, 6), their derivatives by position and rotation (n, 6, 6), arms (n, 6, 3)."""
+    arms = hexapod.platform_joints_mm @ rotation.transpose(0, 2, 1)
+    legs = arms + position[:, None, :] - hexapod.slider_joints_mm
+    reach = np.sqrt(np.einsum("nij,nij->ni", legs, legs))
+    jacobian = np.empty((len(reach), 6, 6))
+    n = np.divide(legs, reach[:, :, None], out=jacobian[:, :, :3])
+    for axis in range(3):
+        one, other = (axis + 1) % 3, (axis + 2) % 3
+        jacobian[:, :, 3 + axis] = arms[:, :, one] * n[:, :, other] - arms[:, :, other] * n[:, :, one]
+    return reach, jacobian, arms
+
+
+def _turn(rotation_vector: Array) -> Array:
+    """Cayley's map I + 2 (H + H^2) / (1 + |h|^2) of half the rotation vector, h, with H = [h]x; (n, 3, 3)."""
+    half = 0.5 * rotation_vector
+    skew = np.zeros((len(half), 3, 3))
+    skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0] = half.T
+    skew[:, 1, 2], skew[:, 2, 0], skew[:, 0, 1] = -half.T
+    scale = 2.0 / (1.0 + np.einsum("ni,ni->n", half, half))
+    turn: Array = _IDENTITY + scale[:, None, None] * (skew + skew @ skew)
+    return turn

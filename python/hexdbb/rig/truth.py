@@ -14,9 +14,10 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, SerializeAsAny, ValidationError, model_validator
 
-from hexdbb.rig.geometry import Array, GeometryErrors
+from hexdbb.machine import MachineFile
+from hexdbb.rig.geometry import Array, GeometryErrors, true_geometry
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
-from hexdbb.rig.plant import Point, SetupErrors
+from hexdbb.rig.plant import Machine, Point, SetupErrors
 from hexdbb.validation import BadValueError, FileModel, NotNegative, Number, Positive, StrictModel, Vector3
 
 Vector6 = Annotated[tuple[Number, Number, Number, Number, Number, Number], Field(strict=False)]
@@ -106,6 +107,14 @@ class TruthFile(FileModel):
     start: Start = Start()
     mechanism: Annotated[tuple[SerializeAsAny[MechanismTable], ...], Field(strict=False)] = ()
     """In the order in which they act."""
+
+    def true_machine(self, machine: MachineFile) -> Machine:
+        """Give the machine that this truth makes of a nominal one, its mechanisms at rest."""
+        return Machine(
+            true_geometry(machine, self.geometry.errors()),
+            self.setup.errors(),
+            [table.start(machine) for table in self.mechanism],
+        )
 
     @model_validator(mode="before")
     @classmethod

@@ -52,9 +52,7 @@ def test_truth_and_prediction_agree_on_the_thesis_circle(columns, seed):
     nominal = true_geometry(MACHINE)
     sliders = np.array([nominal.sliders_for(centre + around, np.eye(3)) for around in ring])
 
-    plant = Plant(
-        true_geometry(MACHINE, truth.geometry.errors()), truth.setup.errors(), [], centre + ring[0], np.eye(3)
-    )
+    plant = Plant(truth.true_machine(MACHINE), centre + ring[0], np.eye(3))
     mounted = Mounted(mount.id, mount.cup_mm, circle.ball_offset_mm, plan.gauge.bar_length_mm)
     readings = []
     for row in sliders:
@@ -73,7 +71,7 @@ def test_truth_and_prediction_agree_on_the_thesis_circle(columns, seed):
 
 
 def test_rig_shares_no_code_with_the_engine():
-    for path in sorted(Path(hexdbb.rig.__file__).parent.glob("*.py")):
+    for path in sorted(Path(hexdbb.rig.__file__).parent.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
             names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []

@@ -6,11 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from hexdbb.errors import InputError
-from hexdbb.rig.mechanisms import MECHANISMS, Displaced, GaugeDrift, PlayOperator, ScrewPeriod
+from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import TruthFile, random_truth
 from hexdbb.validation import dump_toml, load_toml
 
@@ -50,10 +48,10 @@ def test_units_are_converted_once():
 def test_mechanisms_survive_the_file(tmp_path, truth_file):
     path = truth_file(
         '[[mechanism]]\nkind = "backlash"\nslider = 3\nwidth_um = 8.0\n'
-        '[[mechanism]]\nkind = "gauge_drift"\nrate_um_min = 1.5\n'
+        '[[mechanism]]\nkind = "bar_drift"\nrate_um_min = 1.5\n'
     )
     truth = load_toml(path, TruthFile)
-    assert [table.kind for table in truth.mechanism] == ["backlash", "gauge_drift"]
+    assert [table.kind for table in truth.mechanism] == ["backlash", "bar_drift"]
     again = tmp_path / "again.toml"
     again.write_text(dump_toml(truth), encoding="utf-8")
     assert load_toml(again, TruthFile) == truth
@@ -64,7 +62,7 @@ def test_mechanisms_survive_the_file(tmp_path, truth_file):
     [
         (
             '[[mechanism]]\nkind = "gremlin"',
-            'mechanism[0].kind: "gremlin" (expected one of backlash, screw_period, gauge_drift)',
+            'mechanism[0].kind: "gremlin" (expected one of backlash, reversal_spike, pitch_cyclic, ',
         ),
         ('[[mechanism]]\nkind = "backlash"\nslider = 7\nwidth_um = 8.0', "mechanism[0].slider: 7 (expected backlash: "),
         ('[[mechanism]]\nkind = "backlash"\nslider = 1', "mechanism[0].width_um"),
@@ -80,39 +78,6 @@ def test_bad_values_are_named_with_file_and_key(truth_file, content, says):
     assert str(error.value).startswith(f"{path}: ")
     assert says in str(error.value)
     assert "\n" not in str(error.value)
-
-
-@given(st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=60), st.floats(0.001, 0.3))
-def test_play_stays_within_its_width_and_moves_only_when_pushed(path, width):
-    play = PlayOperator(2, width)
-    before, drive_before = None, None
-    for drive in path:
-        machine = Displaced(0.0, np.array([0.0, 0.0, drive, 0.0, 0.0, 0.0]))
-        play.step(machine, 0.004)
-        slider = drive + machine.slider_mm[2]
-        assert abs(slider - drive) <= width / 2.0 + 1e-12
-        if before is not None and abs(slider - before) > 1e-12:
-            assert np.sign(slider - before) == np.sign(drive - drive_before)
-            assert abs(slider - drive) == pytest.approx(width / 2.0)
-        assert np.count_nonzero(machine.slider_mm) <= 1
-        before, drive_before = slider, drive
-
-
-def test_play_has_memory_that_a_function_of_position_cannot_have():
-    play, displacement = PlayOperator(0, 0.010), []
-    for drive in (0.0, 0.1, 0.2, 0.1, 0.0):
-        machine = Displaced(0.0, np.array([drive, 0.0, 0.0, 0.0, 0.0, 0.0]))
-        play.step(machine, 0.004)
-        displacement.append(machine.slider_mm[0])
-    assert displacement == pytest.approx([0.0, -0.005, -0.005, 0.005, 0.005])
-
-
-def test_screw_and_drift():
-    machine = Displaced(120.0, np.full(6, 1.25))
-    ScrewPeriod(kind="screw_period", slider=4, amplitude_um=3.0, period_mm=5.0).stepper().step(machine, 0.004)
-    assert machine.slider_mm == pytest.approx([0, 0, 0, 0.003, 0, 0])
-    GaugeDrift(kind="gauge_drift", rate_um_min=0.5).stepper().step(machine, 0.004)
-    assert machine.reading_mm == pytest.approx(0.001)
 
 
 def test_every_registered_mechanism_is_named_by_its_kind():

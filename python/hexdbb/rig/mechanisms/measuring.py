@@ -1,0 +1,128 @@
+"""The measuring side: bar, gauge, ball and cup.
+
+Model: the gauge shows (1 + gain) (true length - nominal length) + drift + pick-up, at a time that may be another than
+the encoders'; ball and cup are where the set-up has put them, and stay there or not.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, ClassVar, Literal
+
+import numpy as np
+from pydantic import Field
+
+from hexdbb.machine import MachineFile
+from hexdbb.rig.mechanisms.base import Mechanism, MechanismTable, Momentary, Motion, Push, Window
+from hexdbb.validation import NotNegative, Number, Positive, Vector3
+
+Identity = Annotated[int, Field(ge=0)]
+
+
+class BarDrift(MechanismTable):
+    """The reading drifts evenly with time since power-on."""
+
+    sizes: ClassVar = ("rate_um_min",)
+    kind: Literal["bar_drift"] = "bar_drift"
+    rate_um_min: Number
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            push.reading_mm += self.rate_um_min * 1e-3 / 60.0 * motion.time_s
+
+        return Momentary(action)
+
+
+class BarGain(MechanismTable):
+    """The gauge's scale is off."""
+
+    sizes: ClassVar = ("error_percent",)
+    kind: Literal["bar_gain"] = "bar_gain"
+    error_percent: Number
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            push.gain += self.error_percent * 1e-2
+
+        return Momentary(action)
+
+
+class SampleDelay(MechanismTable):
+    """The gauge is read later than the encoders (negative: it shows an old value)."""
+
+    sizes: ClassVar = ("delay_ms",)
+    kind: Literal["sample_delay"] = "sample_delay"
+    delay_ms: Number
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            push.delay_s += self.delay_ms * 1e-3
+
+        return Momentary(action)
+
+
+class BallEccentricity(MechanismTable):
+    """The centre ball was set differently for one fixing of the cup, or for one circle.
+
+    On the bus nobody tells the circle: there, give the mount.
+    """
+
+    sizes: ClassVar = ("offset_um",)
+    kind: Literal["ball_eccentricity"] = "ball_eccentricity"
+    offset_um: Vector3
+    """Platform frame."""
+    mount: Identity | None = None
+    circle: Identity | None = None
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            if self.mount in (None, motion.mount) and self.circle in (None, motion.circle):
+                push.ball_mm += np.array(self.offset_um) * 1e-3
+
+        return Momentary(action)
+
+
+class MainsPickup(MechanismTable):
+    """The mains' frequency in the gauge's signal; not in the catalogue. Sampling folds it to another frequency."""
+
+    sizes: ClassVar = ("amplitude_um",)
+    kind: Literal["mains_pickup"] = "mains_pickup"
+    amplitude_um: NotNegative
+    frequency_hz: Positive = 50.0
+    phase_deg: Number = 0.0
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            angle = 2.0 * math.pi * self.frequency_hz * motion.time_s + math.radians(self.phase_deg)
+            push.reading_mm += self.amplitude_um * 1e-3 * np.sin(angle)
+
+        return Momentary(action)
+
+
+class LooseCup(MechanismTable):
+    """The cup shifts once and stays there; not in the catalogue."""
+
+    sizes: ClassVar = ("shift_um",)
+    kind: Literal["loose_cup"] = "loose_cup"
+    shift_um: Vector3
+    """Base frame."""
+    at_s: Window
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            shifted = (motion.time_s >= self.at_s)[:, None]
+            push.cup_mm += np.where(shifted, np.array(self.shift_um) * 1e-3, 0.0)
+
+        return Momentary(action)

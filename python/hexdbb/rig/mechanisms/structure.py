@@ -1,0 +1,104 @@
+"""Legs and joints: bodies that warm, bend under load, or miss a common centre.
+
+Model of warming: a body follows a step of its surroundings as a first-order lag, T(t) = rise (1 - exp(-t / tau)), and
+grows in proportion. The temperature that causes it can be recorded.
+Model of sag: legs are springs; the plant balances the moved mass on the true geometry.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from hexdbb.machine import MachineFile
+from hexdbb.rig.geometry import Array
+from hexdbb.rig.mechanisms.base import Axis, Mechanism, MechanismTable, Momentary, Motion, Push
+from hexdbb.rig.mechanisms.transmission import SliderTable
+from hexdbb.validation import NotNegative, Number, Positive, Vector3
+
+
+def warmed(motion: Motion, time_constant_s: float) -> Array:
+    """Share of the temperature rise reached, shape (n,)."""
+    share: Array = -np.expm1(-motion.time_s / time_constant_s)
+    return share
+
+
+class LegThermal(MechanismTable):
+    """All legs grow as the room warms."""
+
+    sizes: ClassVar = ("growth_um", "rise_c")
+    kind: Literal["leg_thermal"] = "leg_thermal"
+    growth_um: Number
+    """In the end."""
+    rise_c: Number = 2.0
+    time_constant_s: Positive = 1800.0
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            share = warmed(motion, self.time_constant_s)
+            push.leg_mm += (self.growth_um * 1e-3 * share)[:, None]
+            push.temperature_c += self.rise_c * share
+
+        return Momentary(action)
+
+
+class ScrewThermal(SliderTable):
+    """One screw grows as it warms, from where it is held."""
+
+    sizes: ClassVar = ("growth_um_m", "rise_c")
+    kind: Literal["screw_thermal"] = "screw_thermal"
+    growth_um_m: Number
+    """In the end."""
+    rise_c: Number = 2.0
+    time_constant_s: Positive = 1800.0
+    held_at_mm: Number | None = None
+    """Slider coordinate that stays; the middle of travel where none is given."""
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+        slider, middle_mm = self.slider - 1, sum(machine.sliders.travel_mm) / 2.0
+        held_mm = middle_mm if self.held_at_mm is None else self.held_at_mm
+
+        def action(motion: Motion, push: Push) -> None:
+            share = warmed(motion, self.time_constant_s)
+            push.slider_mm[:, slider] += self.growth_um_m * 1e-6 * share * (motion.drive_mm[:, slider] - held_mm)
+            push.temperature_c += self.rise_c * share
+
+        return Momentary(action)
+
+
+class GravitySag(MechanismTable):
+    """Legs give way under the weight of platform and tool; their mass is in the machine file."""
+
+    sizes: ClassVar = ("compliance_um_n",)
+    kind: Literal["gravity_sag"] = "gravity_sag"
+    compliance_um_n: NotNegative
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            push.compliance_mm_n = push.compliance_mm_n + self.compliance_um_n * 1e-3
+
+        return Momentary(action)
+
+
+class JointOffset(MechanismTable):
+    """The ball of one leg on the platform misses the centre it should share with its neighbour's."""
+
+    sizes: ClassVar = ("offset_um",)
+    kind: Literal["joint_offset"] = "joint_offset"
+    leg: Axis
+    offset_um: Vector3
+    """Platform frame."""
+
+    def start(self, machine: MachineFile) -> Mechanism:
+        """See `MechanismTable.start`."""
+
+        def action(motion: Motion, push: Push) -> None:
+            push.platform_joint_mm[:, self.leg - 1] += np.array(self.offset_um) * 1e-3
+
+        return Momentary(action)
