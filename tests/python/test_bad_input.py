@@ -10,10 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from hexdbb.kinematics import inverse
 from hexdbb.machine import shipped
 from hexdbb.model import new_model, save_model
 from hexdbb.plan import load_plan
-from hexdbb.record import Record, write_record
+from hexdbb.record import SLIDER_COLUMNS, Record, write_record
 
 PROGRAMS = {"hexdbb": "hexdbb.cli", "hexdbb-run": "hexdbb.cli.run"}
 SHIPPED = {"plan.toml": shipped("plans", "thesis.toml"), "machine.toml": shipped("sp120.toml")}
@@ -24,10 +25,20 @@ def folder(record: Record, tmp_path: Path) -> Path:
     """Everything a user might have, all of it good: machine, plan, record in both forms, model."""
     for name, source in SHIPPED.items():
         (tmp_path / name).write_text(source.read_text(encoding="utf-8"), encoding="utf-8")
+    put_on_circle(record)
     write_record(record, tmp_path / "run.parquet")
     write_record(record, tmp_path / "text.csv")
     save_model(new_model(record.machine, ["leg_length", "cup_position"]), tmp_path / "model.toml")
     return tmp_path
+
+
+def put_on_circle(record: Record) -> None:
+    """Let the sliders stand where the record's circle is."""
+    (circle,), (mount,) = record.circles, record.mounts
+    position_mm = circle.poses(np.radians(record.columns["angle_deg"]), mount.cup_mm)
+    sliders_mm, status = inverse(record.machine, position_mm, circle.platform_rpy_rad)
+    assert not status.any()
+    record.columns.update(zip(SLIDER_COLUMNS, sliders_mm.T, strict=True))
 
 
 def run(folder: Path, line: str) -> subprocess.CompletedProcess[str]:
@@ -123,7 +134,7 @@ BAD = {
     "unit of a value's size": (
         cell(7, "s1_mm", "170118.8"),
         DIAGNOSE,
-        "text.csv: row 7 (line 8): s1_mm: 170119 (expected within the travel of the machine's sliders, 20 to 846 mm)",
+        "text.csv: row 7 (line 8): s1_mm: 170118.8 (expected within the travel of the machine's sliders, 20 to 846 mm)",
     ),
     "plan out of reach": (
         replacing("plan.toml", "[0.0, 0.0, 340.0]", "[0.0, 0.0, 500.0]"),
@@ -133,7 +144,7 @@ BAD = {
     ),
     "plan out of reach, checked": (
         replacing("plan.toml", "[0.0, 0.0, 340.0]", "[0.0, 0.0, 500.0]"),
-        "hexdbb plan check plan.toml --json",
+        "hexdbb plan check plan.toml",
         NEVER_REACHED,
     ),
     "plan too fast": (
