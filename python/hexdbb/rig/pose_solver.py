@@ -14,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.rig.geometry import Array
@@ -60,7 +61,7 @@ class Poses:
     position_mm: Array
     rotation: Array
 
-    def at(self, rows: slice) -> Poses:
+    def at(self, rows: slice | NDArray[np.intp]) -> Poses:
         """Give some of the instants."""
         return Poses(self.position_mm[rows], self.rotation[rows])
 
@@ -112,7 +113,7 @@ def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Arr
     for _ in range(MAX_ITERATIONS):
         reach, jacobian, _ = _legs(hexapod, position, rotation)
         try:
-            step = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
+            step: Array = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
         except np.linalg.LinAlgError:
             break
         position = position + step[:, :3]

@@ -1,7 +1,7 @@
 """What happens in the true machine besides geometry: mechanisms stepped in time, each with its own inner state.
 
-A mechanism is its table in the truth file (a pydantic model, `kind` names it) and what the table starts; `MECHANISMS` is
-the table of kinds. A new mechanism is a new row.
+A mechanism is its table in the truth file (a pydantic model, `kind` names it) and what the table starts; `MECHANISMS`
+is the table of kinds. A new mechanism is a new row.
 Units: files in um, ms, min, deg; mechanisms in mm, s, rad.
 """
 

@@ -1,9 +1,9 @@
 """What a mechanism of the true machine sees and what it does: motion in, displacements at the ports out, in time.
 
-Model: the machine goes through instants of equal distance in time. A mechanism takes them a stretch at a time, in order,
-keeps its inner state (play taken up, a spring wound up, a body warmed through) from one stretch to the next, and adds
-its displacements at the ports. A stretch of one instant is what the rig's cycle makes, a stretch of a whole circle what
-the offline simulator makes: the results are the same.
+Model: the machine goes through instants of equal distance in time. A mechanism takes them a stretch at a time, in
+order, keeps its inner state (play taken up, a spring wound up) from one stretch to the next, and adds its displacements
+at the ports. A stretch of one instant is what the rig's cycle makes, a stretch of a whole circle what the offline
+simulator of the tests makes: the results are the same.
 Mechanisms act in the order of the truth file. Those between drive and slider (play, stiction, lag) take as input where
 the ones before them have brought the slider, as parts in a chain do.
 Units: mm, rad, s, N, degC. Frames: base frame for slider joints and cup, platform frame for platform joints and ball.

@@ -115,7 +115,7 @@ class PitchCyclic(SliderTable):
 
 
 class EncoderInterpolation(SliderTable):
-    """The encoder divides its signal period unevenly, so that the drive is not where it reports; not in the catalogue."""
+    """The encoder divides its signal period unevenly: the drive is not where it reports; not in the catalogue."""
 
     sizes: ClassVar = ("amplitude_um",)
     kind: Literal["encoder_interpolation"] = "encoder_interpolation"
