@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hexdbb/ball_bar.hpp"
+#include "block.hpp"
 #include "hexdbb/prediction.hpp"
 
 namespace {
@@ -127,7 +128,39 @@ void sensitivity_six(benchmark::State& state) {
   });
 }
 
+/// A block of samples 0.2 mm apart along a circle: 3000 mm/min at 250 Hz.
+Block circle_block() {
+  Block block;
+  block.ports.setZero();
+  for (Eigen::Index row = 0; row < Block::kRows; ++row) {
+    const double angle = 0.002 * static_cast<double>(row);
+    const Pose pose{Vector3(100.0 * std::cos(angle), 100.0 * std::sin(angle), 280.0), Matrix3::Identity()};
+    block.sliders_mm.row(row) = inverse(nominal(), pose).sliders_mm.transpose();
+    block.cup_mm.row(row) = set_up().cup_mm.transpose();
+    block.ball_mm.row(row) = set_up().ball_offset_mm.transpose();
+    block.bar_length_mm(row) = set_up().bar_length_mm;
+    RssrAngles angles;
+    forward(assemble(nominal(), block.sliders_mm.row(0).transpose(), Ports()), angles);
+    block.angles.row(row) << angles.cosine.transpose(), angles.sine.transpose();
+  }
+  return block;
+}
+
+/// Time per pose, the reading included, with or without its derivative at all ports.
+void batch(benchmark::State& state, bool want_sensitivity) {
+  static Block block = circle_block();
+  const Block::Table<6> start = block.angles;
+  for (auto _ : state) {
+    block.angles = start;
+    solve_block(nominal(), block, Block::kRows, Start::kNeighbour, want_sensitivity);
+    benchmark::DoNotOptimize(block.reading_mm.data());
+  }
+  state.SetItemsProcessed(state.iterations() * Block::kRows);
+}
+
 BENCHMARK(inverse_pose);
+BENCHMARK_CAPTURE(batch, reading, false);
+BENCHMARK_CAPTURE(batch, sensitivity, true);
 BENCHMARK_CAPTURE(forward_warm, level, level());
 BENCHMARK_CAPTURE(forward_warm, tilted, tilted());
 BENCHMARK_CAPTURE(forward_home, level, level());

@@ -20,19 +20,24 @@ from pathlib import Path
 import numpy as np
 import scipy
 from numpy.typing import NDArray
-from scipy.optimize import fsolve
+from scipy.optimize import fsolve, least_squares
 
 from hexdbb import _core
 from hexdbb.kinematics import engine_machine, inverse
 from hexdbb.machine import shipped_machine
+from hexdbb.model import new_model
+from hexdbb.plan import load_plan
 
 REPETITIONS = 9
+READINGS = 20_000
+NOISE_MM = 0.5e-3
 TARGET_NS = {
     "inverse_pose": 25,
     "forward_warm/level": 150,
     "forward_warm/tilted": 150,
     "forward_home/level": 250,
     "forward_home/tilted": 250,
+    "batch/reading": 30,
 }
 TITLES = {
     "inverse_pose": "inverse kinematics, one pose",
@@ -41,6 +46,8 @@ TITLES = {
     "forward_home/level": "forward (RSSR), level, from home",
     "forward_home/tilted": "forward (RSSR), tilted, from home",
     "forward_six_warm": "forward (six coordinates), start 0.1 mm away",
+    "batch/reading": "forward and reading in batch, per pose and core",
+    "batch/sensitivity": "the same with the derivative at all 55 ports",
     "sensitivity": "reading's derivative at all 55 ports (RSSR)",
     "sensitivity_six": "reading's derivative at all 55 ports (6×6)",
 }
@@ -60,7 +67,12 @@ def engine_times_ns(program: Path) -> dict[str, float]:
     ]
     output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     rows = json.loads(output)["benchmarks"]
-    return {row["run_name"]: row["cpu_time"] for row in rows if row["aggregate_name"] == "median"}
+    return {
+        row["run_name"]: row["cpu_time"]
+        / (row["cpu_time"] * 1e-9 * row["items_per_second"] if "items_per_second" in row else 1)
+        for row in rows
+        if row["aggregate_name"] == "median"
+    }
 
 
 def scipy_forward_ns() -> float:
@@ -87,9 +99,68 @@ def scipy_forward_ns() -> float:
     return _median_ns(solve, len(position))
 
 
-def _median_ns(work: Callable[[int], None], count: int) -> float:
+def diagnosis_times_ms() -> dict[str, float]:
+    """Diagnosis of 20,000 readings for 37 unknowns: the engine's, and SciPy's least_squares on the engine's
+    predictions."""
+    plan = load_plan("standard")
+    machine = plan.machine_file()
+    angle = np.linspace(0.0, 4.0 * np.pi, READINGS // len(plan.circles))
+    tables = [
+        inverse(machine, each.poses(angle, plan.mounts[0].cup_mm), each.platform_rpy_rad)[0] for each in plan.circles
+    ]
+    sliders = np.vstack(tables)
+    rows = np.zeros(len(sliders), dtype=np.int32)
+    circle = plan.circles[0]
+    bar = _core.SetUp(
+        cup_mm=np.array(plan.mounts[0].cup_mm), ball_offset_mm=np.array(circle.ball_offset_mm), bar_length_mm=100.0
+    )
+    samples = _core.Samples(sliders_mm=sliders, set_up=rows, mount=rows, set_ups=[bar])
+    model = new_model(machine)
+    free = np.array(
+        [each.effect not in ("bar_length", "ball_offset") or each.name == "x" for each in model.parameters()]
+    )
+    free &= np.array([each.effect != "bar_length" for each in model.parameters()])
+    sizes = np.array([each.prior_sigma for each in model.parameters()])
+    random = np.random.default_rng(20060701)
+    engine = model.engine()
+    part = np.where([each.is_set_up for each in model.parameters()], 0.1, 0.5)  # of the size to expect
+    engine.values = np.where(free, random.normal(size=len(sizes)) * part * sizes, 0.0)
+    measured = _core.predict(engine, samples).reading_mm + random.normal(size=len(sliders)) * NOISE_MM
+
+    def residuals(z: np.ndarray) -> np.ndarray:
+        values = np.zeros(len(sizes))
+        values[free] = z * sizes[free]
+        engine.values = values
+        return np.concatenate([(_core.predict(engine, samples).reading_mm - measured) / NOISE_MM, z])
+
+    def jacobian(z: np.ndarray) -> np.ndarray:
+        values = np.zeros(len(sizes))
+        values[free] = z * sizes[free]
+        engine.values = values
+        seen = _core.predict(engine, samples, want_jacobian=True).jacobian[:, free] * (sizes[free] / NOISE_MM)
+        return np.vstack([seen, np.eye(free.sum())])
+
+    def fit(_: int) -> None:
+        engine.values = np.zeros(len(sizes))
+        _core.fit(engine, samples, measured, noise_mm=NOISE_MM, free=[bool(each) for each in free])
+
+    start = np.zeros(free.sum())
+    return {
+        f"diagnosis, {len(sliders):,} readings, {free.sum()} unknowns (Ceres, analytic)": _median_ns(fit, 1) / 1e6,
+        "the same, SciPy least_squares, the engine's predictions and Jacobian": _median_ns(
+            lambda _: least_squares(residuals, start, jacobian, x_scale="jac"), 1, 3
+        )
+        / 1e6,
+        "the same, SciPy least_squares, finite differences": _median_ns(
+            lambda _: least_squares(residuals, start, x_scale="jac"), 1, 1
+        )
+        / 1e6,
+    }
+
+
+def _median_ns(work: Callable[[int], object], count: int, repetitions: int = REPETITIONS) -> float:
     times = []
-    for _ in range(REPETITIONS):
+    for _ in range(repetitions):
         begin = time.perf_counter()
         for index in range(count):
             work(index)
@@ -106,7 +177,7 @@ def processor() -> str:
     return f"{name or platform.machine()}, {os.cpu_count()} cores, {' '.join(vector)}"
 
 
-def table(engine_ns: dict[str, float], scipy_ns: float) -> str:
+def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, float]) -> str:
     """Lay out the page."""
     compiler = subprocess.run(["c++", "--version"], check=True, capture_output=True, text=True).stdout.splitlines()[0]
     lines = [
@@ -123,7 +194,13 @@ def table(engine_ns: dict[str, float], scipy_ns: float) -> str:
         target = f"≤ {TARGET_NS[name]} ns" if name in TARGET_NS else ""
         ratio = f"{scipy_ns / nanoseconds:,.0f} times faster" if name.startswith("forward") else ""
         lines.append(f"| {TITLES.get(name, name)} | {nanoseconds:.0f} ns | {target} | {ratio} |")
-    lines += [f"| SciPy fsolve, level, start 0.1 mm away | {scipy_ns:,.0f} ns | | 1 |", "", ELSEWHERE]
+    lines += [f"| SciPy fsolve, level, start 0.1 mm away | {scipy_ns:,.0f} ns | | 1 |", ""]
+    ours, *_ = diagnosis_ms.values()
+    lines += ["| work | time | to reach | ratio to ours |", "|---|---|---|---|"]
+    for name, milliseconds in diagnosis_ms.items():
+        target = "≤ 30 ms" if milliseconds is ours else ""
+        lines.append(f"| {name} | {milliseconds:,.0f} ms | {target} | {milliseconds / ours:,.1f} |")
+    lines += ["", ELSEWHERE]
     return "\n".join(lines)
 
 
@@ -134,7 +211,7 @@ def main() -> None:
     parser.add_argument("-o", "--output", type=Path)
     arguments = parser.parse_args()
     print("running the engine's benchmark and SciPy ...", file=sys.stderr)
-    page = table(engine_times_ns(arguments.program), scipy_forward_ns())
+    page = table(engine_times_ns(arguments.program), scipy_forward_ns(), diagnosis_times_ms())
     if arguments.output:
         arguments.output.write_text(page, encoding="utf-8")
     print(page)
