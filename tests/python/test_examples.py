@@ -1,0 +1,61 @@
+"""Examples run as they stand, and the README shows the first of them and what it prints."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hexdbb.model import load_model
+from hexdbb.record import read_record, write_record
+
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "python" / "examples"
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def run(folder: Path, example: str, *arguments: str) -> str:
+    """Run an example in a folder of its own; give what it prints."""
+    command = [sys.executable, "-W", "error", str(EXAMPLES / example), *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Give the folder of the first example's files, and what it printed."""
+    folder = tmp_path_factory.mktemp("example")
+    return folder, run(folder, "01_circular_test.py")
+
+
+def test_every_example_is_run_here() -> None:
+    assert {path.name for path in EXAMPLES.iterdir() if path.suffix == ".py"} == {
+        "01_circular_test.py",
+        "02_own_record.py",
+    }
+
+
+def test_readme_shows_the_first_example_word_for_word() -> None:
+    (shown,) = re.findall(r"^```python\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL)
+    assert shown == (EXAMPLES / "01_circular_test.py").read_text(encoding="utf-8")
+
+
+def test_circular_test_prints_what_the_readme_says(measured: tuple[Path, str]) -> None:
+    folder, printed = measured
+    assert f"It prints `{printed.strip()}`." in README
+    record = read_record(folder / "demo.parquet")
+    assert record.complete
+    assert load_model(folder / "demo-model.toml").machine == record.machine
+    assert (folder / "demo-compare.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_own_record_in_text_form(measured: tuple[Path, str], tmp_path: Path) -> None:
+    write_record(read_record(measured[0] / "demo.parquet"), tmp_path / "own.csv")
+    printed = run(tmp_path, "02_own_record.py", "own.csv").splitlines()
+    assert printed[0].startswith("own.csv: 25002 samples")
+    assert re.fullmatch(r"reading error 159\.\d\d um -> 0\.5\d um", printed[1])
+    assert len(printed) > 2, "one level circle cannot tell everything: sentences must say so"
