@@ -1,5 +1,5 @@
 # One command each: `make demo`, `make test`. Everything they need is installed first, once; nothing is asked.
-# What is up to date is not done again: .venv/.dependencies follows pyproject.toml, .venv/.module the C++ sources.
+# What is up to date is not done again: .venv/.dependencies follows pyproject.toml, .venv/.module the sources.
 
 PYTHON ?= python3
 HEXDBB_WERROR ?= OFF
@@ -39,9 +39,16 @@ $(VENV)/.dependencies: pyproject.toml .ci/scripts/requirements.py | system
 	@$(STEP) "Python packages" $(PIP_INSTALL) --requirement $(VENV)/requirements.txt
 	@touch $@
 
+# The editable installation knows the Python files there were: it is renewed when one is added, moved or removed. What
+# is in them needs nothing.
+.PHONY: ALWAYS
+$(VENV)/.python-files: ALWAYS | $(VENV)/.dependencies
+	@find python/hexdbb -name '*.py' | LC_ALL=C sort > $@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
 # Without build isolation the build directory and the pybind11 of the environment are used again: a change compiles
-# what it touches only. Python edits need nothing, the installation is editable.
-$(VENV)/.module: $(VENV)/.dependencies $(CPP_SOURCES) $(CPP_BUILD_FILES)
+# what it touches only.
+$(VENV)/.module: $(VENV)/.dependencies $(VENV)/.python-files $(CPP_SOURCES) $(CPP_BUILD_FILES)
 	@SKBUILD_CMAKE_DEFINE=HEXDBB_WERROR=$(HEXDBB_WERROR) $(STEP) "Python module of the engine (C++)" \
 	  $(PIP_INSTALL) --verbose --no-build-isolation --no-deps --editable .
 	@touch $@
