@@ -34,3 +34,11 @@ def test_commands_shown_exist(page: Path) -> None:
     shown = set(re.findall(r"^(?:\$ )?hexdbb ([a-z]+)", "\n".join(blocks), flags=re.MULTILINE))
     shown |= set(re.findall(r"`hexdbb ([a-z]+)", text))
     assert shown - set(cli.list_commands(None)) == set()
+
+
+def test_architecture_names_every_part_of_the_package() -> None:
+    named = set(re.findall(r"`([a-z_0-9]+)`", (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")))
+    package = ROOT / "python" / "hexdbb"
+    modules = {path.stem for path in package.glob("*.py") if path.stem != "__init__"}
+    packages = {path.parent.name for path in package.glob("*/__init__.py")}
+    assert (modules | packages) - named == set()
