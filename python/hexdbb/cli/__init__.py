@@ -15,6 +15,7 @@ COMMANDS = {
     "diagnose": "fit the model's effects to records",
     "compare": "prediction against measurement, ISO 230-4 quantities, where the model fails",
     "plan": "check a plan: reach, limits",
+    "thesis": "the thesis' own way: reference contours, its linear estimator, its tables",
     "convert": "between record (.parquet) and text form (.csv)",
     "recover": "make a record from an interrupted capture",
 }

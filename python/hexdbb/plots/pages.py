@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -26,7 +26,8 @@ from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residua
 from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
 
 OVERVIEW_COLUMNS = 4
-PNG_DPI = 150
+FORMATS: dict[str, dict[str, Any]] = {".png": {"dpi": 150}, ".svg": {"metadata": {"Date": None}}}
+"""Suffix of a picture's file to the options it is drawn with."""
 
 
 @dataclass(frozen=True)
@@ -116,8 +117,8 @@ def describe_circle(circle: Circle) -> str:
     )
 
 
-def save_figure(figure: Figure, stem: Path) -> list[Path]:
-    """Write a figure as STEM.png and STEM.svg; the same figure gives the same bytes.
+def save_figure(figure: Figure, stem: Path, suffixes: Sequence[str] = tuple(FORMATS)) -> list[Path]:
+    """Write a figure as STEM.png and STEM.svg, or those of the suffixes named; the same figure gives the same bytes.
 
     Raises
     ------
@@ -126,10 +127,10 @@ def save_figure(figure: Figure, stem: Path) -> list[Path]:
     """
     FigureCanvasAgg(figure)
     written = []
-    for suffix, options in ((".png", {"dpi": PNG_DPI}), (".svg", {"metadata": {"Date": None}})):
+    for suffix in suffixes:
         drawn = io.BytesIO()
         with mpl.rc_context({"svg.hashsalt": "hexdbb", "svg.fonttype": "none"}):
-            figure.savefig(drawn, format=suffix[1:], **options)
+            figure.savefig(drawn, format=suffix[1:], **FORMATS[suffix])
         path = stem.with_name(stem.name + suffix)
         with replacing(path) as temporary:
             temporary.write_bytes(drawn.getvalue())

@@ -1,4 +1,4 @@
-"""The thesis' own way: reference contours of unit errors, linear least squares on them, its tables and what it observed.
+"""The thesis' own way: reference contours of unit errors, linear least squares on them, its tables.
 
 This is a documented mode to hold beside the thesis (sections 3.4, 5-2, 5-3); `hexdbb.diagnosis` is what a user fits
 with. All kinematics are the engine's.

@@ -163,8 +163,8 @@ def record_test(record: Record) -> CircularTest:
     if len(used) > 1:
         mounts = ", ".join(map(str, used))
         raise InputError(
-            f"{record.name}: samples of mounts {mounts} (expected one: the thesis' estimator knows one fixing of the cup;"
-            " hexdbb diagnose takes several)"
+            f"{record.name}: samples of mounts {mounts} (expected one: the thesis' estimator knows one fixing of the"
+            " cup; hexdbb diagnose takes several)"
         )
     nominal = new_model(record.machine, list(SHORT_NAMES))
     angle_rad = np.radians(record.columns["angle_deg"])

@@ -94,7 +94,7 @@ def thesis_estimate(
     return ThesisEstimate(
         unknowns=tuple(chosen),
         values=amounts * sizes,
-        determined=~(np.abs(known.unidentifiable) > SINGULAR).any(axis=1),
+        determined=np.asarray((np.abs(known.unidentifiable) <= SINGULAR).all(axis=1)),
         rank=known.rank,
         condition=known.condition,
         dependent=dependent,
@@ -130,13 +130,19 @@ def coinciding(null_space: Floats, chosen: Sequence[Unknown]) -> list[str]:
     said = []
     for row, pivot in sorted(zip(rows, pivots, strict=True), key=lambda each: each[1]):
         terms = [
-            f"{'-' if amount > 0 else '+'} {abs(amount):.3f} {chosen[k].name}"
+            (float(-amount), chosen[k].name)
             for k, amount in enumerate(row)
             if k != pivot and abs(amount) > SMALL * np.abs(row).max()
         ]
         name = chosen[pivot].name
-        said.append(f"{name} = {' '.join(terms).removeprefix('+ ')}" if terms else f"{name} leaves no trace")
+        said.append(f"{name} = {_combination(terms)}" if terms else f"{name} leaves no trace")
     return said
+
+
+def _combination(terms: Sequence[tuple[float, str]]) -> str:
+    (first, name), *others = terms
+    more = (f" {'-' if amount < 0 else '+'} {abs(amount):.3f} {other}" for amount, other in others)
+    return f"{first:.3f} {name}{''.join(more)}"
 
 
 def _normal_equations(matrix: Floats, contour_mm: Floats) -> Floats:

@@ -25,7 +25,9 @@ Floats = NDArray[np.float64]
 
 ARM_MM = 400.0
 """Arm at which a turn counts as a length: 2 mm go with 5 mrad."""
-SIZES_MM = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
+SIZES_MM = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0)
+RANGE_MM = 1.0
+"""Largest reading of a ball bar's gauge, to either side."""
 DRAWS = 12
 SEED = 54
 UNITS = np.array([ARM_MM if UNKNOWNS[name].unit == "rad" else 1.0 for name in SEVEN])
@@ -59,6 +61,12 @@ class LinearityStudy:
     def break_mm(self) -> float:
         """Size of the given errors at which the neglected terms do as much as the noise."""
         return float(np.sqrt(self.noise_rms_mm / self.curvature_per_mm))
+
+    @property
+    def range_mm(self) -> float:
+        """Size at which the largest reading leaves a gauge's `RANGE_MM`, between the rows on either side of it."""
+        peaks, sizes = ([getattr(row, name) for row in self.rows] for name in ("peak_reading_mm", "size_mm"))
+        return float(np.interp(RANGE_MM, peaks, sizes))
 
 
 @cache

@@ -1,4 +1,4 @@
-"""A record of the thesis' circular test as a machine with known errors would give it: clockwise, then counter-clockwise.
+"""A record of the thesis' circular test as a machine with known errors gives it: clockwise, then counter-clockwise.
 
 The engine computes the readings; noise is normal, then rounded to the gauge's resolution. For trying estimators out;
 `hexdbb-run` on the simulated rig gives records whose truth shares no code with the engine.

@@ -17,6 +17,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.thesis.circular_test import CircularTest
 from hexdbb.thesis.unknowns import UNKNOWNS
 
 Floats = NDArray[np.float64]
@@ -86,6 +87,21 @@ def mirrored(values: Floats) -> Floats:
         if (each.parameter.effect, each.parameter.name) in _CHANGES_SIGN:
             moved[each.column] *= -1.0
     return moved
+
+
+def symmetry_departure_mm(test: CircularTest, errors: Floats) -> tuple[float, float]:
+    """Say how far a test is from both symmetries for some errors: largest departure in mm, turn and mirror.
+
+    Parameters
+    ----------
+    test : CircularTest
+        Evenly sampled from angle 0, a multiple of three samples.
+    errors : ndarray, shape (len(UNKNOWNS),)
+    """
+    contour = test.contour_mm(errors)
+    turn = test.contour_mm(turned(errors)) - np.roll(contour, len(contour) // 3)
+    mirror = test.contour_mm(mirrored(errors)) - np.roll(contour[::-1], 1)
+    return float(np.abs(turn).max()), float(np.abs(mirror).max())
 
 
 def _moved(values: Floats, which: int) -> Floats:

@@ -153,7 +153,7 @@ class ProcedureResult:
 
 @cache
 def table_5_8() -> tuple[ProcedureResult, ...]:
-    """Run the procedure of Table 5.8 on two simulated records: only the seven errors exist; all 33 and a cup off exist."""
+    """Run the procedure of Table 5.8 on two simulated records: of the seven errors alone, and of all 33 and the cup."""
     machine, circle, mount, bar_length_mm = joint_plane_circle()
     given = np.array([GIVEN[name] for name in SEVEN])
     alone = all_values(SEVEN, given)
