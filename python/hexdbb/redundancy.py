@@ -1,8 +1,8 @@
 """Directions of the unknowns that no reading can tell, as sentences.
 
-A basis of the unidentifiable directions is brought to reduced row echelon form, so that each direction reads "this one
-= that combination of others". Unknowns are in units of their expected sizes, coefficients below `SMALL` are left out of
-the sentence.
+What follows from the machine's structure is named as such (`hexdbb.structure`). A basis of the directions that remain
+is brought to reduced row echelon form, so that each reads "this one = that combination of others". Unknowns are in
+units of their expected sizes, coefficients below `SMALL` are left out of the sentence.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.model import Parameter
+from hexdbb.structure import named_moves
 
 Floats = NDArray[np.float64]
 
@@ -55,7 +56,7 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
 
 
 def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
-    """Say in words what cannot be told apart.
+    """Say in words what cannot be told apart, what follows from the machine's structure first.
 
     Parameters
     ----------
@@ -65,9 +66,31 @@ def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
         The unknowns.
     """
     levers = np.array([LEVER_MM if each.unit == "rad" else 1.0 for each in parameters])
-    moves = levers * np.array([each.prior_sigma for each in parameters])
-    labels = [each.label for each in parameters]
-    rows, pivots = echelon(directions * moves[:, None])
+    moves_mm = directions * (levers * np.array([each.prior_sigma for each in parameters]))[:, None]
+    named = named_moves(moves_mm, parameters, levers) if directions.size else []
+    said = [redundancy.sentence for redundancy, _ in named]
+    machine = np.array([not each.is_set_up for each in parameters])
+    rest = _beside(moves_mm, [move * machine for _, move in named])
+    return said + (_generic(rest, [each.label for each in parameters]) if rest.shape[1] else [])
+
+
+def _beside(moves_mm: Floats, named: Sequence[Floats]) -> Floats:
+    """Directions that remain, free of one value of the machine in each named move, so that none is told twice.
+
+    Returns
+    -------
+    ndarray, shape (unknowns, k - named)
+    """
+    if not named:
+        return moves_mm
+    _, own = echelon(np.column_stack(named))
+    _, _, mixes = np.linalg.svd(moves_mm[own])
+    rest: Floats = moves_mm @ mixes[len(own) :].T
+    return rest
+
+
+def _generic(moves_mm: Floats, labels: Sequence[str]) -> list[str]:
+    rows, pivots = echelon(moves_mm)
     said = []
     for row, pivot in sorted(zip(rows, pivots, strict=True), key=lambda each: each[1]):
         others = [int(j) for j in np.argsort(-np.abs(row)) if j != pivot and abs(row[j]) > SMALL * np.abs(row).max()]
