@@ -27,7 +27,7 @@ def warmed(motion: Motion, time_constant_s: float) -> Array:
 class LegThermal(MechanismTable):
     """All legs grow as the room warms."""
 
-    sizes: ClassVar = ("growth_um", "rise_c")
+    sizes: ClassVar = ("growth_um",)
     kind: Literal["leg_thermal"] = "leg_thermal"
     growth_um: Number
     """In the end."""
@@ -48,7 +48,7 @@ class LegThermal(MechanismTable):
 class ScrewThermal(SliderTable):
     """One screw grows as it warms, from where it is held."""
 
-    sizes: ClassVar = ("growth_um_m", "rise_c")
+    sizes: ClassVar = ("growth_um_m",)
     kind: Literal["screw_thermal"] = "screw_thermal"
     growth_um_m: Number
     """In the end."""

@@ -1,0 +1,44 @@
+"""What is driven in the cases: the seven standard circles, and what some mechanisms need beyond them to be seen."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from tests.truth.simulate import Pace
+
+from hexdbb.plan import Circle, Mount, Plan, load_plan
+
+PACE = Pace(rate_hz=8.0, instants_per_sample=15, travel_s=10.0)
+"""14,000 samples on the discovery plan; the mains' 50 Hz is no multiple of the rate."""
+
+OFF_RADIUS_MM = 0.6
+SECOND_CUP_MM = (8.0, -6.0, 325.0)
+
+
+@cache
+def discovery_plan() -> Plan:
+    """Seven circles about one cup, both directions, two feeds, two laps."""
+    return load_plan("standard")
+
+
+@cache
+def off_radius_plan() -> Plan:
+    """Two circles more, off the bar's length: the gauge's scale shows where its reading is far from zero."""
+    plan = discovery_plan()
+    level, next_id = plan.circles[0], len(plan.circles)
+    more = [
+        level.model_copy(update={"id": next_id + k, "radius_mm": level.radius_mm + off_mm})
+        for k, off_mm in enumerate((OFF_RADIUS_MM, -OFF_RADIUS_MM))
+    ]
+    return plan.model_copy(update={"circles": (*plan.circles, *more)})
+
+
+@cache
+def two_mounts_plan() -> Plan:
+    """The last four circles about a cup that is fixed anew: between the two, the ball is set anew as well."""
+    plan = discovery_plan()
+    mount = Mount(id=1, cup_mm=SECOND_CUP_MM)
+    circles: list[Circle] = [
+        circle if circle.id < 3 else circle.model_copy(update={"mount": 1}) for circle in plan.circles
+    ]
+    return plan.model_copy(update={"mounts": (*plan.mounts, mount), "circles": tuple(circles)})
