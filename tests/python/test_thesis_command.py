@@ -52,6 +52,7 @@ def test_estimate_as_table_and_json(record_path: Path) -> None:
     shown = run("estimate", record_path, "--errors", ",".join(SEVEN))
     assert shown.returncode == 0
     assert "leg1" in shown.stdout
+    assert "hexdbb diagnose assumes neither" in shown.stdout
     found = json.loads(run("estimate", record_path, "--errors", ",".join(SEVEN), "--json").stdout)
     assert found["rank"] == 7
     leg = found["parameters"][0]

@@ -103,6 +103,7 @@ def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) 
     for sentence in found.dependent:
         click.echo(f"contours coincide, in unit errors: {sentence}")
     click.echo(f"contour {1e3 * found.rms_before_mm:.2f} um rms, left of it {1e3 * found.rms_after_mm:.2f} um rms")
+    click.echo("true only if no other error exists and the cup stands where planned: hexdbb diagnose assumes neither")
 
 
 @command.command("tables")

@@ -56,11 +56,19 @@ class LinearityStudy:
     """What the gauge's noise alone does to a linear estimate (standard deviation, root mean square of the seven)."""
     curvature_per_mm: float
     """c in: noise-free error of the linear estimate = c size², root mean square of the seven, at the smallest size."""
+    curvature_of_lengths_per_mm: float
+    """The same where the five lengths alone are given, and the turns are zero."""
+    curvature_of_turns_per_mm: float
+    """The same where the two turns alone are given; size is that of their lengths at `ARM_MM`."""
 
     @property
     def break_mm(self) -> float:
         """Size of the given errors at which the neglected terms do as much as the noise."""
-        return float(np.sqrt(self.noise_rms_mm / self.curvature_per_mm))
+        return self.break_at_mm(self.curvature_per_mm)
+
+    def break_at_mm(self, curvature_per_mm: float) -> float:
+        """Size at which the neglected terms of this curvature do as much as the noise."""
+        return float(np.sqrt(self.noise_rms_mm / curvature_per_mm))
 
     @property
     def range_mm(self) -> float:
@@ -79,9 +87,21 @@ def linearity_study() -> LinearityStudy:
     columns = [UNKNOWNS[name].column for name in SEVEN]
     scaled = test.first_order[:, columns] / UNITS
     variances = np.diag(np.linalg.inv(scaled.T @ scaled)) * (GAUGE_NOISE_UM / 1e3) ** 2
-    silent = np.zeros(test.samples.size)
-    misses = [_linear(test, SIZES_MM[0] * each, silent)[0] for each in patterns]
-    return LinearityStudy(rows, float(np.sqrt(variances.mean())), _rms(np.array(misses)) / SIZES_MM[0] ** 2)
+    is_turn = UNITS != 1.0
+    return LinearityStudy(
+        rows=rows,
+        noise_rms_mm=float(np.sqrt(variances.mean())),
+        curvature_per_mm=_curvature_per_mm(test, patterns),
+        curvature_of_lengths_per_mm=_curvature_per_mm(test, patterns * ~is_turn),
+        curvature_of_turns_per_mm=_curvature_per_mm(test, patterns * is_turn),
+    )
+
+
+def _curvature_per_mm(test: CircularTest, patterns: Floats) -> float:
+    """c in: error of the linear estimate = c size², without noise, root mean square over draws and errors."""
+    size_mm, silent = SIZES_MM[0], np.zeros(test.samples.size)
+    misses = [_linear(test, size_mm * each, silent)[0] for each in patterns]
+    return _rms(np.array(misses)) / size_mm**2
 
 
 def _row(test: CircularTest, size_mm: float, patterns: Floats, noise: Floats) -> LinearityRow:

@@ -55,6 +55,8 @@ def tables_page() -> str:
         neglected_um=number(1e3 * study.curvature_per_mm * 0.1**2, 2),
         noise_rms_um=number(1e3 * study.noise_rms_mm, 1),
         break_um=number(1e3 * study.break_mm, 0),
+        lengths_break_um=number(1e3 * study.break_at_mm(study.curvature_of_lengths_per_mm), 0),
+        turns_break_urad=number(1e6 * study.break_at_mm(study.curvature_of_turns_per_mm) / ARM_MM, 0),
         range_um=number(1e3 * study.range_mm, 0),
         break_urad=number(1e6 * study.break_mm / ARM_MM, 0),
     )

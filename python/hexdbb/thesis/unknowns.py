@@ -53,13 +53,6 @@ class Unknown:
         """Size of the unit error of its reference contour, engine unit."""
         return UNIT_SIZES[self.unit]
 
-    @property
-    def guideway(self) -> int | None:
-        """Guideway 1..3 it belongs to, None where to none."""
-        if self.parameter.effect in ("leg_length", "slider_offset"):
-            return (int(self.parameter.element) + 1) // 2
-        return int(self.parameter.element) if self.parameter.effect.startswith("guideway") else None
-
 
 def _all() -> dict[str, Unknown]:
     found = {}
