@@ -98,7 +98,7 @@ def linearity_study() -> LinearityStudy:
 
 
 def _curvature_per_mm(test: CircularTest, patterns: Floats) -> float:
-    """c in: error of the linear estimate = c size², without noise, root mean square over draws and errors."""
+    """Fit error = c size² of the linear estimate without noise, root mean square over draws and errors: c."""
     size_mm, silent = SIZES_MM[0], np.zeros(test.samples.size)
     misses = [_linear(test, size_mm * each, silent)[0] for each in patterns]
     return _rms(np.array(misses)) / size_mm**2
