@@ -240,3 +240,11 @@ def test_record_of_a_later_format_is_refused(record: Record, tmp_path: Path) -> 
     assert 'format: "hexdbb.record/2" (expected a record of the format "hexdbb.record/1")' in error_of(
         lambda: read_record(path)
     )
+
+
+def test_a_part_counts_as_the_record_it_is_of(record: Record) -> None:
+    second = record.columns["sweep"] == 1
+    part = record.part(second)
+    assert len(part) == second.sum()
+    assert part.content_hash() == record.content_hash()
+    assert part.part(np.arange(len(part)) < 5).content_hash() == record.content_hash()

@@ -7,7 +7,7 @@ fit that improves where it was trained and not here explains noise, or the wrong
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,7 +54,7 @@ def held_out(records: Sequence[Record], start: Model, fitted: Model, refit: Refi
         return None
     before, after = [], []
     for fold in folds:
-        training = [part for record, rows in zip(records, fold, strict=True) if (part := _rows(record, ~rows))]
+        training = [record.part(~rows) for record, rows in zip(records, fold, strict=True) if not rows.all()]
         trained = refit(training, fitted)
         for record, rows in zip(records, fold, strict=True):
             if not rows.any():
@@ -79,16 +79,8 @@ def _folds(records: Sequence[Record]) -> list[list[NDArray[np.bool_]]]:
     ]
 
 
-def _rows(record: Record, rows: NDArray[np.bool_]) -> Record | None:
-    """Give the part of a record with these rows; None where there are none. It counts as the same record."""
-    if not rows.any():
-        return None
-    return replace(record, columns={name: column[rows] for name, column in record.columns.items()})
-
-
 def _residual(record: Record, model: Model, rows: NDArray[np.bool_]) -> NDArray[np.float64]:
-    part = _rows(record, rows)
-    assert part is not None
+    part = record.part(rows)
     predicted = _core.predict(model.engine(), samples_of([part], model)).reading_mm
     residual: NDArray[np.float64] = part.reading_mm - predicted
     return residual

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +46,8 @@ class Record:
     """The file it was read from or written to."""
     complete: bool = True
     """False where the capture was interrupted."""
+    whole_hash: str | None = None
+    """Content hash of the record that this is a part of; None for a whole one."""
 
     def __post_init__(self) -> None:
         self.columns = normalise(self.columns, Origin(self.name))
@@ -87,8 +89,18 @@ class Record:
         complete = None if self.complete else False
         return Measurement(machine=machine, complete=complete, gauge=self.gauge, mount=self.mounts, circle=self.circles)
 
+    def part(self, rows: NDArray[np.bool_]) -> Record:
+        """Give some of the samples, rows of shape (n,), as a record that counts as the same one: its set-ups are known.
+
+        Its `content_hash` is that of the whole record.
+        """
+        columns = {name: column[rows] for name, column in self.columns.items()}
+        return replace(self, columns=columns, whole_hash=self.content_hash())
+
     def content_hash(self) -> str:
         """SHA-256 of required columns, gauge, mounts, circles and machine; the same in every form of the record."""
+        if self.whole_hash is not None:
+            return self.whole_hash
         digest = hashlib.sha256()
         for name, kind in REQUIRED_COLUMNS.items():
             digest.update(name.encode())
