@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "hexdbb/diagnosis.hpp"
+#include "hexdbb/normal_equations.hpp"
 
 namespace hexdbb::bindings {
 
@@ -21,6 +22,13 @@ FitResult fit_with(const Model& model, const Samples& samples, const Eigen::Vect
 }  // namespace
 
 void bind_diagnosis(py::module_& module) {
+  py::class_<NormalEquations>(module, "NormalEquations", "J'J, J'r and r'r of all readings, r = measured - predicted.")
+      .def_readonly("information", &NormalEquations::information)
+      .def_readonly("gradient", &NormalEquations::gradient)
+      .def_readonly("squared", &NormalEquations::squared)
+      .def_property_readonly("failure", [](const NormalEquations& equations) { return equations.failure; });
+  module.def("normal_equations", &normal_equations, py::arg("model"), py::arg("samples"), py::arg("measured_mm"),
+             py::call_guard<py::gil_scoped_release>(), "Normal equations for all values of a model, in one pass.");
   py::class_<Identifiability>(module, "Identifiability", "Singular values and directions of a scaled Jacobian.")
       .def_readonly("singular_values", &Identifiability::singular_values)
       .def_readonly("directions", &Identifiability::directions)

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <stdexcept>
 #include <thread>
 
 namespace hexdbb {
@@ -123,6 +125,14 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
     chosen.bottomRows(Block::kRows - rows.count).setZero();
         accumulate(chosen.data(), residual.data(), Block::kRows, columns, out.information.data(), out.gradient.data());
       });
+}
+
+NormalEquations normal_equations(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm) {
+  samples.validate();
+  if (measured_mm.size() != samples.size()) throw std::invalid_argument("as many readings as samples are needed");
+  std::vector<int> columns(model.size());
+  std::iota(columns.begin(), columns.end(), 0);
+  return Accumulator(samples, measured_mm, columns).at(model);
 }
 
 }  // namespace hexdbb

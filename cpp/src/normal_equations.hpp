@@ -5,16 +5,9 @@
 #include <vector>
 
 #include "block_solver.hpp"
+#include "hexdbb/normal_equations.hpp"
 
 namespace hexdbb {
-
-struct NormalEquations {
-  Eigen::MatrixXd information;  // J'J, symmetric, for the chosen values
-  Eigen::VectorXd gradient;     // J'r, r = measured - predicted, J = d predicted / d value
-  double squared = 0.0;         // r'r, mm^2; under Huber's loss the sum of losses, and J, r are those of the weighted rows
-  Eigen::Index failure = -1;    // first sample without a solution, or -1; the rest is then meaningless
-  Status failure_status = Status::kOk;
-};
 
 /// Works through the same samples again and again, as a fit does; remembers where every solution stood.
 class Accumulator {

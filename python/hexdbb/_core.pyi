@@ -17,6 +17,7 @@ __all__: list[str] = [
     "Identifiability",
     "Machine",
     "Model",
+    "NormalEquations",
     "PORTS",
     "ParameterInfo",
     "Prediction",
@@ -35,6 +36,7 @@ __all__: list[str] = [
     "guideway_vertex",
     "identifiability",
     "inverse_table",
+    "normal_equations",
     "platform_joint",
     "port_sensitivity",
     "predict",
@@ -178,6 +180,19 @@ class Prediction:
     def reading_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
     def status(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]: ...
+
+class NormalEquations:
+    """
+    J'J, J'r and r'r of all readings, r = measured - predicted.
+    """
+    @property
+    def failure(self) -> int: ...
+    @property
+    def gradient(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    @property
+    def information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    @property
+    def squared(self) -> float: ...
 
 class Identifiability:
     """
@@ -328,6 +343,13 @@ def inverse_table(
 ) -> tuple:
     """
     Slider coordinates (n, 6) in mm, status (n,) and leg at fault (n,) of nominal poses.
+    """
+
+def normal_equations(
+    model: Model, samples: Samples, measured_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
+) -> NormalEquations:
+    """
+    Normal equations for all values of a model, in one pass.
     """
 
 def platform_joint(

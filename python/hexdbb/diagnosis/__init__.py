@@ -1,5 +1,4 @@
-"""Diagnosis: the values of a model's effects that explain measured readings best, how well they are known, what is
-not."""
+"""Diagnosis: the values that explain measured readings best, how well they are known, what cannot be known."""
 
 from hexdbb.diagnosis.fit import diagnose, evaluate_fit
 from hexdbb.diagnosis.heldout import HeldOut, held_out

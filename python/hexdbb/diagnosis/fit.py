@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis.heldout import Refit, held_out
+from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import KNOWN_PART, Diagnosis, prior_sigmas, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
@@ -96,16 +97,19 @@ def diagnose(
         raise InputError("the model has no free value (expected at least one to fit)")
     known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
     noise = noise_of(records)
-    fitted, result = evaluate_fit(records, known, known.free, noise, robust=robust)
+    first = evaluate_fit(records, known, known.free, noise, robust=robust)
+    (fitted, result), either_sign = settle_signs(
+        first, lambda start: evaluate_fit(records, start, start.free, noise, robust=robust), noise.sigma_mm
+    )
     _require_told(fitted, result, records)
     checked = held_out(records, known, fitted, _refit(noise, robust)) if check_held_out else None
     parameters = known.parameters()
     names = tuple(record.name for record in records)
-    step = LedgerStep(len(model.ledger) + 1, "diagnose", result.rms_before_mm * 1e3, result.rms_after_mm * 1e3, names)
+    step = LedgerStep(len(model.ledger) + 1, "diagnose", first[1].rms_before_mm * 1e3, result.rms_after_mm * 1e3, names)
     unknown = unknown_directions(result.covariance, known, result.free_columns)
     return Diagnosis(
         model=replace(fitted, ledger=(*model.ledger, step)),
-        rms_before_um=result.rms_before_mm * 1e3,
+        rms_before_um=first[1].rms_before_mm * 1e3,
         rms_after_um=result.rms_after_mm * 1e3,
         noise=noise,
         noise_um=result.noise_mm * 1e3,
@@ -119,7 +123,7 @@ def diagnose(
         residual_mm=result.residual_mm,
         held_out=checked,
         unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
-        warnings=tuple(warnings_of(fitted, result, noise, checked)),
+        warnings=(*either_sign, *warnings_of(fitted, result, noise, checked)),
     )
 
 

@@ -61,4 +61,5 @@ def _correlated(model: Model, result: _core.FitResult) -> Iterator[str]:
     parameters = model.parameters()
     for i, j in np.argwhere(np.triu(np.abs(correlation) > TOGETHER, k=1)):
         first, second = parameters[known[i]].label, parameters[known[j]].label
-        yield f"{first} and {second} go together (correlation {correlation[i, j]:+.3f}): only their sum or difference is sure"
+        together = f"{first} and {second} go together (correlation {correlation[i, j]:+.3f})"
+        yield f"{together}: only their sum or difference is sure"

@@ -19,8 +19,7 @@ from hexdbb.validation import FileModel, NotNegative, Number, StrictModel, dump_
 
 
 class ParameterEntry(StrictModel):
-    """One value of an effect, in the unit it names; without `sigma` it is not known on its own, a free one may be
-    fitted."""
+    """One value of an effect in its unit; without `sigma` it is not known on its own, free it may be fitted."""
 
     element: str
     name: str
