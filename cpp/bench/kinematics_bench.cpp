@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "hexdbb/ball_bar.hpp"
 #include "block.hpp"
+#include "hexdbb/ball_bar.hpp"
 #include "hexdbb/prediction.hpp"
 
 namespace {

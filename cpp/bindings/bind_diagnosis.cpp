@@ -50,8 +50,9 @@ void bind_diagnosis(py::module_& module) {
       .def_readonly("usable", &FitResult::usable)
       .def_readonly("termination", &FitResult::termination);
   module.def("fit", &fit_with, py::arg("model"), py::arg("samples"), py::arg("measured_mm"), py::kw_only(),
-             py::arg("noise_mm"), py::arg("free") = std::vector<bool>(), py::arg("max_iterations") = 50, py::arg("robust_mm") = 0.0,
-             py::arg("sweep") = Eigen::VectorXi(), py::call_guard<py::gil_scoped_release>(), "Fit the free values of a model to readings.");
+             py::arg("noise_mm"), py::arg("free") = std::vector<bool>(), py::arg("max_iterations") = 50,
+             py::arg("robust_mm") = 0.0, py::arg("sweep") = Eigen::VectorXi(), py::call_guard<py::gil_scoped_release>(),
+             "Fit the free values of a model to readings.");
   module.def("expected_sizes", &expected_sizes, py::arg("model"), "Prior sigma of each value of a model.");
   module.def("identifiability", &identifiability, py::arg("scaled_jacobian"), py::kw_only(), py::arg("relative"),
              py::arg("absolute") = 0.0, "Rank, condition and directions of a scaled Jacobian.");

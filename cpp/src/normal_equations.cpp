@@ -114,15 +114,15 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
         residual.tail(Block::kRows - rows.count).setZero();
         residual_mm_.segment(rows.first, rows.count) = residual.head(rows.count);
         if (robust_mm_ > 0.0) {
-      out.squared += weigh(residual, robust_mm_, weight);
-    } else {
-      out.squared += residual.squaredNorm();
-    }
+          out.squared += weigh(residual, robust_mm_, weight);
+        } else {
+          out.squared += residual.squaredNorm();
+        }
         for (std::size_t j = 0; j < columns_.size(); ++j) {
           chosen.col(j).head(rows.count) = all.col(columns_[j]).head(rows.count);
         }
         if (robust_mm_ > 0.0) chosen = weight.asDiagonal() * chosen;
-    chosen.bottomRows(Block::kRows - rows.count).setZero();
+        chosen.bottomRows(Block::kRows - rows.count).setZero();
         accumulate(chosen.data(), residual.data(), Block::kRows, columns, out.information.data(), out.gradient.data());
       });
 }

@@ -17,7 +17,8 @@ class Accumulator {
   Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns,
               double robust_mm = 0.0);
 
-  /// The values asked for last are answered from memory: a fit's start, its first iteration and the nominal machine are often one.
+  /// The values asked for last are answered from memory: a fit's start, its first iteration and the nominal machine are
+  /// often one.
   const NormalEquations& at(const Model& model);
 
   /// Residuals of the last at(), mm.

@@ -112,9 +112,9 @@ BAD = {
         "text.toml: gauge.nose_um: unknown key (expected noise_um)",
     ),
     "unknown key, model": (
-        replacing("model.toml", 'name = "leg_length"', 'nome = "leg_length"'),
+        replacing("model.toml", 'name = "leg_length"', 'effect_name = "leg_length"'),
         COMPARE,
-        "model.toml: effect[0].nome: unknown key (expected name)",
+        "model.toml: effect[0].effect_name: unknown key (expected one of name, parameter)",
     ),
     "unit of a key": (
         replacing("plan.toml", "radius_mm = 100.0", "radius_um = 100000.0"),

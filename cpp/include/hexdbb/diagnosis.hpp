@@ -20,7 +20,8 @@ struct FitOptions {
   double noise_mm = 0.5e-3;  // standard deviation of one reading
   std::vector<bool> free;    // one a value of the model; empty: all
   int max_iterations = 50;
-  // Huber's loss: residuals beyond this many mm count linearly, so that a gauge glitch cannot bend the fit. 0: least squares.
+  // Huber's loss: residuals beyond this many mm count linearly, so that a gauge glitch cannot bend the fit. 0: least
+  // squares.
   double robust_mm = 0.0;
   // Number of the capture each sample belongs to; neighbours within one may be correlated. Empty: all independent.
   Eigen::VectorXi sweep;
@@ -38,7 +39,7 @@ struct FitResult {
   Eigen::VectorXd residual_mm;  // measured - predicted, after
   double rms_before_mm = 0.0;
   double rms_after_mm = 0.0;
-  double noise_mm = 0.0;  // used for the covariance: the larger of the given noise and the residuals' own
+  double noise_mm = 0.0;     // used for the covariance: the larger of the given noise and the residuals' own
   double correlation = 1.0;  // correlated neighbours: this many readings tell as much as one independent one
   int iterations = 0;
   bool usable = false;
@@ -49,8 +50,8 @@ struct FitResult {
 FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
               const FitOptions& options);
 
-/// How many neighbouring residuals tell as much as one: 1 + 2 sum of autocorrelations, summed while pairs of them stay positive
-/// (Geyer's initial positive sequence), within sweeps; at least 1.
+/// How many neighbouring residuals tell as much as one: 1 + 2 sum of autocorrelations, summed while pairs of them stay
+/// positive (Geyer's initial positive sequence), within sweeps; at least 1.
 double correlation_length(const Eigen::VectorXd& residual, const Eigen::VectorXi& sweep);
 
 /// Expected size of each value of the model (its prior sigma).

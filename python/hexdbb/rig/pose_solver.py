@@ -102,10 +102,10 @@ def leg_forces_n(hexapod: Hexapod, poses: Poses, weight_n: float) -> Array:
     load = np.zeros((len(jacobian), 6, 1))
     load[:, 2] = weight_n
     try:
-        forces: Array = np.linalg.solve(jacobian.transpose(0, 2, 1), load)[:, :, 0]
+        forces = np.linalg.solve(jacobian.transpose(0, 2, 1), load)[:, :, 0]
     except np.linalg.LinAlgError:
         raise RunError("the true machine stands in a singular pose: its legs carry no weight") from None
-    return forces
+    return np.asarray(forces, dtype=np.float64)
 
 
 def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Array]:
@@ -113,7 +113,7 @@ def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Arr
     for _ in range(MAX_ITERATIONS):
         reach, jacobian, _ = _legs(hexapod, position, rotation)
         try:
-            step: Array = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
+            step = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
         except np.linalg.LinAlgError:
             break
         position = position + step[:, :3]
