@@ -100,7 +100,7 @@ def scipy_forward_ns() -> float:
 
 
 def diagnosis_times_ms() -> dict[str, float]:
-    """Diagnosis of 20,000 readings, 37 unknowns: the engine's, and SciPy's least_squares on the engine's predictions."""
+    """Diagnosis of 20,000 readings, 37 unknowns: the engine's, and SciPy's least_squares on its predictions."""
     plan = load_plan("standard")
     machine = plan.machine_file()
     angle = np.linspace(0.0, 4.0 * np.pi, READINGS // len(plan.circles))

@@ -120,7 +120,8 @@ BAD_CELLS = [
     ("-1.5,1.5", "-1.5,1;5", 'a.csv: row 4 (line 5): t_s: "1;5" (expected a number)'),
     (",600,on", ",6000,on", "a.csv: row 1 (line 2): s6_mm: 6000 (expected within the travel"),
     ("0.5,0,0", "0.5,1e99,0", "a.csv: row 2 (line 3): circle: 1e+99 (expected a whole number from"),
-    ("s4_mm", "s4_um", "a.csv: missing column s4_mm (columns present: reading_um, t_s"),
+    ("s4_mm", "s4_um", "a.csv: column s4_um (expected s4_mm: the unit is part of the name)"),
+    ("s4_mm", "fourth", "a.csv: missing column s4_mm (columns present: reading_um, t_s"),
     ("lap", "t_s", "a.csv: column t_s: stands twice"),
     (",", ";", "a.csv: line 1: one column 'reading_um;t_s;"),
 ]

@@ -113,9 +113,10 @@ def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Arr
     for _ in range(MAX_ITERATIONS):
         reach, jacobian, _ = _legs(hexapod, position, rotation)
         try:
-            step = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
+            solved = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])
         except np.linalg.LinAlgError:
             break
+        step = np.asarray(solved[:, :, 0], dtype=np.float64)
         position = position + step[:, :3]
         rotation = _turn(step[:, 3:]) @ rotation
         largest = np.abs(step).max(axis=1)
