@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from tests.truth.plans import PACE, discovery_plan, off_radius_plan, two_mounts_plan
+from tests.truth.plans import PACE, discovery_plan, off_radius_plan, tilted_plan, two_mounts_plan
 from tests.truth.simulate import Pace, simulate
 from tests.truth.sizes import sized
 
@@ -70,7 +70,7 @@ MAKERS: dict[str, Maker] = {
     "lead_error": lambda draw: {"slider": _slider(draw), "error_um_m": 100.0 * float(draw.choice([-1.0, 1.0]))},
     "straightness": _bow,
     "servo_lag": lambda draw: {"slider": _slider(draw), "lag_ms": 1.0},
-    "leg_thermal": lambda draw: {"growth_um": 100.0, "time_constant_s": float(draw.uniform(1000.0, 4000.0))},
+    "leg_thermal": lambda draw: {"growth_um": 100.0, "time_constant_s": float(draw.uniform(500.0, 3000.0))},
     "screw_thermal": lambda draw: {
         "slider": _slider(draw),
         "growth_um_m": 50.0,
@@ -116,7 +116,11 @@ MAKERS: dict[str, Maker] = {
 }
 """What the seed draws for each kind; the size is set afterwards."""
 
-PLANS: dict[str, Callable[[], Plan]] = {"bar_gain": off_radius_plan, "ball_eccentricity": two_mounts_plan}
+PLANS: dict[str, Callable[[], Plan]] = {
+    "bar_gain": off_radius_plan,
+    "ball_eccentricity": two_mounts_plan,
+    "leg_thermal": tilted_plan,
+}
 """Kinds that need more than the discovery plan to be seen."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from functools import cache
 
 from tests.truth.simulate import Pace
@@ -12,6 +13,7 @@ PACE = Pace(rate_hz=8.0, instants_per_sample=15, travel_s=10.0)
 """14,000 samples on the discovery plan; the mains' 50 Hz is no multiple of the rate."""
 
 OFF_RADIUS_MM = 0.6
+TILT_DEG = 8.0
 SECOND_CUP_MM = (8.0, -6.0, 325.0)
 
 
@@ -31,6 +33,22 @@ def off_radius_plan() -> Plan:
         for k, off_mm in enumerate((OFF_RADIUS_MM, -OFF_RADIUS_MM))
     ]
     return plan.model_copy(update={"circles": (*plan.circles, *more)})
+
+
+@cache
+def tilted_plan() -> Plan:
+    """Circles in tilted planes, before the others and after them once more.
+
+    Horizontal circles hardly see the platform rise, as warm legs make it, and what is the same at all times is as good
+    as geometry.
+    """
+    plan = discovery_plan()
+    level, tilts = plan.circles[0], [(TILT_DEG, 0.0, 0.0), (0.0, TILT_DEG, 0.0)]
+    ids = itertools.count(len(plan.circles))
+    before, after = (
+        [level.model_copy(update={"id": next(ids), "plane_rpy_deg": tilt}) for tilt in tilts] for _ in range(2)
+    )
+    return plan.model_copy(update={"circles": (*before, *plan.circles, *after)})
 
 
 @cache

@@ -9,7 +9,6 @@ Units: mm; rad times `ARM_MM` where a parameter is an angle.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 
@@ -30,6 +29,7 @@ NEGLIGIBLE = 1e-6
 third derivative, (step / leg)^2 = 1e-9."""
 THINNED = 3
 """Every third sample tells the root mean square as well; at a fourth of 8 Hz the mains' 50 Hz would stand still."""
+GEOMETRY_SIZE = 33
 CORRECTIONS = 3
 """Not every signature is proportional to its size; each round brings the size nearer."""
 
@@ -67,10 +67,10 @@ def signature_um(mechanism: MechanismTable, truth: TruthFile, plan: Plan, pace: 
     """Give the root mean square (um) that a mechanism adds to the readings beyond what geometry and set-up absorb."""
     thin = replace(pace, rate_hz=pace.rate_hz / THINNED, instants_per_sample=pace.instants_per_sample * THINNED)
     faulty = truth.model_copy(update={"mechanism": (*truth.mechanism, mechanism)})
-    change = true_readings_mm(faulty, plan, thin) - _readings_mm(truth, plan, thin)
-    absorbed = _absorbing(plan, thin)
-    left = change - absorbed @ (absorbed.T @ change)
-    return float(np.sqrt(np.mean(left**2))) * 1e3
+    change_mm = true_readings_mm(faulty, plan, thin) - _readings_mm(truth, plan, thin)
+    absorbed = _absorbed(plan, thin)
+    left_mm = change_mm - absorbed @ (absorbed.T @ change_mm)
+    return float(np.sqrt(np.mean(left_mm**2))) * 1e3
 
 
 @lru_cache(maxsize=64)
@@ -79,30 +79,32 @@ def _readings_mm(truth: TruthFile, plan: Plan, pace: Pace) -> Array:
 
 
 @lru_cache(maxsize=8)
-def _absorbing(plan: Plan, pace: Pace) -> Array:
-    """Orthonormal basis (n, rank) of the signatures of geometry and set-up."""
+def _absorbed(plan: Plan, pace: Pace) -> Array:
+    """Orthonormal basis (n, rank) of what geometry and set-up can do to the readings."""
+    nominal = TruthFile()
     columns = [
-        true_readings_mm(more, plan, pace) - true_readings_mm(less, plan, pace)
-        for more, less in zip(_stepped(len(plan.mounts), STEP_UM), _stepped(len(plan.mounts), -STEP_UM), strict=True)
+        true_readings_mm(_moved(nominal, step), plan, pace) - true_readings_mm(_moved(nominal, -step), plan, pace)
+        for step in STEP_UM * np.eye(GEOMETRY_SIZE + 3 * len(plan.mounts) + 3)
     ]
     basis, singular, _ = np.linalg.svd(np.stack(columns, axis=1), full_matrices=False)
     seen: Array = basis[:, singular > NEGLIGIBLE * singular[0]]
     return seen
 
 
-def _stepped(mounts: int, step_um: float) -> Iterator[TruthFile]:
-    """Give truths that differ from the nominal machine in one parameter each."""
-    for name, value in Geometry().model_dump().items():
-        for changed in _one_at_a_time(np.array(value), step_um):
-            yield TruthFile(geometry=Geometry.model_validate({name: changed.tolist()}))
-    for changed in _one_at_a_time(np.zeros((mounts, 3)), step_um):
-        yield TruthFile(setup=Setup.model_validate({"cup_error_um": changed.tolist()}))
-    for changed in _one_at_a_time(np.zeros(3), step_um):
-        yield TruthFile(setup=Setup.model_validate({"ball_offset_error_um": changed.tolist()}))
-
-
-def _one_at_a_time(value: Array, step_um: float) -> Iterator[Array]:
-    for index in np.ndindex(*value.shape):
-        changed = value.copy()
-        changed[index] += step_um
-        yield changed
+def _moved(truth: TruthFile, change_um: Array) -> TruthFile:
+    """Give the machine without its mechanisms, its geometry, cups and ball changed by these (um, urad)."""
+    geometry, used = {}, 0
+    for name, value in truth.geometry.model_dump().items():
+        size = np.size(value)
+        geometry[name] = (np.array(value) + change_um[used : used + size].reshape(np.shape(value))).tolist()
+        used += size
+    mounts = (len(change_um) - used - 3) // 3
+    cups = np.zeros((mounts, 3))
+    known = truth.setup.cup_error_um[:mounts]
+    cups[: len(known)] = np.reshape(known, (-1, 3))
+    setup = {
+        **truth.setup.model_dump(),
+        "cup_error_um": (cups + change_um[used:-3].reshape(mounts, 3)).tolist(),
+        "ball_offset_error_um": (np.array(truth.setup.ball_offset_error_um) + change_um[-3:]).tolist(),
+    }
+    return TruthFile(geometry=Geometry.model_validate(geometry), setup=Setup.model_validate(setup))
