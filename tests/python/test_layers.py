@@ -39,7 +39,7 @@ ALLOWED: dict[str, set[str]] = {
     "prediction": {"errors", "record", "kinematics", "model", "_core"},
     "diagnosis": {"errors", "units", "record", "model", "prediction", "redundancy", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "record", "_core"},
-    "identifiability": {"model", "redundancy", "sensitivity", "_core"},
+    "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
     # which circles tell most
     "planning": {
         "errors",

@@ -8,7 +8,7 @@ room in it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from math import cos, radians, sin
@@ -42,6 +42,14 @@ class Grid:
     plane_tilts: tuple[float, ...] = (0.0, 8.0, 16.0, 24.0)
     """Of the circle's plane from horizontal."""
     plane_azimuths: tuple[float, ...] = SIXTHS
+
+
+GRIDS: Mapping[str, Grid] = {
+    "fine": Grid(),
+    "coarse": Grid(
+        heights=(-0.2, 0.0), places=(0.0,), tilts=(0.0, 12.0), yaws=(-15.0, 0.0, 15.0), plane_tilts=(0.0, 16.0)
+    ),
+}
 
 
 @dataclass(frozen=True)

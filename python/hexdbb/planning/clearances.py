@@ -50,8 +50,8 @@ class Demands:
     to_end_of_travel_mm: float = 5.0
     to_min_gap_mm: float = 5.0
     bar_angle_deg: float = 25.0
-    condition: float = 16.0
-    """As the worst of the shipped plan `standard`."""
+    condition: float = 16.5
+    """As the worst of the shipped plan `standard` on the shipped machine, 16.3."""
 
     def met_by(self, found: Clearances) -> bool:
         """Say whether a circle keeps all of them."""

@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 DETECTION = 3.0
 NOTHING = 1e-6
-"""Of a signature no more than this part left is rounding."""
+"""No more than this part of an effect's largest signature is rounding."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     signature = sensitivity.scaled(own)
     rest = _core.project_out(signature, sensitivity.scaled(sensitivity.free & ~own))
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
-    shows = left > NOTHING * np.maximum(whole, np.finfo(float).tiny)
+    shows = left > NOTHING * whole.max()
     parameter = sensitivity.where(own)[0]
     rms_mm = left[shows] / np.sqrt(sensitivity.readings) / sensitivity.sizes[own][shows]
     sizes = DETECTION * noise_mm / rms_mm * shown_factor(parameter.unit)

@@ -46,8 +46,8 @@ class Search:
         """Score one choice."""
         return float(self.criterion(self._told(circles)[None])[0])
 
-    def best(self, count: int, most_mounts: int, start: Criterion, progress: Progress) -> Chosen:
-        """Choose circles.
+    def ranked(self, count: int, most_mounts: int, start: Criterion, progress: Progress) -> list[Chosen]:
+        """Choose circles, in as many ways as cup places were tried.
 
         Parameters
         ----------
@@ -60,26 +60,37 @@ class Search:
         progress : callable
             Told what is being done.
 
+        Returns
+        -------
+        list of Chosen
+            The best first, none twice.
+
         Raises
         ------
         InputError
             Where no cup place has so many circles.
         """
-        best: Chosen | None = None
+        found: list[Chosen] = []
         pool: tuple[int, ...] = ()
+        best = -np.inf
         for _ in range(most_mounts):
             tried = [(*pool, mount) for mount in range(len(self.information)) if mount not in pool]
+            reached = best
             for number, mounts in enumerate(tried):
                 progress(f"{len(mounts)} of at most {most_mounts} cup places: trying {number + 1} of {len(tried)}")
-                found = self._exchanged(self._greedy(mounts, count, start), mounts)
-                if found is not None and (best is None or is_better(found.score, best.score)):
-                    best, pool_next = found, mounts
-            if best is None or len(pool_next) == len(pool):
+                chosen = self._exchanged(self._greedy(mounts, count, start), mounts)
+                if chosen is None:
+                    continue
+                found.append(chosen)
+                if is_better(chosen.score, reached):
+                    reached, pool = chosen.score, mounts
+            if reached == best:
                 break
-            pool = pool_next
-        if best is None:
+            best = reached
+        if not found:
             raise InputError(f"circles {count}: no cup place has so many candidates within reach (expected fewer)")
-        return best
+        found.sort(key=lambda each: -each.score)
+        return list({frozenset(each.circles): each for each in reversed(found)}.values())[::-1]
 
     def _greedy(self, mounts: Sequence[int], count: int, start: Criterion) -> tuple[Choice, ...] | None:
         chosen: tuple[Choice, ...] = ()
@@ -130,7 +141,7 @@ class Search:
 
 def is_better(score: float, than: float) -> bool:
     """Say whether a score is better by more than rounding."""
-    return score > than + BETTER * abs(than)
+    return score > than + BETTER * abs(than) if np.isfinite(than) else score > than
 
 
 def _first_best(options: Sequence[tuple[int, Floats]]) -> tuple[Choice, float]:

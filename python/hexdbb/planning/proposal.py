@@ -27,6 +27,8 @@ from hexdbb.trajectory import plan_programme
 STEPS_DEG = (6.0, 3.0, 1.0)
 """Of the refinement, off a grid of 6 degrees and more."""
 MOST_PASSES = 10
+MOST_REFINED = 6
+"""So many of the grid's best choices are refined: the best on the grid need not be the best off it."""
 START = "D"
 """Criterion of the greedy start: it tells few circles apart where the smallest singular value is still zero."""
 
@@ -87,17 +89,30 @@ def propose(question: Question, progress: Progress) -> Plan:
     whole = sum((each.total(range(len(each))).told()[0] for each in information), np.zeros(()))
     judge, start = (criterion(name, question.unknowns.wanted, whole) for name in (question.criterion, START))
     search = Search(information, judge)
-    chosen = search.best(question.circles, min(question.most_mounts, question.circles), start, progress)
-    best = [pools[mount][place] for mount, place in chosen.circles]
-    return _driven(_refined(best, judge, question, progress), question, progress)
+    ranked = search.ranked(question.circles, min(question.most_mounts, question.circles), start, progress)
+    refined = []
+    for number, chosen in enumerate(ranked[:MOST_REFINED]):
+        progress(f"refining choice {number + 1} of {min(len(ranked), MOST_REFINED)}")
+        refined.append(_refined([pools[mount][place] for mount, place in chosen.circles], judge, question))
+    return _driven(_best(refined, judge, question), question, progress)
 
 
-def _refined(chosen: Sequence[Candidate], judge: Criterion, question: Question, progress: Progress) -> list[Candidate]:
+def _best(choices: Sequence[list[Candidate]], judge: Criterion, question: Question) -> list[Candidate]:
+    """Give the first of the best choices."""
+    best, score = choices[0], -np.inf
+    for each in choices:
+        search, others = _search_about(each[:1], each[1:], judge, question)
+        reached = search.score([*others, (0, 0)])
+        if is_better(reached, score):
+            best, score = each, reached
+    return best
+
+
+def _refined(chosen: Sequence[Candidate], judge: Criterion, question: Question) -> list[Candidate]:
     """Let every circle try its neighbours until none is better, with smaller and smaller steps."""
     best = list(chosen)
     for step_deg in STEPS_DEG:
-        for number in range(MOST_PASSES):
-            progress(f"refining in steps of {step_deg:g} deg, pass {number + 1}")
+        for _ in range(MOST_PASSES):
             moved = [_moved(best, place, step_deg, judge, question) for place in range(len(best))]
             if not any(moved):
                 break

@@ -1,0 +1,132 @@
+"""`hexdbb plan check`: reach, limits and clearances of a plan, and what it can tell."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+from hexdbb.capture.bus_load import check_load
+from hexdbb.cli.plan_judgement import Judgement, judge, noise_option
+from hexdbb.cli.plan_sheets import LIMITED, print_clearances, print_knowledge, print_motion
+from hexdbb.errors import InputError
+from hexdbb.machine import MachineFile
+from hexdbb.model import load_model, new_model
+from hexdbb.plan import Plan, load_plan
+from hexdbb.planning import Clearances, circle_clearances
+from hexdbb.trajectory import Programme, plan_programme
+
+
+@click.command("check", short_help="reach, limits, clearances, what a plan can tell")
+@click.argument("plan_name", metavar="PLAN")
+@click.option(
+    "--rate", "rate_hz", type=click.FloatRange(min=1.0), help="Cycles per second; default: the machine file's."
+)
+@click.option(
+    "-m",
+    "--model",
+    "model_path",
+    type=click.Path(path_type=Path),
+    help="Model whose free values the plan is to tell; default: the thesis' 33 errors, cup and ball offset.",
+)
+@noise_option
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def check(
+    plan_name: str, rate_hz: float | None, model_path: Path | None, noise_um: float | None, as_json: bool
+) -> None:
+    """Say whether a plan is within reach and limits, how near it comes to each, and what it can tell of the machine.
+
+    PLAN is a plan file or the name of a shipped plan. A plan out of reach ends with exit status 2 and names circle,
+    angle and limit. Uncertainties and detectable sizes are those of first order, at the gauge's stated noise.
+
+    \b
+    Examples:
+      hexdbb plan check standard
+      hexdbb plan check my-plan.toml --rate 400 --noise 1.0
+      hexdbb plan check my-plan.toml -m model.toml --json
+    """
+    plan = load_plan(plan_name)
+    machine = plan.machine_file()
+    rate_hz = rate_hz or machine.can_setup.cycle_rate_hz
+    model = new_model(machine) if model_path is None else load_model(model_path)
+    if model.machine != machine:
+        raise InputError(f"{model_path}: machine: {model.machine.name} (expected the plan's, {machine.name})")
+    try:
+        load = check_load(rate_hz, machine.can_setup.bitrate_bit_s, len(machine.can_setup.drive_nodes))
+        programme = plan_programme(plan, machine, 1.0 / rate_hz, plan_name)
+    except InputError as error:
+        if as_json:
+            click.echo(json.dumps({"reachable": False, "reason": str(error)}, indent=2))
+        raise
+    runs = [{**_name(programme, index), **_uses(programme, index, machine)} for index in range(len(programme.runs))]
+    clearances = _clearances(plan, machine, plan_name)
+    found = judge(plan, model, rate_hz, noise_um, plan_name)
+    if as_json:
+        summary = {"reachable": True, "duration_s": programme.duration_s, "bus_load": load, "runs": runs}
+        circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
+        click.echo(json.dumps({**summary, "circles": circles, **found.to_json()}, indent=2))
+        return
+    _print(plan_name, programme, load, runs, clearances, found, machine)
+
+
+def _print(
+    plan_name: str,
+    programme: Programme,
+    load: float,
+    runs: list[dict[str, float]],
+    clearances: dict[int, Clearances],
+    found: Judgement,
+    machine: MachineFile,
+) -> None:
+    print_motion(f"plan {plan_name}: within reach and limits", runs, machine.can_setup.limits)
+    click.echo(f"{programme.duration_s:.0f} s at {1.0 / programme.cycle_s:g} Hz, bus load {load:.0%} at worst\n")
+    print_clearances(clearances)
+    print_knowledge(found)
+
+
+def _clearances(plan: Plan, machine: MachineFile, plan_name: str) -> dict[int, Clearances]:
+    found = {each.id: circle_clearances(machine, each, plan.mount_of(each).cup_mm) for each in plan.circles}
+    for identity, each in found.items():
+        if each is None:
+            expected = "room for the way in at every angle"
+            raise InputError(f"{plan_name}: circle {identity}: out of reach just outside it (expected {expected})")
+    return {identity: each for identity, each in found.items() if each is not None}
+
+
+def _clearance_json(identity: int, found: Clearances) -> dict[str, Any]:
+    return {
+        "circle": identity,
+        "to_end_of_travel_mm": found.to_end_of_travel_mm,
+        "to_min_gap_mm": found.to_min_gap_mm,
+        "bar_angle_deg": found.bar_angle_deg,
+        "pose_condition": found.condition,
+    }
+
+
+def _name(programme: Programme, index: int) -> dict[str, float]:
+    run = programme.runs[index]
+    return {
+        "circle": run.circle.id,
+        "feed_mm_min": run.feed_mm_min,
+        "direction": run.direction,
+        "samples": int((programme.table.capture & (programme.table.run == index)).sum()),
+    }
+
+
+def _uses(programme: Programme, index: int, machine: MachineFile) -> dict[str, float]:
+    """Give the largest slider rates of a run, and the least distance to the ends of travel and between two sliders."""
+    sliders_mm = programme.table.sliders_mm[programme.table.run == index]
+    low_mm, high_mm = machine.sliders.travel_mm
+    gaps_mm = sliders_mm[:, 1::2] - sliders_mm[:, 0::2] - machine.sliders.min_gap_mm
+    uses = {
+        "to_end_of_travel_mm": float(min(sliders_mm.min() - low_mm, high_mm - sliders_mm.max())),
+        "to_min_gap_mm": float(gaps_mm.min()),
+    }
+    rate = sliders_mm
+    for name, unit in LIMITED:
+        rate = np.diff(rate, axis=0) / programme.cycle_s
+        uses[f"{name}_{unit}"] = float(np.abs(rate).max())
+    return uses
