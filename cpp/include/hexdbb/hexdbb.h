@@ -1,0 +1,200 @@
+/* The C interface: kinematics of a HexGlider and the compensation of its measured errors, for motion controllers.
+ *
+ * Model: pose of the platform <-> coordinates of the six sliders, of the nominal machine or, where a compensation file
+ * is loaded, of the machine as diagnosed (hexdbb/compensation.hpp says how).
+ * Units: mm, rad, s, degrees Celsius. R = Rz(yaw) Ry(pitch) Rx(roll). Sliders are numbered 0 to 5 here.
+ *
+ * Ownership: a hexdbb_create_... function makes a compensator, hexdbb_destroy ends it; nothing else is ever owned or
+ * kept. Strings handed out are constants of the library.
+ * Threads: one compensator belongs to one thread. After creation no function allocates, locks, waits or calls the
+ * system, so that all but the hexdbb_create_... functions and hexdbb_destroy may be called from a real-time thread.
+ * Errors: every function that can fail returns a hexdbb_status, 0 for success, and never throws.
+ * Versions: structs that may grow begin with struct_size; set it to sizeof the struct (the HEXDBB_..._INIT macros do).
+ * A library never reads or writes beyond the size it is told.
+ */
+#ifndef HEXDBB_HEXDBB_H
+#define HEXDBB_HEXDBB_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+#define HEXDBB_NOEXCEPT noexcept
+extern "C" {
+#else
+#define HEXDBB_NOEXCEPT
+#endif
+
+#define HEXDBB_ABI_VERSION 1
+#define HEXDBB_SLIDERS 6
+
+typedef int32_t hexdbb_status;
+
+enum {
+  HEXDBB_OK = 0,
+  /* of a pose or a set of slider coordinates; the numbers of hexdbb::Status */
+  HEXDBB_UNREACHABLE = 1,
+  HEXDBB_SINGULAR = 2,
+  HEXDBB_ITERATION_LIMIT = 3,
+  HEXDBB_TRAVEL = 4,
+  HEXDBB_GAP = 5,
+  /* of a correction */
+  HEXDBB_CORRECTION_LIMIT = 6, /* larger than the compensation file allows */
+  HEXDBB_NOT_A_NUMBER = 7,     /* a pose, coordinate or velocity that is no finite number */
+  /* of a compensation file */
+  HEXDBB_CANNOT_READ = 20,
+  HEXDBB_MALFORMED = 21,
+  HEXDBB_TRUNCATED = 22,
+  HEXDBB_ALTERED = 23, /* the checksum does not agree */
+  HEXDBB_LATER_VERSION = 24,
+  HEXDBB_OTHER_MACHINE = 25,
+  HEXDBB_UNKNOWN_EFFECT = 26,
+  /* of a call */
+  HEXDBB_BAD_ARGUMENT = 40, /* a null pointer, a struct_size this library does not know, an impossible machine */
+  HEXDBB_OUT_OF_MEMORY = 41
+};
+
+/* Nominal dimensions of a machine, as in its machine file. */
+typedef struct hexdbb_dimensions {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double base_inradius_mm;
+  double platform_circumradius_mm;
+  double joint_plane_height_mm;
+  double leg_length_mm;
+  double travel_min_mm;
+  double travel_max_mm;
+  double min_gap_mm;
+  double screw_lead_mm;
+  double moved_mass_kg;
+} hexdbb_dimensions;
+
+/* The assumed dimensions of the SP-120 as shipped. */
+#define HEXDBB_DIMENSIONS_INIT \
+  {(uint32_t)sizeof(hexdbb_dimensions), 0u, 250.0, 120.0, 20.0, 400.0, 20.0, 846.0, 60.0, 5.0, 12.0}
+
+/* Pose of the platform frame in the base frame. */
+typedef struct hexdbb_pose {
+  double x_mm, y_mm, z_mm;
+  double roll_rad, pitch_rad, yaw_rad;
+} hexdbb_pose;
+
+/* How the machine moves at a pose. */
+typedef struct hexdbb_motion {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double velocity_mm_s[HEXDBB_SLIDERS]; /* commanded, of each slider; its sign is the direction, 0 keeps the last one */
+  double temperature_c;                 /* measured; not a number (NAN) where it is not */
+} hexdbb_motion;
+
+/* Where the sliders must stand. */
+typedef struct hexdbb_target {
+  uint32_t struct_size;
+  hexdbb_status status;
+  double sliders_mm[HEXDBB_SLIDERS];    /* to command; where status is not 0, those of the last good call */
+  double correction_mm[HEXDBB_SLIDERS]; /* of them, what compensation adds to the nominal coordinates */
+  double largest_correction_mm;         /* magnitude */
+  int32_t iterations;                   /* inverse solutions taken, 1 to 4 */
+  int32_t slider;                       /* at fault, or -1 */
+} hexdbb_target;
+
+#define HEXDBB_TARGET_INIT {(uint32_t)sizeof(hexdbb_target), 0, {0.0}, {0.0}, 0.0, 0, -1}
+
+/* Where the platform stands. */
+typedef struct hexdbb_estimate {
+  uint32_t struct_size;
+  hexdbb_status status;
+  hexdbb_pose pose;   /* where status is not 0, that of the last good call */
+  double residual_mm; /* of the loop equations */
+  int32_t iterations; /* Newton steps taken */
+  int32_t reserved;
+} hexdbb_estimate;
+
+#define HEXDBB_ESTIMATE_INIT {(uint32_t)sizeof(hexdbb_estimate), 0, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, 0, 0}
+
+/* Compensation data as constants of a program, for firmware without a file system: what
+ * `hexdbb compensate MODEL --header FILE.h` writes. */
+typedef struct hexdbb_value {
+  const char* effect;
+  const char* element;
+  const char* parameter;
+  double value; /* mm, rad, s, N, K and their ratios */
+} hexdbb_value;
+
+typedef struct hexdbb_constants {
+  uint32_t struct_size;
+  uint32_t value_count;
+  hexdbb_dimensions machine;
+  double max_correction_mm;
+  double reversal_travel_mm;
+  double reference_temperature_c; /* not a number where none was stated */
+  const hexdbb_value* values;
+} hexdbb_constants;
+
+typedef struct hexdbb_compensator hexdbb_compensator;
+
+/* HEXDBB_ABI_VERSION of the library linked: refuse to run where it is not that of the header. */
+uint32_t hexdbb_abi_version(void) HEXDBB_NOEXCEPT;
+
+/* Version of the library, as "0.1.0". */
+const char* hexdbb_version(void) HEXDBB_NOEXCEPT;
+
+/* Name of a status, as "other_machine", and what it means in words. Never NULL. */
+const char* hexdbb_status_name(hexdbb_status status) HEXDBB_NOEXCEPT;
+const char* hexdbb_status_text(hexdbb_status status) HEXDBB_NOEXCEPT;
+
+/* Kinematics of the nominal machine, nothing compensated. *out is NULL where it fails. */
+hexdbb_status hexdbb_create_nominal(const hexdbb_dimensions* machine, hexdbb_compensator** out) HEXDBB_NOEXCEPT;
+
+/* From a compensation file, from the text of one in memory, from constants.
+ * machine: what the controller believes to drive; a file of another machine is refused. NULL: not checked.
+ * message: takes one line that says what is wrong (empty where nothing is), cut to message_size; may be NULL.
+ * *out is NULL where it fails: the controller then runs without compensation only if told so. */
+hexdbb_status hexdbb_create_from_file(const char* path, const hexdbb_dimensions* machine, hexdbb_compensator** out,
+                                      char* message, size_t message_size) HEXDBB_NOEXCEPT;
+hexdbb_status hexdbb_create_from_memory(const char* text, size_t length, const hexdbb_dimensions* machine,
+                                        hexdbb_compensator** out, char* message, size_t message_size) HEXDBB_NOEXCEPT;
+hexdbb_status hexdbb_create_from_constants(const hexdbb_constants* constants, const hexdbb_dimensions* machine,
+                                           hexdbb_compensator** out, char* message,
+                                           size_t message_size) HEXDBB_NOEXCEPT;
+
+/* NULL is allowed. */
+void hexdbb_destroy(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
+
+/* HEXDBB_OTHER_MACHINE where a dimension differs by more than 1e-9 of its size. */
+hexdbb_status hexdbb_check_machine(const hexdbb_compensator* compensator,
+                                   const hexdbb_dimensions* machine) HEXDBB_NOEXCEPT;
+
+/* Dimensions it was made for; machine->struct_size must be set. */
+hexdbb_status hexdbb_get_machine(const hexdbb_compensator* compensator, hexdbb_dimensions* machine) HEXDBB_NOEXCEPT;
+
+/* Compensation off (0) or on (any other; so after creation). It fades over the next 500 calls of
+ * hexdbb_sliders_from_pose, so that no slider jumps. */
+hexdbb_status hexdbb_enable(hexdbb_compensator* compensator, int on) HEXDBB_NOEXCEPT;
+
+/* Part of the correction in force, 0 to 1; 0 for the nominal machine. */
+double hexdbb_enabled_part(const hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
+
+/* Forget how the machine moved before, as after homing: no slider has a direction, all starts are cold. */
+hexdbb_status hexdbb_reset(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
+
+/* Where the sliders must stand for a pose. Call it with poses in order of motion.
+ * motion: NULL where unknown: directions then follow from the call before (a pose more than 2 mm of slider travel away
+ * is looked at without being followed, unless the next call is near it, so that a controller may try end points in
+ * between), velocities count as 0 and the temperature as not measured.
+ * out->struct_size must be set. Returns out->status. */
+hexdbb_status hexdbb_sliders_from_pose(hexdbb_compensator* compensator, const hexdbb_pose* pose,
+                                       const hexdbb_motion* motion, hexdbb_target* out) HEXDBB_NOEXCEPT;
+
+/* Which pose belongs to slider coordinates, started from the pose of the call before: the inverse of
+ * hexdbb_sliders_from_pose with the part of the correction in force.
+ * motion: NULL where unknown: directions are then those of the last hexdbb_sliders_from_pose.
+ * out->struct_size must be set. Returns out->status. */
+hexdbb_status hexdbb_pose_from_sliders(hexdbb_compensator* compensator, const double sliders_mm[HEXDBB_SLIDERS],
+                                       const hexdbb_motion* motion, hexdbb_estimate* out) HEXDBB_NOEXCEPT;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
