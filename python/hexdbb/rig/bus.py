@@ -228,7 +228,10 @@ def start_sliders_mm(machine: MachineFile, position_mm: Array, rotation: Array) 
     InputError
         It is out of reach or of travel.
     """
-    sliders = true_geometry(machine).sliders_for(position_mm, rotation)
+    try:
+        sliders = true_geometry(machine).sliders_for(position_mm, rotation)
+    except InputError as error:
+        raise InputError(f"start {error}") from None
     low, high = machine.sliders.travel_mm
     if np.any(sliders < low) or np.any(sliders > high):
         found = np.round(sliders, 3).tolist()
