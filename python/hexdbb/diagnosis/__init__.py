@@ -1,6 +1,6 @@
 """Diagnosis: the values that explain measured readings best, how well they are known, what cannot be known."""
 
-from hexdbb.diagnosis.fit import diagnose, evaluate_fit
+from hexdbb.diagnosis.fit import diagnose, evaluate_fit, refitter
 from hexdbb.diagnosis.heldout import HeldOut, held_out
 from hexdbb.diagnosis.mounts import fit_mounts, with_mounts_fitted
 from hexdbb.diagnosis.noise import Noise, noise_of
@@ -17,5 +17,6 @@ __all__ = [
     "fit_mounts",
     "held_out",
     "noise_of",
+    "refitter",
     "with_mounts_fitted",
 ]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.diagnosis.heldout import Refit, held_out
+from hexdbb.diagnosis.heldout import Refit, as_it_is, held_out
 from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import KNOWN_PART, Diagnosis, prior_sigmas, unknown_directions
@@ -102,7 +102,7 @@ def diagnose(
         first, lambda start: evaluate_fit(records, start, start.free, noise, robust=robust), noise.sigma_mm
     )
     _require_told(fitted, result, records)
-    checked = held_out(records, known, fitted, _refit(noise, robust)) if check_held_out else None
+    checked = held_out(records, (known, as_it_is), (fitted, refitter(noise, robust))) if check_held_out else None
     parameters = known.parameters()
     names = tuple(record.name for record in records)
     step = LedgerStep(len(model.ledger) + 1, "diagnose", first[1].rms_before_mm * 1e3, result.rms_after_mm * 1e3, names)
@@ -127,7 +127,9 @@ def diagnose(
     )
 
 
-def _refit(noise: Noise, robust: bool) -> Refit:
+def refitter(noise: Noise, robust: bool = False) -> Refit:
+    """Give a function that fits a model's free values to records."""
+
     def refit(records: Sequence[Record], model: Model) -> Model:
         return evaluate_fit(records, model, model.free, noise, robust=robust)[0]
 

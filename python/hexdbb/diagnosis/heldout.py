@@ -1,13 +1,14 @@
 """Held-out circles: what was fitted on some circles must predict the others.
 
-Circles are dealt into at most `MOST_FOLDS` groups; the model is fitted without each group in turn and predicts it. A
-fit that improves where it was trained and not here explains noise, or the wrong thing.
+Circles (or sweeps) are dealt into groups; a model is fitted without each group in turn and predicts it. A fit that
+improves where it was trained and not here explains noise, or the wrong thing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,71 +21,93 @@ from hexdbb.record import Record
 MOST_FOLDS = 7
 
 Refit = Callable[[Sequence[Record], Model], Model]
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
 class HeldOut:
-    """RMS residual of circles left out of the fit, with the start's values and with those fitted on the others."""
+    """Residual on readings left out of the fit, before and after: root mean square, and peak to valley."""
 
     before_um: float
     after_um: float
     folds: int
+    peak_to_valley_before_um: float
+    peak_to_valley_after_um: float
+
+    def share(self, noise_um: float) -> float:
+        """Part of what was unexplained that the fit explains where it was not made."""
+        excess = self.before_um**2 - noise_um**2
+        return (self.before_um**2 - self.after_um**2) / excess if excess > 0.0 else 0.0
 
 
-def held_out(records: Sequence[Record], start: Model, fitted: Model, refit: Refit) -> HeldOut | None:
-    """Judge a fit on circles it has not seen.
+def held_out(
+    records: Sequence[Record],
+    before: tuple[Model, Refit],
+    after: tuple[Model, Refit],
+    by: Literal["circle", "sweep"] = "circle",
+    most_folds: int = MOST_FOLDS,
+) -> HeldOut | None:
+    """Compare two models on readings they have not seen.
 
     Parameters
     ----------
     records : sequence of Record
-    start : Model
-        Where each fit starts.
-    fitted : Model
-        The fit to all circles: a nearer start, which changes no result.
-    refit : callable
-        Fits a model to records.
+    before, after : tuple of Model and callable
+        A start and how it is fitted to the training records; `as_it_is` leaves its values alone.
+    by : str
+        Whole circles are left out, or single sweeps, for what belongs to a circle alone.
+    most_folds : int
+        At most so many groups.
 
     Returns
     -------
     HeldOut or None
-        None where there are not two circles.
+        None where there are not two groups.
     """
-    folds = _folds(records)
+    folds = _folds(records, by, most_folds)
     if len(folds) < 2:
         return None
-    before, after = [], []
+    errors: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
     for fold in folds:
         training = [record.part(~rows) for record, rows in zip(records, fold, strict=True) if not rows.all()]
-        trained = refit(training, fitted)
-        for record, rows in zip(records, fold, strict=True):
-            if not rows.any():
-                continue
-            before.append(_residual(record, start, rows))
-            after.append(_residual(record, trained, rows))
-    return HeldOut(_rms_um(before), _rms_um(after), len(folds))
+        for (model, refit), gathered in zip((before, after), errors, strict=True):
+            trained = refit(training, model)
+            left = [record.part(rows) for record, rows in zip(records, fold, strict=True) if rows.any()]
+            gathered += [_residual(part, trained) for part in left]
+    before_mm, after_mm = (np.concatenate(gathered) for gathered in errors)
+    return HeldOut(
+        before_um=_rms_um(before_mm),
+        after_um=_rms_um(after_mm),
+        folds=len(folds),
+        peak_to_valley_before_um=float(np.ptp(before_mm)) * 1e3,
+        peak_to_valley_after_um=float(np.ptp(after_mm)) * 1e3,
+    )
 
 
-def _folds(records: Sequence[Record]) -> list[list[NDArray[np.bool_]]]:
+def as_it_is(_: Sequence[Record], model: Model) -> Model:
+    """Fit nothing."""
+    return model
+
+
+def _folds(records: Sequence[Record], by: str, most: int) -> list[list[Mask]]:
     """Masks of the rows left out, one list a fold, one mask a record."""
-    circles = [
-        (index, int(each)) for index, record in enumerate(records) for each in np.unique(record.columns["circle"])
-    ]
-    count = min(len(circles), MOST_FOLDS)
+    groups = [(index, int(each)) for index, record in enumerate(records) for each in np.unique(record.columns[by])]
+    count = min(len(groups), most)
     return [
         [
-            np.isin(record.columns["circle"], [each for at, each in circles[fold::count] if at == index])
+            np.isin(record.columns[by], [each for at, each in groups[fold::count] if at == index])
             for index, record in enumerate(records)
         ]
         for fold in range(count)
     ]
 
 
-def _residual(record: Record, model: Model, rows: NDArray[np.bool_]) -> NDArray[np.float64]:
-    part = record.part(rows)
-    predicted = _core.predict(model.engine(), samples_of([part], model)).reading_mm
-    residual: NDArray[np.float64] = part.reading_mm - predicted
+def _residual(record: Record, model: Model) -> NDArray[np.float64]:
+    residual: NDArray[np.float64] = (
+        record.reading_mm - _core.predict(model.engine(), samples_of([record], model)).reading_mm
+    )
     return residual
 
 
-def _rms_um(residuals: Sequence[NDArray[np.float64]]) -> float:
-    return float(np.sqrt(np.mean(np.concatenate(residuals) ** 2))) * 1e3
+def _rms_um(residual_mm: NDArray[np.float64]) -> float:
+    return float(np.sqrt(np.mean(residual_mm**2))) * 1e3

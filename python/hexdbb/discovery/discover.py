@@ -1,0 +1,231 @@
+"""See where the model fails, learn which effect is missing.
+
+The way of a verdict: fit the model; test what is left against noise; screen all absent effects at once to first
+order; give the best a fit of their own; ask of the winner that it explains a substantial share of what is
+unexplained, or leaves only noise, and that it does so on circles it was not fitted to; look for others that explain
+the same. Evidence alone never decides: with 20,000 readings everything is significant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hexdbb import _core
+from hexdbb.diagnosis import HeldOut, held_out, noise_of, refitter
+from hexdbb.discovery.lack_of_fit import LackOfFit, lack_of_fit
+from hexdbb.discovery.next_test import next_test
+from hexdbb.discovery.result import Candidate, Discovery, Verdict
+from hexdbb.discovery.screen import Screen, Screened, screen
+from hexdbb.discovery.trial import Base, fitted_base, holm, try_effect
+from hexdbb.discovery.unexplained import unexplained_structure
+from hexdbb.errors import InputError
+from hexdbb.model import Model
+from hexdbb.prediction import mount_keys
+from hexdbb.record import Record
+
+MOST_TRIED = 6
+"""So many effects get a fit of their own."""
+SUBSTANTIAL = 0.5
+"""Share of the unexplained that an effect must explain, where structure stays beside it."""
+SUBSTANTIAL_LEFT_OUT = 0.3
+"""The same on readings left out of the fit."""
+STRONG = 10.0
+"""Fall of BIC that counts as very strong evidence (Kass and Raftery 1995)."""
+SIGNIFICANT_P = 1e-3
+ALIKE = 10.0
+"""Effects whose chi-squares differ by less explain the readings alike."""
+MOST_FOLDS = 4
+LEAST_READINGS = 200
+LEAST_SWEEPS = 2
+
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class _Trial:
+    candidate: Candidate
+    result: _core.FitResult
+    lack: LackOfFit
+
+
+def discover(
+    records: Sequence[Record],
+    model: Model,
+    candidates: Sequence[str] | None = None,
+    progress: Progress = lambda _: None,
+) -> Discovery:
+    """Look for one missing effect.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    model : Model
+        Its free values are fitted first.
+    candidates : sequence of str, optional
+        Effects to try; all that are not wholly in the model where not given.
+    progress : callable
+        Is told what is being done.
+
+    Returns
+    -------
+    Discovery
+
+    Raises
+    ------
+    InputError
+        Too few readings or sweeps to judge; records of another machine.
+    RunError
+        Where the model itself cannot be fitted.
+    """
+    _require_enough(records)
+    known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
+    noise = noise_of(records)
+    progress("fitting the model as it is")
+    base = fitted_base(records, known, noise)
+    adjusted = _adjusted(base.model)
+    lack = lack_of_fit(records, base.residual_mm, noise, adjusted)
+    progress("screening all effects")
+    names = list(candidates) if candidates is not None else absent_effects(base.model)
+    screened = screen(records, base.model, names, noise, 1.0)
+    ranked = sorted(
+        (screened.best_elements(name) for name in screened.effects()),
+        key=lambda each: -each.bic_drop(screened.readings),
+    )
+    trials = _try(base, [each for each in ranked if each.gain > 0.0][:MOST_TRIED], adjusted, progress)
+    tried = sum(1 + len(screened.elements(name)) for name in screened.effects())
+    trials = _sorted_trials(trials, tried)
+    return _judge(base, lack, trials, screened, progress)
+
+
+def absent_effects(model: Model) -> list[str]:
+    """Name the effects that could be missing: known ones that the model lacks, or holds in part."""
+    partly = {term.effect for term in model.terms if not term.free.all() and not np.any(term.values[~term.free])}
+    wholly = {term.effect for term in model.terms} - partly
+    return [name for name in _core.effect_names() if name not in wholly and not model.info(name).is_set_up]
+
+
+def _try(base: Base, chosen: Sequence[Screened], adjusted: int, progress: Progress) -> list[_Trial]:
+    trials = []
+    for each in chosen:
+        progress(f"trying {each.effect}")
+        candidate, result = try_effect(base, each.effect, each.elements)
+        lack = lack_of_fit(base.records, result.residual_mm, base.noise, adjusted + len(candidate.values))
+        trials.append(_Trial(candidate, result, lack))
+    return trials
+
+
+def _sorted_trials(trials: Sequence[_Trial], tried: int) -> list[_Trial]:
+    corrected = {each.effect: each for each in holm([trial.candidate for trial in trials], tried)}
+    with_p = [replace(trial, candidate=corrected[trial.candidate.effect]) for trial in trials]
+    return sorted(with_p, key=lambda trial: -trial.candidate.bic_drop)
+
+
+def _judge(base: Base, lack: LackOfFit, trials: list[_Trial], screened: Screen, progress: Progress) -> Discovery:
+    best = trials[0] if trials and _is_evident(trials[0].candidate) else None
+    if best is None or (not lack.is_significant and best.candidate.bic_drop < 3.0 * STRONG):
+        verdict: Verdict = "unknown" if lack.is_significant else "none"
+        return _outcome(verdict, base, lack, trials, None)
+    progress("confirming on readings left out of the fit")
+    checked = _confirm(base, best.candidate)
+    convincing = best.candidate.share >= SUBSTANTIAL or not best.lack.is_significant
+    holds = checked is None or checked.share(lack.noise_um) >= SUBSTANTIAL_LEFT_OUT * best.candidate.share
+    if not (convincing and holds) and not (holds and _completes(base, best, screened, progress)):
+        return _outcome("unknown" if lack.is_significant else "none", base, lack, trials, checked)
+    alike = [
+        trial.candidate
+        for trial in trials[1:]
+        if best.candidate.chi_square_drop - trial.candidate.chi_square_drop < ALIKE and _is_evident(trial.candidate)
+    ]
+    if not alike:
+        return _outcome("effect", base, lack, trials, checked)
+    progress("looking for a circle that tells them apart")
+    return replace(
+        _outcome("ambiguous", base, lack, trials, checked),
+        ambiguous_with=tuple(each.effect for each in alike),
+        next_test=next_test(base, best.candidate, alike[0]),
+    )
+
+
+def _is_evident(candidate: Candidate) -> bool:
+    return candidate.bic_drop > STRONG and candidate.p_value < SIGNIFICANT_P
+
+
+def _completes(base: Base, best: _Trial, screened: Screen, progress: Progress) -> bool:
+    """Whether a second effect beside the best one leaves only noise: two faults of one size each explain half."""
+    progress("looking for a second effect beside it")
+    wider = replace(base, model=best.candidate.model)
+    again = screen(base.records, wider.model, absent_effects(wider.model), base.noise, 1.0)
+    ranked = sorted(
+        (again.best_elements(name) for name in again.effects()), key=lambda each: -each.bic_drop(again.readings)
+    )
+    if not ranked:
+        return False
+    second = fitted_base(base.records, best.candidate.model, base.noise)
+    candidate, result = try_effect(second, ranked[0].effect, ranked[0].elements)
+    adjusted = _adjusted(base.model) + len(best.candidate.values) + len(candidate.values)
+    left = lack_of_fit(base.records, result.residual_mm, base.noise, adjusted)
+    together = (base.squared - float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2) / base.excess
+    return _is_evident(candidate) and (not left.is_significant or together > 0.9)
+
+
+def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:
+    fit = refitter(base.noise)
+    by_circle = base.model.info(candidate.effect).element_kind not in ("circle", "set-up")
+    return held_out(
+        base.records,
+        (base.model, fit),
+        (candidate.model, fit),
+        "circle" if by_circle else "sweep",
+        MOST_FOLDS,
+    )
+
+
+def _outcome(
+    verdict: Verdict, base: Base, lack: LackOfFit, trials: Sequence[_Trial], checked: HeldOut | None
+) -> Discovery:
+    before = lack.rms_um
+    named = verdict in ("effect", "ambiguous")
+    residual = trials[0].result.residual_mm if named else base.residual_mm
+    left = trials[0].lack if named else lack
+    structure = unexplained_structure(base.records, residual, base.noise) if left.is_significant else ()
+    remarks = (
+        ("something else is missing besides: look again once this effect is added",)
+        if named and left.is_significant
+        else ()
+    )
+    return Discovery(
+        verdict=verdict,
+        lack_of_fit=lack,
+        rms_before_um=before,
+        rms_after_um=trials[0].candidate.rms_after_um if named else before,
+        heldout_before_um=None if checked is None else checked.before_um,
+        heldout_after_um=None if checked is None else checked.after_um,
+        candidates=tuple(trial.candidate for trial in trials),
+        ambiguous_with=(),
+        next_test=None,
+        structure=structure,
+        remarks=remarks,
+    )
+
+
+def _adjusted(model: Model) -> int:
+    """Directions a fit can adjust, at most: a bound that keeps the test for smoothness on the safe side."""
+    return int(model.free.sum())
+
+
+def _require_enough(records: Sequence[Record]) -> None:
+    if not records:
+        raise InputError("no record to judge by (expected at least one)")
+    readings = sum(len(record.columns["t_s"]) for record in records)
+    sweeps = sum(len(record.sweeps()) for record in records)
+    names = ", ".join(record.name for record in records)
+    if readings < LEAST_READINGS:
+        raise InputError(f"{names}: {readings} readings are too few to judge (expected {LEAST_READINGS} at least)")
+    if sweeps < LEAST_SWEEPS:
+        raise InputError(
+            f"{names}: {sweeps} sweep is too few to judge"
+            f" (expected {LEAST_SWEEPS} at least: another direction, circle or feed)"
+        )

@@ -1,0 +1,98 @@
+"""Is anything missing? What a model leaves unexplained, tested against noise.
+
+Two questions, because either alone can be deceived:
+level      Is the residual larger than the noise? The noise is that of repeated laps, else as stated; its own
+uncertainty counts.
+           A fault that is as fast as the sampling shows here only.
+shape      Is the residual smooth? On every sweep the residual is split into what a Fourier series of `HARMONICS`
+harmonics of the angle
+           takes and the rest; were the residual white, both would have the same variance: an F-test that needs no
+           stated noise. A gauge noisier or quieter than stated does not deceive it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from hexdbb.diagnosis import Noise
+from hexdbb.record import Record
+
+Floats = NDArray[np.float64]
+
+HARMONICS = 8
+LEAST_ROWS = 40
+"""A sweep needs this many samples for its harmonics and a rest to compare them with."""
+NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
+"""Relative uncertainty of the noise by where it comes from."""
+LEVEL_SIGMAS = 4.0
+SHAPE_P = 1e-3
+
+
+@dataclass(frozen=True)
+class LackOfFit:
+    """Outcome of the two tests.
+
+    `level` is the residual's excess over the noise in its own standard deviations, `shape_p` the probability of so
+    smooth a residual by chance; `unexplained_um` the RMS of what is left when noise is taken out.
+    """
+
+    rms_um: float
+    noise_um: float
+    level: float
+    shape_p: float
+
+    @property
+    def is_significant(self) -> bool:
+        """Whether something is missing."""
+        return self.level > LEVEL_SIGMAS or self.shape_p < SHAPE_P
+
+    @property
+    def unexplained_um(self) -> float:
+        """RMS beyond the noise."""
+        return float(np.sqrt(max(self.rms_um**2 - self.noise_um**2, 0.0)))
+
+
+def lack_of_fit(records: Sequence[Record], residual_mm: Floats, noise: Noise, fitted_values: int) -> LackOfFit:
+    """Test a residual for anything but noise.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    residual_mm : ndarray, shape (n,)
+        Of all records, one after another.
+    noise : Noise
+        Of one reading.
+    fitted_values : int
+        Number of directions the fit has adjusted: so much smooth residual it has taken away.
+    """
+    count = len(residual_mm)
+    rms_mm = float(np.sqrt(residual_mm @ residual_mm / max(count - fitted_values, 1)))
+    doubt = np.hypot(NOISE_DOUBT[noise.source], np.sqrt(0.5 / count))
+    level = (rms_mm / noise.sigma_mm - 1.0) / doubt
+    return LackOfFit(rms_mm * 1e3, noise.sigma_mm * 1e3, float(level), _shape_p(records, residual_mm, fitted_values))
+
+
+def _shape_p(records: Sequence[Record], residual_mm: Floats, fitted_values: int) -> float:
+    smooth, rest, smooth_freedom, rest_freedom, first = 0.0, 0.0, -fitted_values, 0, 0
+    for record in records:
+        angle = np.radians(record.columns["angle_deg"])
+        for rows in record.sweeps():
+            if len(rows) < LEAST_ROWS:
+                continue
+            own = residual_mm[first + rows]
+            multiples = angle[rows][:, None] * np.arange(1, HARMONICS + 1)
+            basis, _ = np.linalg.qr(np.column_stack([np.ones(len(rows)), np.cos(multiples), np.sin(multiples)]))
+            taken = float(np.sum((basis.T @ own) ** 2))
+            smooth += taken
+            rest += float(own @ own) - taken
+            smooth_freedom += basis.shape[1]
+            rest_freedom += len(rows) - basis.shape[1]
+        first += len(angle)
+    if smooth_freedom <= 0 or rest_freedom <= 0:
+        return 1.0
+    return float(stats.f.sf((smooth / smooth_freedom) / (rest / rest_freedom), smooth_freedom, rest_freedom))

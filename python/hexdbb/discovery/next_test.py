@@ -1,0 +1,140 @@
+"""The next best test: the circle on which two explanations of the same readings would differ most.
+
+Two models that fit the records alike predict different readings elsewhere. Of their difference on a circle not run
+yet only what the model's other values cannot make up for counts: whitened with the covariance the fit leaves them,
+
+    power = d' (noise^2 I + J C J')^-1 d,
+
+its root is the distance of the two explanations in standard deviations that the circle is expected to show.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.circle import Circle
+from hexdbb.discovery.result import Candidate, NextTest
+from hexdbb.discovery.trial import Base
+from hexdbb.kinematics import inverse
+from hexdbb.model import Model
+from hexdbb.prediction import samples_of
+from hexdbb.record import Record
+
+Floats = NDArray[np.float64]
+
+SAMPLES_PER_LAP = 120
+READINGS_PER_SAMPLE = 10.0
+"""A real lap has at least ten times the readings tried here."""
+RADIUS_STEPS = (0.0, 0.995, -0.995)
+"""Off the nominal radius by this part of the gauge's range."""
+TILTS_DEG = (-12.0, 0.0, 12.0)
+YAWS_DEG = (-15.0, 0.0, 15.0)
+FEEDS_MM_MIN = (300.0, 1000.0, 3000.0)
+
+
+def next_test(base: Base, best: Candidate, other: Candidate) -> NextTest | None:
+    """Find the circle that tells two candidates apart best.
+
+    Returns
+    -------
+    NextTest or None
+        None where no circle in reach shows a difference of a standard deviation.
+    """
+    found: NextTest | None = None
+    free = np.flatnonzero(best.model.free)
+    prior = np.array([each.prior_sigma for each in best.model.parameters()])[free]
+    information = _information(base, best.model)[np.ix_(free, free)] + np.diag(prior**-2.0)
+    for circle, feed in _circles(base.records[0]):
+        record = _imagined(base.records[0], circle, feed)
+        if record is None:
+            continue
+        sigmas = _difference(base, record, (best.model, other.model), information)
+        if sigmas > max(1.0, 0.0 if found is None else found.expected_sigmas):
+            found = NextTest(_as_in_plan(circle), feed, sigmas, (best.effect, other.effect))
+    return found
+
+
+def _circles(like: Record) -> Iterator[tuple[Circle, float]]:
+    first = like.circles[0]
+    number = max(circle.id for circle in like.circles) + 1
+    range_mm = like.gauge.range_um / 1000.0
+    poses = [(roll, pitch, 0.0) for roll, pitch in itertools.product(TILTS_DEG, TILTS_DEG) if not (roll and pitch)]
+    poses += [(0.0, 0.0, yaw) for yaw in YAWS_DEG if yaw]
+    for step, rpy, plane, feed in itertools.product(
+        RADIUS_STEPS, poses, ((0.0, 0.0, 0.0), (8.0, 0.0, 0.0)), FEEDS_MM_MIN
+    ):
+        radius_mm = like.gauge.bar_length_mm + 0.5 * step * range_mm
+        changes = {"id": number, "radius_mm": radius_mm, "platform_rpy_deg": rpy, "plane_rpy_deg": plane}
+        yield first.model_copy(update=changes), feed
+
+
+def _imagined(like: Record, circle: Circle, feed_mm_min: float) -> Record | None:
+    """Give the record of a lap each way, readings zero; None where the circle is out of reach."""
+    count = 2 * SAMPLES_PER_LAP
+    turn = np.arange(SAMPLES_PER_LAP) / SAMPLES_PER_LAP
+    angle = 2.0 * np.pi * np.concatenate([turn, -turn])
+    cup = like.mount(circle.mount).cup_mm
+    sliders, status = inverse(like.machine, circle.poses(angle, cup), circle.platform_rpy_rad)
+    if status.any():
+        return None
+    lap_s = 2.0 * np.pi * circle.radius_mm / (feed_mm_min / 60.0)
+    columns: dict[str, NDArray[np.generic]] = {
+        "t_s": np.concatenate([turn, turn + 1.5]) * lap_s,
+        "circle": np.full(count, circle.id),
+        "sweep": np.repeat([0, 1], SAMPLES_PER_LAP),
+        "direction": np.repeat([1, -1], SAMPLES_PER_LAP),
+        "lap": np.zeros(count, dtype=int),
+        "angle_deg": np.degrees(angle),
+        "feed_mm_min": np.full(count, feed_mm_min),
+        "reading_um": np.zeros(count),
+    }
+    columns |= {f"s{k + 1}_mm": sliders[:, k] for k in range(6)}
+    if "temperature_c" in like.columns:
+        columns["temperature_c"] = np.full(count, float(np.mean(like.columns["temperature_c"])))
+    return replace(like, columns=columns, circles=(*like.circles, circle), path=None, whole_hash=like.content_hash())
+
+
+def _difference(base: Base, record: Record, models: tuple[Model, Model], information: Floats) -> float:
+    """Distance of two models' readings in standard deviations; `information` is what the records tell of the first's."""
+    first, second = models
+    try:
+        one = _core.predict(first.engine(), samples_of([record], first), want_jacobian=True)
+        other = _core.predict(second.engine(), samples_of([record], second))
+    except ValueError:
+        return 0.0
+    if one.first_failure >= 0 or other.first_failure >= 0:
+        return 0.0
+    difference: Floats = one.reading_mm - other.reading_mm
+    noise = base.noise.sigma_mm / np.sqrt(READINGS_PER_SAMPLE)
+    jacobian = one.jacobian[:, np.flatnonzero(first.free)]
+    explained = jacobian.T @ difference / noise**2
+    inner = information + jacobian.T @ jacobian / noise**2
+    power = float(difference @ difference) / noise**2 - float(explained @ np.linalg.solve(inner, explained))
+    return float(np.sqrt(max(power, 0.0)))
+
+
+def _information(base: Base, model: Model) -> Floats:
+    equations = _core.normal_equations(
+        model.engine(),
+        samples_of(base.records, model),
+        np.concatenate([record.reading_mm for record in base.records]),
+    )
+    information: Floats = equations.information / base.noise.sigma_mm**2
+    return information
+
+
+def _as_in_plan(circle: Circle) -> dict[str, object]:
+    return {
+        "id": circle.id,
+        "mount": circle.mount,
+        "radius_mm": circle.radius_mm,
+        "ball_offset_mm": list(circle.ball_offset_mm),
+        "plane_rpy_deg": list(circle.plane_rpy_deg),
+        "platform_rpy_deg": list(circle.platform_rpy_deg),
+    }

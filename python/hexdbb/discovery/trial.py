@@ -1,0 +1,105 @@
+"""Trying a candidate in earnest: the model with the effect, fitted nonlinearly, judged where it was not fitted.
+
+A screen to first order proposes; second-order geometry can look like a small bow of a guideway there. So every
+candidate that matters gets a fit of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from hexdbb import _core
+from hexdbb.diagnosis import Noise, evaluate_fit
+from hexdbb.discovery.result import Candidate, FittedParameter
+from hexdbb.model import Model, new_term
+from hexdbb.record import Record
+from hexdbb.units import shown_factor, shown_unit
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Base:
+    """The model a candidate must improve on, fitted to the same records."""
+
+    records: tuple[Record, ...]
+    model: Model
+    noise: Noise
+    squared: float
+    """Sum of squared residuals over the noise's variance."""
+    residual_mm: Floats
+
+    @property
+    def readings(self) -> int:
+        """Number of readings."""
+        return len(self.residual_mm)
+
+    @property
+    def excess(self) -> float:
+        """Chi-square beyond what noise alone leaves."""
+        return max(self.squared - self.readings, 1e-9)
+
+
+def fitted_base(records: Sequence[Record], model: Model, noise: Noise) -> Base:
+    """Fit a model's free values and keep what candidates are compared with."""
+    fitted, result = evaluate_fit(records, model, model.free, noise)
+    residual = result.residual_mm
+    return Base(tuple(records), fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
+
+
+def with_effect(model: Model, effect: str, elements: Sequence[str]) -> Model:
+    """Give the model with an effect's elements free as well, at zero; its other elements are held."""
+    present = {term.effect for term in model.terms}
+    if effect not in present:
+        model = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
+    freed = np.array([each.effect == effect and each.element in elements for each in model.parameters()])
+    return model.with_free(model.free | freed)
+
+
+def try_effect(base: Base, effect: str, elements: Sequence[str]) -> tuple[Candidate, _core.FitResult]:
+    """Fit the base's model with an effect; the p-value is not corrected for other candidates yet."""
+    wider = with_effect(base.model, effect, elements)
+    fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise)
+    squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
+    count = int((wider.free & ~with_effect(base.model, effect, ()).free).sum())
+    readings = base.readings / result.correlation
+    drop = (base.squared - squared) / result.correlation
+    candidate = Candidate(
+        effect=effect,
+        elements=tuple(elements),
+        rms_after_um=result.rms_after_mm * 1e3,
+        chi_square_drop=drop,
+        bic_drop=drop - count * float(np.log(readings)),
+        p_value=float(stats.chi2.sf(max(drop, 0.0), count)),
+        share=min(max((base.squared - squared) / base.excess, 0.0), 1.0),
+        values=_values(fitted, result, effect, elements),
+        model=fitted,
+    )
+    return candidate, result
+
+
+def holm(candidates: Sequence[Candidate], tried: int) -> list[Candidate]:
+    """Correct p-values for all candidates tried (Holm 1979), those only screened included."""
+    ordered = sorted(candidates, key=lambda each: each.p_value)
+    corrected, floor = [], 0.0
+    for rank, candidate in enumerate(ordered):
+        floor = max(floor, min(candidate.p_value * (tried - rank), 1.0))
+        corrected.append(replace(candidate, p_value=floor))
+    return corrected
+
+
+def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[FittedParameter, ...]:
+    spread = np.sqrt(np.diag(result.covariance))
+    rows = []
+    for index, each in enumerate(model.parameters()):
+        if each.effect == effect and each.element in elements:
+            factor = shown_factor(each.unit)
+            sigma = float(spread[index]) * factor
+            value = float(model.values[index]) * factor
+            rows.append(FittedParameter(each.element, each.name, value, sigma, shown_unit(each.unit)))
+    return tuple(rows)
