@@ -7,14 +7,14 @@ from functools import cache
 
 from tests.truth.simulate import Pace
 
-from hexdbb.plan import Circle, Mount, Plan, load_plan
+from hexdbb.plan import Mount, Plan, load_plan
 
 PACE = Pace(rate_hz=8.0, instants_per_sample=15, travel_s=10.0)
 """14,000 samples on the discovery plan; the mains' 50 Hz is no multiple of the rate."""
 
 OFF_RADIUS_MM = 0.6
 TILT_DEG = 8.0
-SECOND_CUP_MM = (8.0, -6.0, 325.0)
+SECOND_MOUNT = Mount(id=1, cup_mm=(8.0, -6.0, 325.0))
 
 
 @cache
@@ -53,10 +53,15 @@ def tilted_plan() -> Plan:
 
 @cache
 def two_mounts_plan() -> Plan:
-    """The last four circles about a cup that is fixed anew: between the two, the ball is set anew as well."""
+    """The circles twice, the second time about a cup that is fixed anew: between the two, the ball is set anew as well.
+
+    One lap each, so that it takes no longer than the others.
+    """
     plan = discovery_plan()
-    mount = Mount(id=1, cup_mm=SECOND_CUP_MM)
-    circles: list[Circle] = [
-        circle if circle.id < 3 else circle.model_copy(update={"mount": 1}) for circle in plan.circles
+    again = [
+        circle.model_copy(update={"id": len(plan.circles) + circle.id, "mount": SECOND_MOUNT.id})
+        for circle in plan.circles
     ]
-    return plan.model_copy(update={"mounts": (*plan.mounts, mount), "circles": tuple(circles)})
+    return plan.model_copy(
+        update={"mounts": (*plan.mounts, SECOND_MOUNT), "circles": (*plan.circles, *again), "laps": 1}
+    )

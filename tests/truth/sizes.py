@@ -30,7 +30,7 @@ third derivative, (step / leg)^2 = 1e-9."""
 THINNED = 3
 """Every third sample tells the root mean square as well; at a fourth of 8 Hz the mains' 50 Hz would stand still."""
 GEOMETRY_SIZE = 33
-CORRECTIONS = 3
+CORRECTIONS, NEAR_ENOUGH = 4, 0.002
 """Not every signature is proportional to its size; each round brings the size nearer."""
 
 
@@ -59,10 +59,14 @@ def sized(mechanism: MechanismTable, truth: TruthFile, plan: Plan, pace: Pace, t
         shown_um = signature_um(mechanism.scaled(factor), truth, plan, pace)
         if shown_um < INVISIBLE_UM:
             raise ValueError(f"{mechanism.kind}: geometry and set-up absorb it on this plan")
-        factor *= times_noise * truth.gauge.noise_um / shown_um
+        correction = times_noise * truth.gauge.noise_um / shown_um
+        factor *= correction
+        if abs(correction - 1.0) < NEAR_ENOUGH:
+            break
     return mechanism.scaled(factor)
 
 
+@lru_cache(maxsize=1024)
 def signature_um(mechanism: MechanismTable, truth: TruthFile, plan: Plan, pace: Pace) -> float:
     """Give the root mean square (um) that a mechanism adds to the readings beyond what geometry and set-up absorb."""
     thin = replace(pace, rate_hz=pace.rate_hz / THINNED, instants_per_sample=pace.instants_per_sample * THINNED)
