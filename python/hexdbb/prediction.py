@@ -90,6 +90,27 @@ def predict_reading_mm(record: Record, model: Model) -> Floats:
     return reading_mm
 
 
+def residual_mm(records: Sequence[Record], model: Model) -> Floats:
+    """Measured minus predicted readings of some records, one after another.
+
+    Parameters
+    ----------
+    records : sequence of Record
+        Of mounts the model knows.
+    model : Model
+
+    Returns
+    -------
+    ndarray, shape (n,)
+
+    Raises
+    ------
+    InputError
+        Naming the record and the first sample the model's machine cannot reach, or a machine that differs.
+    """
+    return np.concatenate([record.reading_mm - predict_reading_mm(record, model) for record in records])
+
+
 def _place(key: MountKey, model: Model, record: Record) -> int:
     if not model.mounts:
         return 0

@@ -38,6 +38,7 @@ ALLOWED: dict[str, set[str]] = {
     "redundancy": {"model", "structure"},
     "prediction": {"errors", "record", "kinematics", "model", "_core"},
     "diagnosis": {"errors", "units", "record", "model", "prediction", "redundancy", "_core"},
+    "ledger": {"errors", "units", "record", "model", "prediction", "diagnosis", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "record", "_core"},
     "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
     # which circles tell most
@@ -48,6 +49,7 @@ ALLOWED: dict[str, set[str]] = {
         "circle",
         "plan",
         "kinematics",
+        "identifiability",
         "model",
         "redundancy",
         "sensitivity",

@@ -5,6 +5,7 @@ from hexdbb.diagnosis.heldout import HeldOut, held_out
 from hexdbb.diagnosis.mounts import fit_mounts, with_mounts_fitted
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import KNOWN_PART, UNKNOWN_PART, Diagnosis
+from hexdbb.diagnosis.step import ledger_step
 
 __all__ = [
     "KNOWN_PART",
@@ -16,6 +17,7 @@ __all__ = [
     "evaluate_fit",
     "fit_mounts",
     "held_out",
+    "ledger_step",
     "noise_of",
     "refitter",
     "with_mounts_fitted",

@@ -14,9 +14,10 @@ from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import KNOWN_PART, Diagnosis, prior_sigmas, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
+from hexdbb.diagnosis.step import ledger_step
 from hexdbb.errors import InputError, RunError
-from hexdbb.model import LedgerStep, Model
-from hexdbb.prediction import mount_keys, samples_of
+from hexdbb.model import Model
+from hexdbb.prediction import mount_keys, residual_mm, samples_of
 from hexdbb.record import Record
 from hexdbb.redundancy import sentences
 
@@ -68,7 +69,12 @@ def evaluate_fit(
 
 
 def diagnose(
-    records: Sequence[Record], model: Model, *, robust: bool = False, check_held_out: bool = True
+    records: Sequence[Record],
+    model: Model,
+    *,
+    robust: bool = False,
+    check_held_out: bool = True,
+    against: tuple[Model, Refit] | None = None,
 ) -> Diagnosis:
     """Fit a model's free effects to records.
 
@@ -82,6 +88,9 @@ def diagnose(
         Let readings far off (a gauge glitch) count less.
     check_held_out : bool
         Fit again without each group of circles in turn and predict them, where there are two circles or more.
+    against : tuple of Model and callable, optional
+        What the held-out circles' error is compared with: a model and how it is fitted to the other circles. The start
+        as it is, where not given.
 
     Raises
     ------
@@ -102,10 +111,10 @@ def diagnose(
         first, lambda start: evaluate_fit(records, start, start.free, noise, robust=robust), noise.sigma_mm
     )
     _require_told(fitted, result, records)
-    checked = held_out(records, (known, as_it_is), (fitted, refitter(noise, robust))) if check_held_out else None
+    after = (fitted, refitter(noise, robust))
+    checked = held_out(records, against or (known, as_it_is), after) if check_held_out else None
     parameters = known.parameters()
-    names = tuple(record.name for record in records)
-    step = LedgerStep(len(model.ledger) + 1, "diagnose", first[1].rms_before_mm * 1e3, result.rms_after_mm * 1e3, names)
+    step = ledger_step("diagnose", model, records, (residual_mm(records, known), result.residual_mm), checked)
     unknown = unknown_directions(result.covariance, known, result.free_columns)
     return Diagnosis(
         model=replace(fitted, ledger=(*model.ledger, step)),

@@ -1,19 +1,25 @@
 """Models: a machine and a list of effects with their values; the file that holds them; the ledger of what was done."""
 
 from hexdbb.model.file import load_model, save_model
-from hexdbb.model.model import LedgerStep, Model, MountKey, Parameter, Term, default_effects, new_model, new_term
-from hexdbb.model.selection import parse_selection
+from hexdbb.model.ledger import LedgerStep, Size, State
+from hexdbb.model.model import Model, default_effects, effect_info, new_model
+from hexdbb.model.selection import parse_selection, split_choice
+from hexdbb.model.terms import MountKey, Parameter, Term, new_term
 
 __all__ = [
     "LedgerStep",
     "Model",
     "MountKey",
     "Parameter",
+    "Size",
+    "State",
     "Term",
     "default_effects",
+    "effect_info",
     "load_model",
     "new_model",
     "new_term",
     "parse_selection",
     "save_model",
+    "split_choice",
 ]

@@ -4,64 +4,22 @@ from __future__ import annotations
 
 import math
 import shutil
+from dataclasses import asdict, replace
 from pathlib import Path
-from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field
 
 from hexdbb.atomic_file import replacing
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
-from hexdbb.model.model import LedgerStep, Model, MountKey, Parameter, Term, effect_info
+from hexdbb.model.earlier import Describe, earlier_entry, earlier_state
+from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
+from hexdbb.model.ledger import LedgerStep, Size
+from hexdbb.model.model import Model, effect_info
+from hexdbb.model.shown import shown_value
+from hexdbb.model.terms import MountKey, Parameter, Term
 from hexdbb.units import shown_factor, shown_unit
-from hexdbb.validation import FileModel, NotNegative, Number, StrictModel, dump_toml, load_toml
-
-
-class ParameterEntry(StrictModel):
-    """One value of an effect in its unit; without `sigma` it is not known on its own, free it may be fitted."""
-
-    element: str
-    name: str
-    value: Number
-    unit: str
-    sigma: NotNegative | None = None
-    identifiable: bool = False
-    free: bool = True
-
-
-class EffectEntry(StrictModel):
-    """One effect with its values, element by element."""
-
-    name: str
-    parameters: tuple[ParameterEntry, ...] = Field(default=(), strict=False, alias="parameter")
-
-
-class MountEntry(StrictModel):
-    """A fixing of the cup: the record that has it, by the hash of its content, and its id there."""
-
-    record_sha256: str
-    id: int
-
-
-class StepEntry(StrictModel):
-    """One step of the ledger."""
-
-    step: int
-    what: str
-    rms_before_um: NotNegative
-    rms_after_um: NotNegative
-    records: Annotated[tuple[str, ...], Field(strict=False)] = ()
-
-
-class ModelFile(FileModel):
-    """A model file, validated."""
-
-    schema_id: Literal["hexdbb.model/1"] = Field(default="hexdbb.model/1", alias="schema")
-    machine: MachineFile
-    effects: tuple[EffectEntry, ...] = Field(default=(), strict=False, alias="effect")
-    mounts: tuple[MountEntry, ...] = Field(default=(), strict=False, alias="mount")
-    steps: tuple[StepEntry, ...] = Field(default=(), strict=False, alias="step")
+from hexdbb.validation import dump_toml, load_toml
 
 
 def load_model(path: Path | str) -> Model:
@@ -79,11 +37,7 @@ def load_model(path: Path | str) -> Model:
     names = [term.effect for term in terms]
     if len(set(names)) != len(names):
         raise InputError(f"{path}: effect: {', '.join(names)} (expected each effect once)")
-    ledger = tuple(
-        LedgerStep(entry.step, entry.what, entry.rms_before_um, entry.rms_after_um, entry.records)
-        for entry in file.steps
-    )
-    return Model(file.machine, terms, mounts, ledger, Path(path))
+    return replace(model, terms=terms, ledger=_ledger(file, mounts, str(path)), path=Path(path))
 
 
 def save_model(model: Model, path: Path | str) -> None:
@@ -96,20 +50,14 @@ def save_model(model: Model, path: Path | str) -> None:
     """
     place = Path(path)
     parameters = iter(model.parameters())
-    effects = tuple(_entry(term, [next(parameters) for _ in term.values]) for term in model.terms)
+    describe = _describe(model.machine)
     file = ModelFile(
         machine=model.machine,
-        effect=effects,
+        effect=tuple(_entry(term, [next(parameters) for _ in term.values]) for term in model.terms),
         mount=tuple(MountEntry(record_sha256=key.record_hash, id=key.mount_id) for key in model.mounts),
-        step=tuple(
-            StepEntry(
-                step=each.step,
-                what=each.what,
-                rms_before_um=each.rms_before_um,
-                rms_after_um=each.rms_after_um,
-                records=each.records,
-            )
-            for each in model.ledger
+        step=tuple(_step_entry(step) for step in model.ledger),
+        earlier=tuple(
+            earlier_entry(step.step, step.before, describe) for step in model.ledger if step.before is not None
         ),
     )
     with replacing(place) as temporary:
@@ -118,17 +66,40 @@ def save_model(model: Model, path: Path | str) -> None:
             shutil.copy2(place, place.with_suffix(".previous" + place.suffix))
 
 
+def _describe(machine: MachineFile) -> Describe:
+    return lambda mounts, effect: effect_info(machine, max(mounts, 1), effect)
+
+
+def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], path: str) -> tuple[LedgerStep, ...]:
+    describe = _describe(file.machine)
+    states = {
+        entry.before_step: earlier_state(entry, mounts, describe, f"{path}: earlier[{index}]")
+        for index, entry in enumerate(file.earlier)
+    }
+    return tuple(replace(_step(entry), before=states.get(entry.step)) for entry in file.steps)
+
+
+def _step(entry: StepEntry) -> LedgerStep:
+    fields = {name: getattr(entry, name) for name in StepEntry.model_fields if name != "sizes"}
+    return LedgerStep(**fields, sizes=tuple(Size(**size.model_dump()) for size in entry.sizes))
+
+
+def _step_entry(step: LedgerStep) -> StepEntry:
+    fields = {name: getattr(step, name) for name in StepEntry.model_fields if name != "sizes"}
+    return StepEntry(**fields, size=tuple(SizeEntry(**asdict(size)) for size in step.sizes))
+
+
 def _entry(term: Term, parameters: list[Parameter]) -> EffectEntry:
     entries = []
     for index, parameter in enumerate(parameters):
-        factor, sigma = shown_factor(parameter.unit), float(term.sigma[index])
+        sigma = float(term.sigma[index])
         entries.append(
             ParameterEntry(
                 element=parameter.element,
                 name=parameter.name,
-                value=float(term.values[index]) * factor,
+                value=shown_value(float(term.values[index]), parameter.unit),
                 unit=shown_unit(parameter.unit),
-                sigma=None if math.isnan(sigma) else sigma * factor,
+                sigma=None if math.isnan(sigma) else shown_value(sigma, parameter.unit),
                 identifiable=bool(term.identifiable[index]),
                 free=bool(term.free[index]),
             )

@@ -18,59 +18,8 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine
 from hexdbb.machine import MachineFile
-
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class MountKey:
-    """One fixing of the cup: every record's mounts count as fixings of their own."""
-
-    record_hash: str
-    mount_id: int
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """Name and nature of one value of a model."""
-
-    effect: str
-    element: str
-    name: str
-    unit: str
-    """Engine unit."""
-    prior_sigma: float
-    limit: float
-    is_set_up: bool
-
-    @property
-    def label(self) -> str:
-        """Name for people: effect, element, parameter."""
-        return f"{self.effect}:{self.element} {self.name}"
-
-
-@dataclass(frozen=True)
-class Term:
-    """One effect of a model with its values; `sigma` is nan where a value is not known on its own."""
-
-    effect: str
-    free: NDArray[np.bool_]
-    """Which values a diagnosis may change."""
-    values: Floats
-    sigma: Floats
-    identifiable: NDArray[np.bool_]
-
-
-@dataclass(frozen=True)
-class LedgerStep:
-    """One thing done to a model, to be read aloud."""
-
-    step: int
-    what: str
-    rms_before_um: float
-    rms_after_um: float
-    records: tuple[str, ...]
-    """Names of the records used."""
+from hexdbb.model.ledger import LedgerStep, State
+from hexdbb.model.terms import Floats, MountKey, Parameter, Term, new_term
 
 
 @dataclass(frozen=True)
@@ -96,6 +45,11 @@ class Model:
     def parameters(self) -> list[Parameter]:
         """Name every value, in the order of `values`."""
         return [parameter for term in self.terms for parameter in _parameters(self.info(term.effect))]
+
+    @property
+    def state(self) -> State:
+        """Effects and mounts as they stand, for the ledger to keep."""
+        return State(self.terms, self.mounts)
 
     @property
     def values(self) -> Floats:
@@ -190,11 +144,6 @@ def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Mod
         size = effect_info(machine, 1, name).size
         terms.append(new_term(name, size, free=free))
     return Model(machine, tuple(terms))
-
-
-def new_term(effect: str, size: int, *, free: bool = True) -> Term:
-    """Make a term with all values zero and nothing known of them."""
-    return Term(effect, np.full(size, free), np.zeros(size), np.full(size, np.nan), np.zeros(size, bool))
 
 
 def _parameters(info: _core.EffectInfo) -> list[Parameter]:

@@ -1,0 +1,101 @@
+"""`hexdbb add`: one effect more in a model, everything fitted again, the fall of the error shown."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.consoles import output_console
+from hexdbb.cli.existing_model import existing_model
+from hexdbb.diagnosis import Diagnosis
+from hexdbb.ledger import add_effect, with_effect
+from hexdbb.ledger.history import step_json
+from hexdbb.ledger.words import PLACES, arrow
+from hexdbb.model import LedgerStep, save_model
+from hexdbb.record import read_record
+
+
+@click.command("add")
+@click.argument("effect", metavar="EFFECT[:ELEMENT...]")
+@click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option(
+    "-m",
+    "--model",
+    "model_path",
+    required=True,
+    metavar="MODEL",
+    type=click.Path(path_type=Path),
+    help="Model file, as diagnose makes; it gains the effect.",
+)
+@click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+def command(effect: str, records: tuple[Path, ...], model_path: Path, robust: bool, as_json: bool) -> None:
+    """Add EFFECT, or some ELEMENTs of it, to a model, fit everything that is free to RECORD..., show the fall.
+
+    The error before is that of the model without the effect, fitted to the same readings. Held-out circles are
+    predicted by fits that have not seen them. `hexdbb undo` takes the step back.
+
+    \b
+    Examples:
+      hexdbb add backlash:4 -m model.toml today.parquet
+      hexdbb add backlash:2:4 -m model.toml today.parquet yesterday.csv
+      hexdbb add pitch_cyclic -m model.toml today.parquet --json
+    """
+    refuse_existing(model_path, overwrite=True)
+    model = existing_model(model_path)
+    with_effect(model, effect)  # a name that is not known is said before records are read
+    messages = Console(stderr=True, soft_wrap=True, highlight=False)
+    with messages.status("reading records"):
+        read = [read_record(path) for path in records]
+    with messages.status(f"adding {effect}: fitting with and without it, and to all circles but some"):
+        changed, found = add_effect(read, model, effect, robust=robust)
+    save_model(changed, model_path)
+    if as_json:
+        click.echo(json.dumps(added_json(found), indent=2, allow_nan=False))
+    else:
+        print_added(found, output_console())
+    messages.print(f"{model_path}: {effect} added (step {changed.ledger[-1].step})", markup=False)
+
+
+def added_json(found: Diagnosis) -> dict[str, Any]:
+    """Give the object ``hexdbb add --json`` prints: the step, and what to beware of."""
+    return {**step_json(found.model.ledger[-1]), "warnings": list(found.warnings)}
+
+
+def print_added(found: Diagnosis, console: Console) -> None:
+    """Print what an effect did to the error, and how large it was found to be."""
+    step = found.model.ledger[-1]
+    console.print(fall_line(step))
+    if step.peak_to_valley_before_um is not None and step.peak_to_valley_after_um is not None:
+        peaks = f"{step.peak_to_valley_before_um:.1f} µm -> {step.peak_to_valley_after_um:.1f} µm"
+        console.print(f"peak to valley {peaks}, noise of one reading {found.noise.sigma_mm * 1e3:.2f} µm")
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for heading in ("effect", "element", "parameter"):
+        table.add_column(heading)
+    for heading in ("value", "± 1 sigma"):
+        table.add_column(heading, justify="right")
+    table.add_column("unit")
+    for index, size in enumerate(step.sizes):
+        places = PLACES.get(size.unit, ".4g")
+        sigma = "~" if size.sigma is None else f"{size.sigma:{places}}"
+        name = "" if index else step.effect
+        table.add_row(name, size.element, size.name, f"{size.value:{places}}", sigma, size.unit)
+    console.print(table)
+    if any(size.sigma is None for size in step.sizes):
+        console.print("~: known only in combination with others.")
+    for warning in found.warnings:
+        console.print(f"warning: {warning}", style="yellow", markup=False, soft_wrap=True)
+
+
+def fall_line(step: LedgerStep) -> str:
+    """Give the fall in one line: ``6.83 µm -> 0.61 µm (held-out circles 6.90 -> 0.63)``."""
+    line = f"{step.rms_before_um:.2f} µm -> {step.rms_after_um:.2f} µm"
+    if step.heldout_before_um is None or step.heldout_after_um is None:
+        return f"{line} (one circle only: none can be held out)"
+    return f"{line} (held-out circles {arrow(step.heldout_before_um, step.heldout_after_um)})"

@@ -1,0 +1,34 @@
+"""`hexdbb history`: what was done to a model, step by step."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+from hexdbb.cli.existing_model import existing_model
+from hexdbb.ledger import history
+
+
+@click.command("history")
+@click.option(
+    "-m",
+    "--model",
+    "model_path",
+    required=True,
+    metavar="MODEL",
+    type=click.Path(path_type=Path),
+    help="Model file.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+def command(model_path: Path, as_json: bool) -> None:
+    """Read out a model's ledger: each step, the effect, its size, and the error before and after.
+
+    \b
+    Examples:
+      hexdbb history -m model.toml
+      hexdbb history -m model.toml --json
+    """
+    found = history(existing_model(model_path))
+    click.echo(json.dumps(found.to_json(), indent=2, allow_nan=False) if as_json else found.text)

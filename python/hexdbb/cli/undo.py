@@ -1,0 +1,49 @@
+"""`hexdbb undo`: take back what was last done to a model."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.existing_model import existing_model
+from hexdbb.ledger import undo
+from hexdbb.ledger.history import step_json
+from hexdbb.ledger.words import deed
+from hexdbb.model import save_model
+
+
+@click.command("undo")
+@click.option(
+    "-m",
+    "--model",
+    "model_path",
+    required=True,
+    metavar="MODEL",
+    type=click.Path(path_type=Path),
+    help="Model file; its last step is taken back.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+def command(model_path: Path, as_json: bool) -> None:
+    """Give a model back as it was before the last step: a diagnosis, an effect added.
+
+    The model's file keeps every earlier state, so undo can be repeated down to the first step.
+
+    \b
+    Examples:
+      hexdbb undo -m model.toml
+      hexdbb history -m model.toml
+    """
+    refuse_existing(model_path, overwrite=True)
+    model = existing_model(model_path)
+    earlier = undo(model)
+    save_model(earlier, model_path)
+    last = model.ledger[-1]
+    if as_json:
+        undone = {"undone": step_json(last), "steps_left": len(earlier.ledger)}
+        click.echo(json.dumps(undone, indent=2, allow_nan=False))
+        return
+    click.echo(f"undone: step {last.step}, which {deed(last)}")
+    click.echo(f"{len(earlier.ledger)} step{'' if len(earlier.ledger) == 1 else 's'} left in the ledger")

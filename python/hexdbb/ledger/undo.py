@@ -1,0 +1,29 @@
+"""Taking back what was last done to a model."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hexdbb.errors import InputError
+from hexdbb.model import Model
+
+
+def undo(model: Model) -> Model:
+    """Give a model as it was before the last step of its ledger.
+
+    The model's file holds every earlier state, so this can be done as often as there are steps.
+
+    Raises
+    ------
+    InputError
+        Where the ledger is empty, or its last step has no earlier state.
+    """
+    if not model.ledger:
+        raise InputError(f"{model.name}: nothing to undo (expected a model with a step in its ledger)")
+    last = model.ledger[-1]
+    if last.before is None:
+        raise InputError(
+            f"{model.name}: step {last.step} ({last.what}) cannot be undone: the model before it was not kept"
+            " (expected an [[earlier]] section)"
+        )
+    return replace(model, terms=last.before.terms, mounts=last.before.mounts, ledger=model.ledger[:-1])

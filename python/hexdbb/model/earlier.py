@@ -1,0 +1,81 @@
+"""Earlier states of a model in its file: what each step of the ledger found, kept to be given back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.errors import InputError
+from hexdbb.model.entries import EarlierEffectEntry, EarlierEntry
+from hexdbb.model.ledger import State
+from hexdbb.model.shown import engine_values, shown_values, units_of
+from hexdbb.model.terms import MountKey, Term
+
+Describe = Callable[[int, str], _core.EffectInfo]
+"""Describes an effect, given the number of mounts and its name."""
+
+
+def earlier_entry(step: int, state: State, describe: Describe) -> EarlierEntry:
+    """Put the state before a step into the form of the file."""
+    count = len(state.mounts)
+    effects = tuple(_entry(term, units_of(describe(count, term.effect))) for term in state.terms)
+    return EarlierEntry(before_step=step, mounts=count, effect=effects)
+
+
+def earlier_state(entry: EarlierEntry, mounts: Sequence[MountKey], describe: Describe, where: str) -> State:
+    """Read the state before a step.
+
+    Raises
+    ------
+    InputError
+        More mounts than the file has, an effect that is not known, or values that are not as many as it has.
+    """
+    if entry.mounts > len(mounts):
+        raise InputError(f"{where}.mounts: {entry.mounts} (expected at most {len(mounts)}, as many as the file has)")
+    terms = []
+    for index, effect in enumerate(entry.effects):
+        place = f"{where}.effect[{index}]"
+        try:
+            units = units_of(describe(entry.mounts, effect.name))
+        except InputError as error:
+            raise InputError(f"{place}.name: {error}") from None
+        terms.append(_term(effect, units, place))
+    return State(tuple(terms), tuple(mounts[: entry.mounts]))
+
+
+def _entry(term: Term, units: Sequence[str]) -> EarlierEffectEntry:
+    unknown = bool(np.isnan(term.sigma).all())
+    return EarlierEffectEntry(
+        name=term.effect,
+        values=shown_values(term.values, units),
+        sigma=None if unknown else shown_values(term.sigma, units),
+        identifiable=_flags(term.identifiable) if term.identifiable.any() else None,
+        free=None if term.free.all() else _flags(term.free),
+    )
+
+
+def _term(entry: EarlierEffectEntry, units: Sequence[str], where: str) -> Term:
+    size = len(units)
+    for key in ("values", "sigma", "identifiable", "free"):
+        given = getattr(entry, key)
+        if given is not None and len(given) != size:
+            raise InputError(f"{where}.{key}: {len(given)} values (expected {size}, as {entry.name} has)")
+    sigma = np.full(size, np.nan) if entry.sigma is None else engine_values(entry.sigma, units)
+    return Term(
+        effect=entry.name,
+        free=_array(entry.free, size, left_out=True),
+        values=engine_values(entry.values, units),
+        sigma=sigma,
+        identifiable=_array(entry.identifiable, size, left_out=False),
+    )
+
+
+def _flags(values: NDArray[np.bool_]) -> tuple[bool, ...]:
+    return tuple(bool(each) for each in values)
+
+
+def _array(flags: tuple[bool, ...] | None, size: int, *, left_out: bool) -> NDArray[np.bool_]:
+    return np.full(size, left_out) if flags is None else np.array(flags, dtype=bool)
