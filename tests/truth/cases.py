@@ -186,9 +186,10 @@ class Case:
         """The machine, with what is hidden in it."""
         return random_truth(self.seed).model_copy(update={"mechanism": tuple(each.mechanism for each in self.hidden)})
 
-    def record(self, temperature: bool = False) -> Record:
-        """Measure it; with a thermometer, where wanted."""
-        return simulate(self.truth, self.plan, pace=self.pace, temperature=temperature)
+    def record(self, temperature: bool | None = None) -> Record:
+        """Measure it; with a thermometer in every second seed where nothing is said, whatever is hidden."""
+        read = bool(self.seed % 2) if temperature is None else temperature
+        return simulate(self.truth, self.plan, pace=self.pace, temperature=read)
 
     def _drawn(self, kind: str) -> MechanismTable:
         # By name, so that a kind draws the same whatever else is hidden, and on every machine.

@@ -1,7 +1,7 @@
 """Write cases as the text form that any program can read: `python -m tests.truth.write CASE... -o FOLDER`.
 
-Each case becomes NAME.csv and NAME.toml with its machine, as a stranger's program would write them, and NAME.truth.toml,
-which `hexdbb rig --truth` takes as well: the same hidden machine on the bus. What is hidden is printed.
+Each case becomes NAME.csv and NAME.toml with its machine, as a stranger's program would write them, and
+NAME.truth.toml, which `hexdbb rig --truth` takes as well: the same machine on the bus. What is hidden is printed.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from hexdbb.validation import dump_toml
 @click.command(help=__doc__)
 @click.argument("names", metavar="CASE...", nargs=-1)
 @click.option("-o", "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder.")
-@click.option("--temperature", is_flag=True, help="Record a thermometer.")
+@click.option("--temperature/--no-temperature", default=None, help="Record a thermometer. [in every second seed]")
 @click.option("--suffix", type=click.Choice([".csv", ".parquet"]), default=".csv", help="Form of the records.")
 @click.option("--list", "listed", is_flag=True, help="Name all cases and write nothing.")
-def main(names: tuple[str, ...], output: Path | None, temperature: bool, suffix: str, listed: bool) -> None:
+def main(names: tuple[str, ...], output: Path | None, temperature: bool | None, suffix: str, listed: bool) -> None:
     if listed:
         click.echo("\n".join(each.name for each in every()))
         return
@@ -38,7 +38,7 @@ def main(names: tuple[str, ...], output: Path | None, temperature: bool, suffix:
         click.echo(f"{output / each.name}{suffix}: {described(each)}")
 
 
-def write_case(each: Case, folder: Path, temperature: bool = False, suffix: str = ".csv") -> Path:
+def write_case(each: Case, folder: Path, temperature: bool | None = None, suffix: str = ".csv") -> Path:
     """Write a case's record and its truth; give the record's path."""
     path = folder / f"{each.name}{suffix}"
     write_record(each.record(temperature), path, overwrite=True)
