@@ -5,6 +5,7 @@ from hexdbb.planning.clearances import Clearances, Demands, circle_clearances
 from hexdbb.planning.criteria import CRITERIA
 from hexdbb.planning.detectable import Detectable, detectable_sizes
 from hexdbb.planning.information import unknowns_of
+from hexdbb.planning.picture import spectrum_figure
 from hexdbb.planning.proposal import Question, propose
 
 __all__ = [
@@ -18,5 +19,6 @@ __all__ = [
     "circle_clearances",
     "detectable_sizes",
     "propose",
+    "spectrum_figure",
     "unknowns_of",
 ]

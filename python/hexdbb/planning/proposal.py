@@ -20,7 +20,7 @@ from hexdbb.plan import Plan
 from hexdbb.planning.candidates import Candidate, Grid, grid_candidates, neighbours, other_radii, within_reach
 from hexdbb.planning.clearances import Demands
 from hexdbb.planning.criteria import Criterion, criterion
-from hexdbb.planning.exchange import Choice, Progress, Search, is_better
+from hexdbb.planning.exchange import Choice, Chosen, Progress, Search, is_better
 from hexdbb.planning.information import Information, Unknowns, information_of
 from hexdbb.trajectory import plan_programme
 
@@ -28,7 +28,8 @@ STEPS_DEG = (6.0, 3.0, 1.0)
 """Of the refinement, off a grid of 6 degrees and more."""
 MOST_PASSES = 10
 MOST_REFINED = 6
-"""So many of the grid's best choices are refined: the best on the grid need not be the best off it."""
+"""So many of the grid's best choices are refined for each number of cups: the best on the grid need not be the best off
+it."""
 START = "D"
 """Criterion of the greedy start: it tells few circles apart where the smallest singular value is still zero."""
 
@@ -90,11 +91,20 @@ def propose(question: Question, progress: Progress) -> Plan:
     judge, start = (criterion(name, question.unknowns.wanted, whole) for name in (question.criterion, START))
     search = Search(information, judge)
     ranked = search.ranked(question.circles, min(question.most_mounts, question.circles), start, progress)
+    hopeful = _hopeful(ranked)
     refined = []
-    for number, chosen in enumerate(ranked[:MOST_REFINED]):
-        progress(f"refining choice {number + 1} of {min(len(ranked), MOST_REFINED)}")
+    for number, chosen in enumerate(hopeful):
+        progress(f"refining choice {number + 1} of {len(hopeful)}")
         refined.append(_refined([pools[mount][place] for mount, place in chosen.circles], judge, question))
     return _driven(_best(refined, judge, question), question, progress)
+
+
+def _hopeful(ranked: Sequence[Chosen]) -> list[Chosen]:
+    """Give the best choices of each number of cups, fewest cups first, so that more cups must earn their place."""
+    by_cups: dict[int, list[Chosen]] = {}
+    for each in ranked:
+        by_cups.setdefault(len({mount for mount, _ in each.circles}), []).append(each)
+    return [each for _, found in sorted(by_cups.items()) for each in found[:MOST_REFINED]]
 
 
 def _best(choices: Sequence[list[Candidate]], judge: Criterion, question: Question) -> list[Candidate]:
