@@ -34,7 +34,8 @@ system:
 	@PYTHON=$(PYTHON) .ci/scripts/system_packages.sh
 
 $(VENV)/.dependencies: pyproject.toml .ci/scripts/requirements.py | system
-	@$(STEP) "Virtual environment in $(VENV)" $(PYTHON) -m venv $(VENV)
+	@$(BIN)/python -m pip --version >/dev/null 2>&1 || \
+	  $(STEP) "Virtual environment in $(VENV)" $(PYTHON) -m venv --clear $(VENV)
 	@$(BIN)/python .ci/scripts/requirements.py > $(VENV)/requirements.txt
 	@$(STEP) "Python packages" $(PIP_INSTALL) --requirement $(VENV)/requirements.txt
 	@touch $@
