@@ -22,7 +22,8 @@ IH, LEG = MACHINE.platform.joint_plane_height_mm, MACHINE.legs.length_mm
 HOME = np.array([0.0, 0.0, 280.0])
 PERFECT = SetupErrors({}, (0.0, 0.0, 0.0), 0.0)
 SETUP = Mounted(0, (0.0, 0.0, 340.0), (0.0, 0.0, 60.0), 100.0)
-position = st.tuples(st.floats(-100, 100), st.floats(-100, 100), st.floats(260, 300)).map(np.array)
+# Within reach in every orientation of `angles`: 90 mm to the side, joints below 330 mm.
+position = st.tuples(st.floats(-63, 63), st.floats(-63, 63), st.floats(260, 285)).map(np.array)
 angles = st.tuples(*[st.floats(-0.15, 0.15)] * 3)
 
 
