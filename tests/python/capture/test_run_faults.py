@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import pyarrow as pa
 import pytest
 
 from hexdbb.capture.cia402 import State
@@ -137,11 +138,19 @@ def test_what_is_wrong_before_motion_is_refused_and_nothing_moves(
 
 
 def wait_for_samples(process: subprocess.Popen[str], record: Path) -> None:
-    """Wait until the journal holds samples."""
+    """Wait until the journal holds samples, which it does some time after it is there."""
     journal = record.with_name(record.name + ".journal")
-    while not (journal.exists() and journal.stat().st_size):
+    while not holds_a_batch(journal):
         assert process.poll() is None, process.communicate()[1]
         time.sleep(0.02)
+
+
+def holds_a_batch(journal: Path) -> bool:
+    try:
+        with pa.ipc.open_stream(journal.read_bytes()) as stream:
+            return stream.read_next_batch().num_rows > 0
+    except (OSError, StopIteration, pa.ArrowInvalid):
+        return False
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
