@@ -14,7 +14,7 @@ from hexdbb.identifiability import Observability, observability
 from hexdbb.machine import shipped
 from hexdbb.model import new_model
 from hexdbb.plan import Plan, load_plan
-from hexdbb.planning import Demands, circle_clearances
+from hexdbb.planning import Demands, Grid, Question, circle_clearances, propose, unknowns_of
 from hexdbb.sensitivity import plan_sensitivity
 from hexdbb.trajectory import plan_programme
 
@@ -98,6 +98,23 @@ def test_a_coarse_search_finds_better_circles_than_standard_and_the_same_each_ti
     assert found.o3 > standard.o3
 
 
+def test_circles_about_two_cups_stand_cup_by_cup() -> None:
+    """Two circles are within reach about each of two cups, and four are wanted."""
+    like = load_plan("standard")
+    machine = like.machine_file()
+    grid = Grid(
+        heights=(0.0,), places=(0.0, 0.2), place_azimuths=(30.0,), tilts=(0.0,), yaws=(-15.0, 15.0), plane_tilts=(0.0,)
+    )
+    unknowns = unknowns_of(new_model(machine), None, 0.5e-3, RATE_HZ)
+    said: list[str] = []
+    plan = propose(Question(like, machine, unknowns, circles=4, most_mounts=2, grid=grid), said.append)
+    assert sorted(mount.cup_mm for mount in plan.mounts) == [(0.0, 0.0, 340.0), (17.32, 10.0, 340.0)]
+    assert [circle.mount for circle in plan.circles] == [0, 0, 1, 1]
+    assert [circle.id for circle in plan.circles] == [0, 1, 2, 3]
+    assert said
+    plan_programme(plan, machine, 1.0 / RATE_HZ, "two cups")
+
+
 def test_each_criterion_wins_by_its_own_measure(tmp_path: Path) -> None:
     volume, smallest = (
         seen(proposed(tmp_path / f"{name}.toml", "--circles", "6", "--criterion", name)) for name in ("D", "minmax")
@@ -135,7 +152,7 @@ def test_the_file_names_its_machine_from_where_it_stands(tmp_path: Path) -> None
         (["--circles", "3", "--criterion", "E"], r"^criterion E: not known \(expected one of D, minmax\)$"),
         (["--circles", "3", "--aim", "rust"], r'^no effect is called "rust" \(known: leg_length, '),
         (["--circles", "3", "--like", "none"], r"^none: no such file"),
-        (["--circles", "999"], r"^circles 999: no cup place has so many candidates within reach"),
+        (["--circles", "999"], r"^circles 999: not so many candidates about 1 cup places"),
     ],
 )
 def test_what_cannot_be_proposed_is_one_line_and_writes_nothing(

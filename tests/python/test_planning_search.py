@@ -115,7 +115,7 @@ def test_exchange_comes_to_the_best_of_all_choices_or_near_it(name: str, seed: i
     whole = information[0].total(range(12)).told()[0]
     judge, start = (criterion(each, np.ones(4, bool), whole) for each in (name, "D"))
     search = Search(information, judge)
-    best = search.ranked(3, 1, start, lambda _: None)[0]
+    best = search.rounds(3, 1, start, lambda _: None)[0][0]
     every = sorted(search.score([(0, place) for place in places]) for places in combinations(range(12), 3))
     assert best.score == pytest.approx(search.score(best.circles))
     assert len(set(best.circles)) == 3
@@ -131,7 +131,7 @@ def test_another_cup_place_is_taken_only_where_it_is_allowed_and_better() -> Non
     whole = np.sum([each.total(range(5)).told()[0] for each in information], axis=0)
     judge = criterion("D", np.ones(4, bool), whole)
     search = Search(information, judge)
-    one, two = (search.ranked(4, mounts, judge, lambda _: None)[0] for mounts in (1, 2))
+    one, two = (search.rounds(4, mounts, judge, lambda _: None)[-1][0] for mounts in (1, 2))
     assert len({mount for mount, _ in one.circles}) == 1
     assert len({mount for mount, _ in two.circles}) <= 2
     assert two.score >= one.score
@@ -139,8 +139,8 @@ def test_another_cup_place_is_taken_only_where_it_is_allowed_and_better() -> Non
 
 def test_too_many_circles_are_refused() -> None:
     judge = criterion("D", np.ones(4, bool), np.eye(4))
-    with pytest.raises(InputError, match=r"^circles 6: no cup place has so many"):
-        Search([random_information(5, 4, 0)], judge).ranked(6, 1, judge, lambda _: None)
+    with pytest.raises(InputError, match=r"^circles 6: not so many candidates about 1 cup places"):
+        Search([random_information(5, 4, 0)], judge).rounds(6, 1, judge, lambda _: None)
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ class Search:
         """Score one choice."""
         return float(self.criterion(self._told(circles)[None])[0])
 
-    def ranked(self, count: int, most_mounts: int, start: Criterion, progress: Progress) -> list[Chosen]:
+    def rounds(self, count: int, most_mounts: int, start: Criterion, progress: Progress) -> list[list[Chosen]]:
         """Choose circles, in as many ways as cup places were tried.
 
         Parameters
@@ -62,35 +62,36 @@ class Search:
 
         Returns
         -------
-        list of Chosen
-            The best first, none twice.
+        list of list of Chosen
+            With at most one cup place, at most two and so on; in each the best first, none twice.
 
         Raises
         ------
         InputError
             Where no cup place has so many circles.
         """
-        found: list[Chosen] = []
+        rounds: list[list[Chosen]] = []
         pool: tuple[int, ...] = ()
         best = -np.inf
         for _ in range(most_mounts):
             tried = [(*pool, mount) for mount in range(len(self.information)) if mount not in pool]
-            reached = best
+            found: list[tuple[Chosen, tuple[int, ...]]] = []
             for number, mounts in enumerate(tried):
                 progress(f"{len(mounts)} of at most {most_mounts} cup places: trying {number + 1} of {len(tried)}")
                 chosen = self._exchanged(self._greedy(mounts, count, start), mounts)
-                if chosen is None:
-                    continue
-                found.append(chosen)
-                if is_better(chosen.score, reached):
-                    reached, pool = chosen.score, mounts
-            if reached == best:
+                if chosen is not None:
+                    found.append((chosen, mounts))
+            if tried and not found:  # too few circles about these cups: the one with most, and another to come
+                pool = max(tried, key=lambda mounts: len(self.information[mounts[-1]]))
+                continue
+            found.sort(key=lambda each: -each[0].score)
+            if not found or not is_better(found[0][0].score, best):
                 break
-            best = reached
-        if not found:
-            raise InputError(f"circles {count}: no cup place has so many candidates within reach (expected fewer)")
-        found.sort(key=lambda each: -each.score)
-        return list({frozenset(each.circles): each for each in reversed(found)}.values())[::-1]
+            rounds.append(list({frozenset(chosen.circles): chosen for chosen, _ in reversed(found)}.values())[::-1])
+            best, pool = found[0][0].score, found[0][1]
+        if not rounds:
+            raise InputError(f"circles {count}: not so many candidates about {most_mounts} cup places (expected fewer)")
+        return rounds
 
     def _greedy(self, mounts: Sequence[int], count: int, start: Criterion) -> tuple[Choice, ...] | None:
         chosen: tuple[Choice, ...] = ()

@@ -20,7 +20,7 @@ from hexdbb.plan import Plan
 from hexdbb.planning.candidates import Candidate, Grid, grid_candidates, neighbours, other_radii, within_reach
 from hexdbb.planning.clearances import Demands
 from hexdbb.planning.criteria import Criterion, criterion
-from hexdbb.planning.exchange import Choice, Chosen, Progress, Search, is_better
+from hexdbb.planning.exchange import Choice, Progress, Search, is_better
 from hexdbb.planning.information import Information, Unknowns, information_of
 from hexdbb.trajectory import plan_programme
 
@@ -90,21 +90,14 @@ def propose(question: Question, progress: Progress) -> Plan:
     whole = sum((each.total(range(len(each))).told()[0] for each in information), np.zeros(()))
     judge, start = (criterion(name, question.unknowns.wanted, whole) for name in (question.criterion, START))
     search = Search(information, judge)
-    ranked = search.ranked(question.circles, min(question.most_mounts, question.circles), start, progress)
-    hopeful = _hopeful(ranked)
+    rounds = search.rounds(question.circles, min(question.most_mounts, question.circles), start, progress)
+    # Fewest cups first, so that more cups must earn their place.
+    hopeful = list(dict.fromkeys(chosen for ranked in rounds for chosen in ranked[:MOST_REFINED]))
     refined = []
     for number, chosen in enumerate(hopeful):
         progress(f"refining choice {number + 1} of {len(hopeful)}")
         refined.append(_refined([pools[mount][place] for mount, place in chosen.circles], judge, question))
     return _driven(_best(refined, judge, question), question, progress)
-
-
-def _hopeful(ranked: Sequence[Chosen]) -> list[Chosen]:
-    """Give the best choices of each number of cups, fewest cups first, so that more cups must earn their place."""
-    by_cups: dict[int, list[Chosen]] = {}
-    for each in ranked:
-        by_cups.setdefault(len({mount for mount, _ in each.circles}), []).append(each)
-    return [each for _, found in sorted(by_cups.items()) for each in found[:MOST_REFINED]]
 
 
 def _best(choices: Sequence[list[Candidate]], judge: Criterion, question: Question) -> list[Candidate]:
