@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from hexdbb.identifiability import Observability
 
@@ -22,6 +23,7 @@ def spectrum_figure(plans: Mapping[str, Observability]) -> Figure:
         seen = found.singular_values[: found.rank]
         label = f"{name}: rank {found.rank}, condition {found.condition:.0f}"
         axes.semilogy(np.arange(1, found.rank + 1), 1e3 * seen, "o-", markersize=4, label=label)
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.set_xlabel("combination of errors, best told first")
     axes.set_ylabel("reading error, RMS (µm)\nper expected size of the combination")
     axes.grid(which="both", color="0.88", linewidth=0.6)
