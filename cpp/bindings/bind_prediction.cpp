@@ -1,5 +1,6 @@
 #include "bindings.hpp"
 #include "hexdbb/prediction.hpp"
+#include "hexdbb/tabulated_effect.hpp"
 
 namespace hexdbb::bindings {
 
@@ -7,38 +8,33 @@ namespace py = pybind11;
 
 namespace {
 
-Samples make_samples(const Eigen::Matrix<double, Eigen::Dynamic, kLegs>& sliders_mm, const Eigen::VectorXi& set_up,
-                     const Eigen::VectorXi& mount, std::vector<SetUp> set_ups) {
-  Samples samples{sliders_mm, set_up, mount, std::move(set_ups)};
-  samples.validate();
-  return samples;
+void add_tabulated(Model& model, EffectInfo info, const std::vector<int>& values, const std::vector<int>& ports,
+                   const Eigen::MatrixXd& per_unit) {
+  if (values.size() != ports.size() || per_unit.cols() != static_cast<Eigen::Index>(ports.size())) {
+    throw std::invalid_argument("values, ports and the columns of per_unit differ in number");
+  }
+  std::vector<TabulatedLink> links;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    links.push_back({values[j], ports[j], per_unit.col(static_cast<Eigen::Index>(j))});
+  }
+  model.add(std::make_shared<TabulatedEffect>(std::move(info), std::move(links)));
 }
 
 }  // namespace
 
 void bind_prediction(py::module_& module) {
-  py::class_<SetUp>(module, "SetUp", "One fixing of the bar: nominal cup, ball and bar length.")
-      .def(py::init([](const Vector3& cup_mm, const Vector3& ball_offset_mm, double bar_length_mm) {
-             return SetUp{cup_mm, ball_offset_mm, bar_length_mm};
-           }),
-           py::kw_only(), py::arg("cup_mm"), py::arg("ball_offset_mm"), py::arg("bar_length_mm"))
-      .def_readonly("cup_mm", &SetUp::cup_mm)
-      .def_readonly("ball_offset_mm", &SetUp::ball_offset_mm)
-      .def_readonly("bar_length_mm", &SetUp::bar_length_mm);
-
-  py::class_<Samples>(module, "Samples", "State of a record's samples, one row each.")
-      .def(py::init(&make_samples), py::kw_only(), py::arg("sliders_mm"), py::arg("set_up"), py::arg("mount"),
-           py::arg("set_ups"))
-      .def_property_readonly("size", &Samples::size);
-
   py::class_<Model>(module, "Model", "A machine and a list of effects with their values.")
       .def(py::init<const Machine&>(), py::arg("machine"))
       .def(
           "add",
-          [](Model& model, const std::string& name, int mounts) {
-            model.add(find_effect(model.nominal.machine, mounts, name));
+          [](Model& model, const std::string& name, int mounts, int circles) {
+            model.add(find_effect(model.nominal.machine, mounts, name, circles));
           },
-          py::arg("name"), py::arg("mounts"), "Append the effect of that name with all values zero.")
+          py::arg("name"), py::arg("mounts"), py::arg("circles") = 1,
+          "Append the effect of that name with all values zero.")
+      .def("add_tabulated", &add_tabulated, py::arg("info"), py::kw_only(), py::arg("values"), py::arg("ports"),
+           py::arg("per_unit"),
+           "Append an effect whose value values[j] pushes port ports[j] by per_unit[:, j], a row a sample.")
       .def_property("values", &Model::values,
                     [](Model& model, const Eigen::VectorXd& values) {
                       if (values.size() != model.size()) {

@@ -11,6 +11,7 @@ namespace hexdbb::bindings {
 void bind_machine(pybind11::module_& module);
 void bind_kinematics(pybind11::module_& module);
 void bind_effects(pybind11::module_& module);
+void bind_samples(pybind11::module_& module);
 void bind_prediction(pybind11::module_& module);
 void bind_diagnosis(pybind11::module_& module);
 

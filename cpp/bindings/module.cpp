@@ -7,6 +7,7 @@ PYBIND11_MODULE(_core, module) {
   bind_machine(module);
   bind_kinematics(module);
   bind_effects(module);
+  bind_samples(module);
   bind_prediction(module);
   bind_diagnosis(module);
 }

@@ -28,7 +28,9 @@ void store_angles(const RssrAngles& angles, Block& block, Eigen::Index row) {
 }  // namespace
 
 BlockSolver::BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory)
-    : model_(model), samples_(samples), memory_(memory), block_(std::make_unique<Block>()) {}
+    : model_(model), samples_(samples), memory_(memory), block_(std::make_unique<Block>()) {
+  for (const Term& term : model.terms) term.effect->require(samples);
+}
 
 void BlockSolver::load(const SampleBlock& rows) {
   Block& block = *block_;

@@ -6,8 +6,24 @@
 namespace hexdbb {
 
 Samples Samples::every(Eigen::Index stride) const {
-  const auto rows = Eigen::seqN(0, (size() + stride - 1) / stride, stride);
-  return {sliders_mm(rows, Eigen::all), set_up(rows), mount(rows), set_ups};
+  std::vector<Eigen::Index> which;
+  for (Eigen::Index row = 0; row < size(); row += stride) which.push_back(row);
+  return rows(which);
+}
+
+Samples Samples::rows(const std::vector<Eigen::Index>& which) const {
+  for (const Eigen::Index row : which) {
+    if (row < 0 || row >= size()) {
+      throw std::invalid_argument("row " + std::to_string(row) + " is not there, expected 0 to " +
+                                  std::to_string(size() - 1));
+    }
+  }
+  Samples out{sliders_mm(which, Eigen::all), set_up(which), mount(which), set_ups, state.rows(which)};
+  if (state.row.size() == 0) {
+    out.state.row.resize(out.size());
+    for (Eigen::Index row = 0; row < out.size(); ++row) out.state.row[row] = static_cast<int>(which[row]);
+  }
+  return out;
 }
 
 void Samples::validate() const {
@@ -19,6 +35,9 @@ void Samples::validate() const {
   };
   require_length("set_up", set_up.size());
   require_length("mount", mount.size());
+  for_each_column(state, [&](const char* name, const auto& column) {
+    if (column.size() > 0) require_length(name, column.rows());
+  });
   for (Eigen::Index row = 0; row < size(); ++row) {
     if (set_up[row] < 0 || set_up[row] >= static_cast<int>(set_ups.size())) {
       throw std::invalid_argument("set_up[" + std::to_string(row) + "] is " + std::to_string(set_up[row]) +

@@ -43,25 +43,32 @@ Samples circle_samples(const Machine& machine, const std::vector<CircleSpec>& ci
   return out;
 }
 
-Samples rows(const Samples& samples, const std::vector<Eigen::Index>& which) {
-  Samples out;
-  const Eigen::Index count = static_cast<Eigen::Index>(which.size());
-  out.sliders_mm.resize(count, kLegs);
-  out.set_up.resize(count);
-  out.mount.resize(count);
-  out.set_ups = samples.set_ups;
-  for (Eigen::Index row = 0; row < count; ++row) {
-    const Eigen::Index from = which[static_cast<std::size_t>(row)];
-    out.sliders_mm.row(row) = samples.sliders_mm.row(from);
-    out.set_up[row] = samples.set_up[from];
-    out.mount[row] = samples.mount[from];
-  }
+Samples moving_samples(const Machine& machine, const std::vector<CircleSpec>& circles, int count, double lap_s) {
+  Samples out = circle_samples(machine, circles, count);
+  out.set_ups[0].bar_length_mm = 99.9;
+  const Eigen::Index total = out.size();
+  State& state = out.state;
+  state.time_s = 3600.0 + (lap_s / count) * Eigen::ArrayXd::LinSpaced(total, 0.0, static_cast<double>(total - 1));
+  state.circle = Eigen::VectorXi::NullaryExpr(total, [&](Eigen::Index row) { return static_cast<int>(row / count); });
+  state.sweep = state.circle;
+  state.temperature_c.setConstant(total, std::nan(""));
+  state.temperature_c.tail(total / 2).setLinSpaced(21.0, 23.0);
+  state.warming_k = state.temperature_c.array() - 20.0;
+  derive(NominalGeometry(machine), out);
   return out;
 }
 
 Model full_model(const Machine& machine, int mounts) {
   Model model(machine);
-  for (const std::string& name : effect_names()) model.add(find_effect(machine, mounts, name));
+  for (const std::string& of : {group::kGeometry, group::kSetUp}) {
+    for (const std::string& name : effect_names(of)) model.add(find_effect(machine, mounts, name));
+  }
+  return model;
+}
+
+Model model_of_everything(const Machine& machine, int mounts, int circles) {
+  Model model(machine);
+  for (const std::string& name : effect_names()) model.add(find_effect(machine, mounts, name, circles));
   return model;
 }
 

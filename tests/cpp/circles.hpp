@@ -20,11 +20,16 @@ std::vector<CircleSpec> seven_circles();
 Samples circle_samples(const Machine& machine, const std::vector<CircleSpec>& circles, int count,
                        const Vector3& cup_mm = {0.0, 0.0, 340.0}, const Vector3& ball_offset_mm = {0.0, 0.0, 60.0});
 
-/// Some rows of some samples.
-Samples rows(const Samples& samples, const std::vector<Eigen::Index>& which);
+/// The same in motion, state and all: a sweep a circle, each of one lap that takes `lap_s`, an hour after the
+/// record began; temperature is measured in
+/// the second half only, and the bar is 0.1 mm short of the circle's radius.
+Samples moving_samples(const Machine& machine, const std::vector<CircleSpec>& circles, int count, double lap_s = 2.0);
+
+/// A model with every geometric and set-up effect, all values zero.
+Model full_model(const Machine& machine, int mounts);
 
 /// A model with every effect the engine knows, all values zero.
-Model full_model(const Machine& machine, int mounts);
+Model model_of_everything(const Machine& machine, int mounts, int circles);
 
 /// Central differences of the prediction for one value, `step` in its unit.
 Eigen::VectorXd difference(Model model, const Samples& samples, int value, double step);

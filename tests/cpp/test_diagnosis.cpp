@@ -203,7 +203,7 @@ TEST_F(Diagnosis, UnreachableStartIsRefusedByRow) {
 TEST_F(Diagnosis, ShapesThatDisagreeAreRefused) {
   const Eigen::VectorXd measured = Eigen::VectorXd::Zero(samples.size());
   EXPECT_THROW(fit(model, samples, measured.head(10), options), std::invalid_argument);
-  EXPECT_THROW(fit(model, rows(samples, {}), Eigen::VectorXd(0), options), std::invalid_argument);
+  EXPECT_THROW(fit(model, samples.rows({}), Eigen::VectorXd(0), options), std::invalid_argument);
   FitOptions short_free = options;
   short_free.free.pop_back();
   EXPECT_EQ(refusal([&] { fit(model, samples, measured, short_free); }), "free has 39 entries, expected 40");

@@ -6,6 +6,7 @@
 
 #include "circles.hpp"
 #include "drawing.hpp"
+#include "hexdbb/diagnosis.hpp"
 #include "refusal.hpp"
 
 namespace hexdbb::testing {
@@ -20,13 +21,14 @@ class EffectDerivatives : public ::testing::TestWithParam<std::string> {
     std::vector<CircleSpec> circles = seven_circles();
     circles[1].mount = circles[4].mount = 1;
     circles.push_back({Vector3::Zero(), Vector3(0.14, 0.0, 0.0), 1});
-    return circle_samples(machine, circles, 12);
+    return moving_samples(machine, circles, 40);
   }();
-  Model model = full_model(machine, kMounts);
+  Model model = model_of_everything(machine, kMounts, 8);
 };
 
 TEST_P(EffectDerivatives, AgainstDifferences) {
-  Eigen::VectorXd sizes(model.size());
+  Eigen::VectorXd sizes = 2.0 * expected_sizes(model);
+  Eigen::VectorXd steps = 5e-3 * sizes;
   int first = -1, count = 0;
   Eigen::Index at = 0;
   for (const Term& term : model.terms) {
@@ -35,8 +37,8 @@ TEST_P(EffectDerivatives, AgainstDifferences) {
       first = static_cast<int>(at);
       count = info.size();
     }
-    for (int j = 0; j < info.size(); ++j) {
-      sizes[at++] = info.parameters[static_cast<std::size_t>(j) % info.parameters.size()].unit == "rad" ? 1e-3 : 0.2;
+    for (int j = 0; j < info.size(); ++j, ++at) {
+      if (info.parameters[static_cast<std::size_t>(j) % info.parameters.size()].is_shape) steps[at] *= 0.1;
     }
   }
   ASSERT_GT(count, 0);
@@ -45,7 +47,7 @@ TEST_P(EffectDerivatives, AgainstDifferences) {
   const Prediction predicted = predict(model, samples, true);
   ASSERT_EQ(predicted.first_failure(), -1);
   for (int value = first; value < first + count; ++value) {
-    const Eigen::VectorXd slope = difference(model, samples, value, 5e-3 * sizes[value]);
+    const Eigen::VectorXd slope = difference(model, samples, value, steps[value]);
     const double largest = slope.cwiseAbs().maxCoeff();
     ASSERT_GT(largest, 0.0) << "value " << value - first << " has no effect anywhere";
     EXPECT_LT((predicted.jacobian.col(value) - slope).cwiseAbs().maxCoeff(), 1e-6 * largest)

@@ -30,7 +30,7 @@ TEST_F(PredictionTest, BatchEqualsSingle) {
   const Prediction batch = predict(model, samples, true);
   ASSERT_EQ(batch.first_failure(), -1);
   for (Eigen::Index row = 0; row < samples.size(); row += 3) {
-    const Prediction single = predict(model, rows(samples, {row}), true);
+    const Prediction single = predict(model, samples.rows({row}), true);
     ASSERT_EQ(single.status[0], 0);
     EXPECT_NEAR(single.reading_mm[0], batch.reading_mm[row], 1e-11);
     EXPECT_LT((single.jacobian.row(0) - batch.jacobian.row(row)).cwiseAbs().maxCoeff(), 1e-9);
@@ -63,7 +63,7 @@ TEST_F(PredictionTest, JumpsBetweenCirclesAreFollowed) {
     std::swap(order[i], order[static_cast<std::size_t>(drawing.uniform(0.0, static_cast<double>(i + 1)))]);
   }
   const Prediction in_order = predict(model, samples, false);
-  const Prediction shuffled = predict(model, rows(samples, order), false);
+  const Prediction shuffled = predict(model, samples.rows(order), false);
   ASSERT_EQ(shuffled.first_failure(), -1);
   for (std::size_t i = 0; i < order.size(); ++i) {
     ASSERT_NEAR(shuffled.reading_mm[static_cast<Eigen::Index>(i)], in_order.reading_mm[order[i]], 1e-11);
@@ -91,7 +91,7 @@ TEST_F(PredictionTest, FailureIsReportedByRowAndSparesTheOthers) {
 }
 
 TEST_F(PredictionTest, NothingToPredict) {
-  const Prediction predicted = predict(model, rows(samples, {}), true);
+  const Prediction predicted = predict(model, samples.rows({}), true);
   EXPECT_EQ(predicted.reading_mm.size(), 0);
   EXPECT_EQ(predicted.first_failure(), -1);
 }

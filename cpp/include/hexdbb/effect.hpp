@@ -15,20 +15,31 @@ namespace hexdbb {
 
 struct ParameterInfo {
   std::string name;
-  std::string unit;    // "mm", "rad"
+  std::string unit;    // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
   double prior_sigma;  // size to expect before any measurement, the scale of the fit
   double limit;        // values beyond +-limit make no physical sense
+  bool is_shape = false;  // pushes nothing by itself: it shapes what the effect's other parameters push
 };
+
+/// Lists that an effect may belong to.
+namespace group {
+inline const std::string kGeometry = "geometry";    // the thesis' 33 errors
+inline const std::string kSetUp = "set-up";         // where cup and ball are, how long the bar is
+inline const std::string kCatalogue = "catalogue";  // physical causes beyond these
+inline const std::string kUser = "user";            // a user's own
+}  // namespace group
 
 struct EffectInfo {
   std::string name;
   std::string physics;  // one sentence
   std::string source;
-  std::string element_kind;               // "leg", "slider", "guideway", "side", "mount", "machine"
+  std::string element_kind;               // "leg", "slider", "guideway", "side", "mount", "circle", "machine"
   std::vector<std::string> elements;      // label of each element: "1", "2", or "12"
   std::vector<ParameterInfo> parameters;  // of one element
   std::vector<std::string> ports;         // names of ports.hpp
-  bool is_set_up = false;                 // belongs to the set-up, not to the machine
+  bool is_set_up = false;                 // belongs to the measurement, not to the machine: not to be compensated
+  std::string group = hexdbb::group::kGeometry;
+  std::vector<std::string> needs = {};  // columns of the samples' state (state.hpp)
 
   int size() const { return static_cast<int>(elements.size() * parameters.size()); }
 };
@@ -44,6 +55,9 @@ class Effect {
  public:
   virtual ~Effect() = default;
   virtual const EffectInfo& info() const = 0;
+
+  /// Throws std::invalid_argument where samples lack what the effect needs. Called once before any block.
+  virtual void require(const Samples& samples) const;
 
   /// Add what the effect pushes.
   virtual void push(const SampleBlock& block, Values values, PortBlock ports) const = 0;
@@ -61,8 +75,13 @@ std::vector<EffectPtr> geometric_effects(const Machine& machine);
 /// Unknowns of the set-up: the cup's position per mount, the ball's offset, the bar's length.
 std::vector<EffectPtr> set_up_effects(int mounts);
 
+/// Physical causes beyond geometry and set-up; `circles` is the number of circles a model knows.
+std::vector<EffectPtr> catalogue_effects(const Machine& machine, int circles);
+
 /// All effects the engine knows, by name; throws std::invalid_argument naming the known ones.
-EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name);
-std::vector<std::string> effect_names();
+EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name, int circles = 1);
+
+/// Names of the effects of one group, or of all: geometry, set-up, catalogue.
+std::vector<std::string> effect_names(const std::string& group = "");
 
 }  // namespace hexdbb

@@ -1,23 +1,28 @@
-// The state of a record's samples, one row each: what effects and prediction may depend on.
+// Samples of a record, one row each: what effects and prediction may depend on.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
 #include "hexdbb/ball_bar.hpp"
+#include "hexdbb/state.hpp"
 
 namespace hexdbb {
 
 struct Samples {
-  Eigen::Matrix<double, Eigen::Dynamic, kLegs> sliders_mm;  // as the drives' encoders report them
-  Eigen::VectorXi set_up;                                   // index into set_ups
-  Eigen::VectorXi mount;                                    // 0-based fixing of the tool cup
+  SliderTable sliders_mm;  // as the drives' encoders report them
+  Eigen::VectorXi set_up;  // index into set_ups
+  Eigen::VectorXi mount;   // 0-based fixing of the tool cup
   std::vector<SetUp> set_ups;
+  State state = {};  // optional columns
 
   Eigen::Index size() const { return sliders_mm.rows(); }
 
   /// Every `stride`-th row, beginning with the first.
   Samples every(Eigen::Index stride) const;
+
+  /// Some rows; the state remembers which, so that what was tabulated for the whole stays right for the part.
+  Samples rows(const std::vector<Eigen::Index>& which) const;
 
   /// Throws std::invalid_argument naming the column and row where lengths differ or an index is out of range.
   void validate() const;
@@ -31,6 +36,10 @@ struct SampleBlock {
 
   auto slider_mm(int k) const { return samples.sliders_mm.col(k).segment(first, count); }
   int mount(Eigen::Index row) const { return samples.mount[first + row]; }
+
+  /// This block's rows of a column of the state; of slider k's column of a table.
+  auto of(const Eigen::VectorXd& column) const { return column.segment(first, count); }
+  auto of(const SliderTable& table, int k) const { return table.col(k).segment(first, count); }
 };
 
 }  // namespace hexdbb

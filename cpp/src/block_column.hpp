@@ -1,0 +1,10 @@
+// One number a row of a block, on the stack: a fixed largest size, so that nothing is allocated.
+#pragma once
+
+#include "block.hpp"
+
+namespace hexdbb {
+
+using BlockColumn = Eigen::Array<double, Eigen::Dynamic, 1, 0, Block::kRows, 1>;
+
+}  // namespace hexdbb

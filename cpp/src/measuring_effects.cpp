@@ -1,0 +1,94 @@
+// What the measurement adds: the gauge, its clock, the ball. None of these is the machine's: never compensated.
+#include <utility>
+
+#include "catalogue.hpp"
+#include "linear_effect.hpp"
+#include "place_per_set_up.hpp"
+
+namespace hexdbb {
+
+EffectPtr bar_drift() {
+  Shape with_time{[](const SampleBlock& block) -> BlockColumn { return block.of(block.samples.state.time_s).array(); },
+                  {{0, port::kReading, 1.0}}};
+  // A carbon-fibre bar held in a warm hand: 10 um in the hour after.
+  EffectInfo info{"bar_drift",
+                  "The gauge's reading drifts steadily with time since the record began; unlike bar_length it changes "
+                  "during the test, unlike leg_thermal it is the same at every angle.",
+                  "ISO 230-4, thermal conditions of the instrument",
+                  "machine",
+                  kWhole,
+                  {{"rate", "mm/s", 0.05 / kSecondsPerHour, 2.0 / kSecondsPerHour}},
+                  {"reading"},
+                  true,
+                  group::kCatalogue,
+                  {"time_s"}};
+  return std::make_shared<LinearEffect>(std::move(info), std::vector<Shape>{std::move(with_time)});
+}
+
+EffectPtr bar_gain() {
+  // The gain of the true reading is that of the nominal one (what the programme asks of the bar) plus that of the
+  // errors, a thousandth of a tenth of a millimetre, which geometry absorbs. The measured reading must not stand in for
+  // it: it would let the gain explain whatever the model misses.
+  Shape in_proportion{[](const SampleBlock& block) -> BlockColumn {
+                        return block.of(block.samples.state.nominal_reading_mm).array();
+                      },
+                      {{0, port::kReading, 1.0}}};
+  EffectInfo info{"bar_gain",
+                  "The gauge reads too much in proportion to its deflection, here that of the nominal machine; it can be "
+                  "told from geometry only where a circle is run off its nominal radius.",
+                  "gauge scale error",
+                  "machine",
+                  kWhole,
+                  {{"gain", "1", 5e-3, 0.2}},
+                  {"reading"},
+                  true,
+                  group::kCatalogue,
+                  {"nominal_reading_mm"}};
+  return std::make_shared<LinearEffect>(std::move(info), std::vector<Shape>{std::move(in_proportion)});
+}
+
+EffectPtr sample_delay() {
+  // While the gauge is read later, the sliders move on: their places at that instant are exact kinematics, where
+  // delay x d reading / dt would be first order.
+  std::vector<Shape> shapes;
+  for (int k = 0; k < kLegs; ++k) {
+    shapes.push_back({[k](const SampleBlock& block) -> BlockColumn {
+                        return block.of(block.samples.state.velocity_mm_s, k).array();
+                      },
+                      {{0, port::kSlider + k, 1.0}}});
+  }
+  // A sample period or two of a fieldbus.
+  EffectInfo info{"sample_delay",
+                  "The gauge is read later than the encoders: all sliders have moved on by delay x velocity; one value "
+                  "for all, of opposite sign to a servo_lag that all sliders share.",
+                  "sampling of two devices that are not synchronous",
+                  "machine",
+                  kWhole,
+                  {{"delay", "s", 5e-3, 0.2}},
+                  {"slider"},
+                  true,
+                  group::kCatalogue,
+                  {"velocity_mm_s"}};
+  return std::make_shared<LinearEffect>(std::move(info), std::move(shapes));
+}
+
+EffectPtr ball_eccentricity(int circles) {
+  // A ball put back into its magnetic holder: hundredths of a millimetre.
+  const auto along = [](const char* name) { return ParameterInfo{name, "mm", 0.05, 2.0}; };
+  EffectInfo info{"ball_eccentricity",
+                  "The bar's ball sits elsewhere on the platform in every circle's set-up, one offset for each circle; "
+                  "ball_offset holds what all circles have in common.",
+                  "set-up",
+                  "circle",
+                  {},
+                  {along("x"), along("y"), along("z")},
+                  {"ball"},
+                  true,
+                  group::kCatalogue,
+                  {"circle"}};
+  return std::make_shared<PlacePerSetUp>(
+      std::move(info), circles, port::kBall, "circle",
+      [](const Samples& samples, Eigen::Index row) { return samples.state.circle[row]; });
+}
+
+}  // namespace hexdbb

@@ -1,0 +1,180 @@
+// Velocity by local least squares; reversals by a dead band on smoothed positions.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "hexdbb/state.hpp"
+
+namespace hexdbb {
+
+namespace {
+
+using Rows = std::vector<Eigen::Index>;
+using Track = Eigen::Matrix<double, Eigen::Dynamic, kLegs, Eigen::RowMajor>;  // of one sweep, a row an instant
+
+constexpr double kHalfWindow_s = 0.05;
+constexpr Eigen::Index kFewest = 2, kMost = 64;  // neighbours on either side
+
+/// Rows of each sweep, in order.
+std::vector<Rows> rows_by_sweep(const Eigen::VectorXi& sweep) {
+  std::map<int, std::size_t> place;
+  std::vector<Rows> out;
+  for (Eigen::Index row = 0; row < sweep.size(); ++row) {
+    const auto [at, is_new] = place.try_emplace(sweep[row], out.size());
+    if (is_new) out.emplace_back();
+    out[at->second].push_back(row);
+  }
+  return out;
+}
+
+struct Smooth {
+  Eigen::VectorXd time_s;
+  Track place_mm, velocity_mm_s;
+};
+
+/// First and last row of the window about `row`.
+std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eigen::Index row) {
+  const Eigen::Index end = time_s.size() - 1;
+  const auto reaches = [&](Eigen::Index other) { return std::abs(time_s[other] - time_s[row]) <= kHalfWindow_s; };
+  Eigen::Index first = std::max<Eigen::Index>(row - kFewest, 0), last = std::min(row + kFewest, end);
+  while (first > 0 && row - first < kMost && reaches(first - 1)) --first;
+  while (last < end && last - row < kMost && reaches(last + 1)) ++last;
+  return {first, last};
+}
+
+/// Rows of the inverse normal matrix for value and slope at u = 0 of the polynomial of degree `degree` in u.
+std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int degree) {
+  std::array<Vector3, 2> out = {Vector3::Zero(), Vector3::Zero()};
+  const auto& s = moment;
+  if (degree == 2) {
+    const double c00 = s[2] * s[4] - s[3] * s[3], c01 = s[2] * s[3] - s[1] * s[4], c02 = s[1] * s[3] - s[2] * s[2];
+    const double c11 = s[0] * s[4] - s[2] * s[2], c12 = s[1] * s[2] - s[0] * s[3];
+    const double determinant = s[0] * c00 + s[1] * c01 + s[2] * c02;
+    out = {Vector3(c00, c01, c02) / determinant, Vector3(c01, c11, c12) / determinant};
+  } else if (degree == 1) {
+    const double determinant = s[0] * s[2] - s[1] * s[1];
+    out = {Vector3(s[2], -s[1], 0.0) / determinant, Vector3(-s[1], s[0], 0.0) / determinant};
+  } else {
+    out = {Vector3(1.0, 0.0, 0.0), Vector3::Constant(std::numeric_limits<double>::quiet_NaN())};
+  }
+  return out;
+}
+
+Smooth smooth(Eigen::VectorXd time_s, const Track& raw_mm) {
+  Smooth out{std::move(time_s), Track::Zero(raw_mm.rows(), kLegs), Track::Zero(raw_mm.rows(), kLegs)};
+  for (Eigen::Index row = 0; row < raw_mm.rows(); ++row) {
+    const auto [first, last] = window(out.time_s, row);
+    const double half_s = std::max(out.time_s[last] - out.time_s[row], out.time_s[row] - out.time_s[first]);
+    const double per_s = half_s > 0.0 ? 1.0 / half_s : 1.0;
+    std::array<double, 5> moment{};
+    for (Eigen::Index at = first; at <= last; ++at) {
+      double power = 1.0;
+      const double u = (out.time_s[at] - out.time_s[row]) * per_s;
+      for (double& each : moment) {
+        each += power;
+        power *= u;
+      }
+    }
+    const auto [value, slope] = value_and_slope(moment, static_cast<int>(std::min<Eigen::Index>(last - first, 2)));
+    for (Eigen::Index at = first; at <= last; ++at) {
+      const double u = (out.time_s[at] - out.time_s[row]) * per_s;
+      out.place_mm.row(row) += (value[0] + u * (value[1] + u * value[2])) * raw_mm.row(at);
+      out.velocity_mm_s.row(row) += per_s * (slope[0] + u * (slope[1] + u * slope[2])) * raw_mm.row(at);
+    }
+  }
+  return out;
+}
+
+/// Where a slider turned back.
+struct Turn {
+  double time_s, place_mm;
+};
+
+/// The turning point near row `extreme`, between rows: the zero of the velocity, taken as linear between two rows, and
+/// the vertex of the parabola that goes with it.
+Turn turn_near(const Smooth& track, int k, Eigen::Index extreme, double side) {
+  const auto velocity = [&](Eigen::Index row) { return side * track.velocity_mm_s(row, k); };
+  const Eigen::Index end = track.time_s.size() - 1;
+  Eigen::Index before = extreme;
+  if (velocity(extreme) <= 0.0 && extreme > 0) --before;
+  if (before < end && velocity(before) > 0.0 && velocity(before + 1) <= 0.0) {
+    const double step_s = track.time_s[before + 1] - track.time_s[before];
+    const double ahead_s = step_s * velocity(before) / (velocity(before) - velocity(before + 1));
+    return {track.time_s[before] + ahead_s,
+            track.place_mm(before, k) + 0.5 * ahead_s * track.velocity_mm_s(before, k)};
+  }
+  return {track.time_s[extreme], track.place_mm(extreme, k)};
+}
+
+/// Turning points of slider k and the side it moves to at first; 0 where it never moves.
+struct Turns {
+  double first_side = 0.0;
+  std::vector<Turn> at;
+};
+
+Turns turns_of(const Smooth& track, int k) {
+  Turns out;
+  const auto place = track.place_mm.col(k);
+  double side = 0.0, low = place[0], high = place[0];
+  Eigen::Index extreme = 0;
+  for (Eigen::Index row = 1; row < place.size(); ++row) {
+    if (side == 0.0) {
+      low = std::min(low, place[row]);
+      high = std::max(high, place[row]);
+      if (high - low <= kReversal_mm) continue;
+      side = out.first_side = place[row] > low + kReversal_mm ? 1.0 : -1.0;
+      extreme = row;
+    } else if (side * (place[row] - place[extreme]) > 0.0) {
+      extreme = row;
+    } else if (side * (place[extreme] - place[row]) > kReversal_mm) {
+      out.at.push_back(turn_near(track, k, extreme, side));
+      side = -side;
+      extreme = row;
+    }
+  }
+  return out;
+}
+
+void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
+  const Turns turns = turns_of(track, k);
+  double side = turns.first_side;
+  std::size_t passed = 0;
+  for (Eigen::Index at = 0; at < track.time_s.size(); ++at) {
+    const Eigen::Index row = rows[static_cast<std::size_t>(at)];
+    while (passed < turns.at.size() && track.time_s[at] > turns.at[passed].time_s) {
+      side = -side;
+      ++passed;
+    }
+    out.velocity_mm_s(row, k) = track.velocity_mm_s(at, k);
+    out.side(row, k) = side;
+    if (passed > 0) {
+      const Turn& last = turns.at[passed - 1];
+      out.since_reversal_s(row, k) = track.time_s[at] - last.time_s;
+      out.since_reversal_mm(row, k) = std::max(side * (track.place_mm(at, k) - last.place_mm), 0.0);
+    }
+  }
+}
+
+}  // namespace
+
+Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
+  const Eigen::Index count = sliders_mm.rows();
+  Motion out{SliderTable(count, kLegs), SliderTable(count, kLegs), SliderTable::Constant(count, kLegs, kLongAgo),
+             SliderTable::Constant(count, kLegs, kLongAgo)};
+  for (const Rows& rows : rows_by_sweep(sweep)) {
+    for (std::size_t at = 1; at < rows.size(); ++at) {
+      if (!(time_s[rows[at]] > time_s[rows[at - 1]])) {
+        throw std::invalid_argument("time_s[" + std::to_string(rows[at]) + "] is not after the sample before it");
+      }
+    }
+    const Smooth track = smooth(time_s(rows), sliders_mm(rows, Eigen::all));
+    for (int k = 0; k < kLegs; ++k) fill(track, rows, k, out);
+  }
+  return out;
+}
+
+}  // namespace hexdbb

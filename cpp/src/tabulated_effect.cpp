@@ -1,0 +1,61 @@
+#include "hexdbb/tabulated_effect.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "block_column.hpp"
+
+namespace hexdbb {
+
+namespace {
+
+BlockColumn rows_of(const SampleBlock& block, const Eigen::VectorXd& table) {
+  const Eigen::VectorXi& row = block.samples.state.row;
+  if (row.size() == 0) return table.segment(block.first, block.count).array();
+  BlockColumn out(block.count);
+  for (Eigen::Index at = 0; at < block.count; ++at) out[at] = table[row[block.first + at]];
+  return out;
+}
+
+}  // namespace
+
+TabulatedEffect::TabulatedEffect(EffectInfo info, std::vector<TabulatedLink> links)
+    : info_(std::move(info)), links_(std::move(links)) {
+  count_ = links_.empty() ? 0 : links_.front().per_unit.size();
+  for (const TabulatedLink& link : links_) {
+    if (link.value < 0 || link.value >= info_.size() || link.port < 0 || link.port >= port::kCount) {
+      throw std::invalid_argument(info_.name + ": value " + std::to_string(link.value) + " or port " +
+                                  std::to_string(link.port) + " is not there");
+    }
+    if (link.per_unit.size() != count_ || !link.per_unit.allFinite()) {
+      throw std::invalid_argument(info_.name + ": its table needs " + std::to_string(count_) +
+                                  " finite numbers a column");
+    }
+  }
+}
+
+void TabulatedEffect::require(const Samples& samples) const {
+  const Eigen::VectorXi& row = samples.state.row;
+  const bool fits = row.size() == 0 ? samples.size() == count_ : row.minCoeff() >= 0 && row.maxCoeff() < count_;
+  if (!fits) {
+    throw std::invalid_argument("effect " + info_.name + " is tabulated for " + std::to_string(count_) +
+                                " samples, and these are others");
+  }
+}
+
+void TabulatedEffect::push(const SampleBlock& block, Values values, PortBlock ports) const {
+  for (const TabulatedLink& link : links_) {
+    if (values[link.value] == 0.0) continue;
+    ports.col(link.port).array() += values[link.value] * rows_of(block, link.per_unit);
+  }
+}
+
+void TabulatedEffect::chain(const SampleBlock& block, Values, ConstPortBlock sensitivity,
+                            JacobianBlock jacobian) const {
+  jacobian.setZero();
+  for (const TabulatedLink& link : links_) {
+    jacobian.col(link.value).array() += sensitivity.col(link.port).array() * rows_of(block, link.per_unit);
+  }
+}
+
+}  // namespace hexdbb
