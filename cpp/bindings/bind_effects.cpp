@@ -1,4 +1,3 @@
-#include <map>
 #include <utility>
 
 #include "bindings.hpp"
@@ -53,14 +52,6 @@ void bind_effects(py::module_& module) {
       },
       py::arg("machine"), py::arg("mounts"), py::arg("name"), py::arg("circles") = 1,
       "The effect of that name; ValueError where there is none.");
-  module.def(
-      "ports",
-      [] {
-        std::map<std::string, std::pair<int, int>> out;
-        for (const PortSpan& span : port::kSpans) out[span.name] = {span.first, span.size};
-        return out;
-      },
-      "First column and number of columns of every port, by name.");
 }
 
 }  // namespace hexdbb::bindings

@@ -39,6 +39,7 @@ __all__: list[str] = [
     "normal_equations",
     "platform_joint",
     "port_sensitivity",
+    "ports",
     "predict",
     "project_out",
     "rotation_from_rpy",
@@ -87,6 +88,16 @@ class ParameterInfo:
     """
     One parameter of an effect, in the engine's units.
     """
+    def __init__(
+        self,
+        *,
+        name: str,
+        unit: str,
+        prior_sigma: typing.SupportsFloat | typing.SupportsIndex,
+        limit: typing.SupportsFloat | typing.SupportsIndex,
+    ) -> None: ...
+    @property
+    def is_shape(self) -> bool: ...
     @property
     def limit(self) -> float: ...
     @property
@@ -100,14 +111,29 @@ class EffectInfo:
     """
     What an effect is: physics, source, elements, parameters, ports.
     """
+    def __init__(
+        self,
+        *,
+        name: str,
+        physics: str,
+        source: str,
+        element_kind: str,
+        elements: collections.abc.Sequence[str],
+        parameters: collections.abc.Sequence[ParameterInfo],
+        ports: collections.abc.Sequence[str],
+    ) -> None: ...
     @property
     def element_kind(self) -> str: ...
     @property
     def elements(self) -> list[str]: ...
     @property
+    def group(self) -> str: ...
+    @property
     def is_set_up(self) -> bool: ...
     @property
     def name(self) -> str: ...
+    @property
+    def needs(self) -> list[str]: ...
     @property
     def parameters(self) -> list[ParameterInfo]: ...
     @property
@@ -139,7 +165,7 @@ class SetUp:
 
 class Samples:
     """
-    State of a record's samples, one row each.
+    Samples of a record, one row each, with what is known of their state.
     """
     def __init__(
         self,
@@ -148,18 +174,53 @@ class Samples:
         set_up: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"],
         mount: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"],
         set_ups: collections.abc.Sequence[SetUp],
-    ) -> None: ...
+        state: dict = {},
+    ) -> None:
+        """
+        `state`: columns by name; any may be missing, an effect that needs one says so.
+        """
+    def derive(self, machine: Machine) -> None:
+        """
+        Fill what follows from time_s, sweep and the sliders: motion, leg forces, nominal readings.
+        """
+    def rows(self, which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> Samples:
+        """
+        Some rows; what is tabulated for the whole stays right for the part.
+        """
     @property
     def size(self) -> int: ...
+    @property
+    def sliders_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 6]"]: ...
+    @property
+    def state(self) -> dict:
+        """
+        Columns of the state that are known, by name.
+        """
 
 class Model:
     """
     A machine and a list of effects with their values.
     """
     def __init__(self, machine: Machine) -> None: ...
-    def add(self, name: str, mounts: typing.SupportsInt | typing.SupportsIndex) -> None:
+    def add(
+        self,
+        name: str,
+        mounts: typing.SupportsInt | typing.SupportsIndex,
+        circles: typing.SupportsInt | typing.SupportsIndex = 1,
+    ) -> None:
         """
         Append the effect of that name with all values zero.
+        """
+    def add_tabulated(
+        self,
+        info: EffectInfo,
+        *,
+        values: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        ports: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+        per_unit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    ) -> None:
+        """
+        Append an effect whose value values[j] pushes port ports[j] by per_unit[:, j], a row a sample.
         """
     @property
     def size(self) -> int: ...
@@ -240,14 +301,19 @@ class FitResult:
     @property
     def values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
 
-def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
+def effect_info(
+    machine: Machine,
+    mounts: typing.SupportsInt | typing.SupportsIndex,
+    name: str,
+    circles: typing.SupportsInt | typing.SupportsIndex = 1,
+) -> EffectInfo:
     """
     The effect of that name; ValueError where there is none.
     """
 
-def effect_names() -> list[str]:
+def effect_names(group: str = "") -> list[str]:
     """
-    Names of all effects the engine knows.
+    Names of the effects of a group (geometry, set-up, catalogue), or of all.
     """
 
 def expected_sizes(model: Model) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
@@ -362,6 +428,11 @@ def platform_joint(
 def port_sensitivity(model: Model, samples: Samples) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
     d reading / d push at each port, (n, 55), mm per mm.
+    """
+
+def ports() -> dict[str, tuple[int, int]]:
+    """
+    First column and number of columns of every port, by name.
     """
 
 def predict(model: Model, samples: Samples, want_jacobian: bool = False) -> Prediction:

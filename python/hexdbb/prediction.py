@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
-from hexdbb.kinematics import status_name
+from hexdbb.kinematics import engine_machine, status_name
 from hexdbb.model import Model, MountKey
 from hexdbb.record import Record
+from hexdbb.state import state_columns
 
 Floats = NDArray[np.float64]
 
@@ -21,13 +22,18 @@ def mount_keys(records: Sequence[Record]) -> list[MountKey]:
     return [key for record in records for key in _keys_by_circle(record).values()]
 
 
+def circle_ids(records: Sequence[Record]) -> list[int]:
+    """Give the circles of some records that a sample was taken on, by id, each once."""
+    return sorted({int(each) for record in records for each in np.unique(record.columns["circle"])})
+
+
 def unseen_mounts(record: Record, model: Model) -> list[MountKey]:
     """Give the mounts of a record whose cups a model does not know."""
     return [key for key in dict.fromkeys(mount_keys([record])) if key not in model.mounts]
 
 
 def samples_of(records: Sequence[Record], model: Model) -> _core.Samples:
-    """State of all samples of some records, one after another, for the engine.
+    """Samples of some records, one after another, with their state, for the engine.
 
     Raises
     ------
@@ -53,12 +59,15 @@ def samples_of(records: Sequence[Record], model: Model) -> _core.Samples:
                     bar_length_mm=record.gauge.bar_length_mm,
                 )
             )
-    return _core.Samples(
+    samples = _core.Samples(
         sliders_mm=np.vstack(sliders),
         set_up=np.concatenate(set_up_rows).astype(np.int32),
         mount=np.concatenate(mount_rows).astype(np.int32),
         set_ups=set_ups,
+        state=state_columns(records, model.circles),
     )
+    samples.derive(engine_machine(model.machine))
+    return samples
 
 
 def predict_reading_mm(record: Record, model: Model) -> Floats:

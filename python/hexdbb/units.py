@@ -1,8 +1,18 @@
-"""Units at the edges: the engine's mm and rad as µm and µrad in files, tables and JSON, the unit named beside."""
+"""Units at the edges: the engine's mm, rad and s as µm, µrad and ms in files, tables and JSON, the unit named beside."""
 
 from __future__ import annotations
 
-SHOWN = {"mm": ("um", 1e3), "rad": ("urad", 1e6)}
+SHOWN = {
+    "mm": ("um", 1e3),
+    "rad": ("urad", 1e6),
+    "s": ("ms", 1e3),
+    "mm/N": ("um/N", 1e3),
+    "mm/K": ("um/K", 1e3),
+    "mm/s": ("um/h", 3.6e6),
+    "mm/mm": ("um/m", 1e6),
+    "1/K": ("um/m/K", 1e6),
+    "1/s": ("um/m/h", 3.6e9),
+}
 """Engine unit to (unit shown, factor); a unit not listed is shown as it is."""
 
 

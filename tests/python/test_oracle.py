@@ -24,7 +24,7 @@ RADIUS_MM = 100.0
 TILT, YAW, PLANE_TILT = np.deg2rad([12.0, 15.0, 8.0])
 
 MACHINE = engine_machine(shipped_machine())
-EFFECTS = list(_core.effect_names())
+EFFECTS = [*_core.effect_names("geometry"), *_core.effect_names("set-up")]
 INFOS = [_core.effect_info(MACHINE, 1, name) for name in EFFECTS]
 GEOMETRIC = [info.name for info in INFOS if not info.is_set_up]
 

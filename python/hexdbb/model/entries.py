@@ -102,6 +102,7 @@ class ModelFile(FileModel):
 
     schema_id: Literal["hexdbb.model/1"] = Field(default="hexdbb.model/1", alias="schema")
     machine: MachineFile
+    circles: Annotated[tuple[int, ...], Field(strict=False)] = ()
     effects: tuple[EffectEntry, ...] = Field(default=(), strict=False, alias="effect")
     mounts: tuple[MountEntry, ...] = Field(default=(), strict=False, alias="mount")
     steps: tuple[StepEntry, ...] = Field(default=(), strict=False, alias="step")

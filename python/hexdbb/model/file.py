@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shutil
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -32,7 +33,7 @@ def load_model(path: Path | str) -> Model:
     """
     file = load_toml(path, ModelFile)
     mounts = tuple(MountKey(entry.record_sha256, entry.id) for entry in file.mounts)
-    model = Model(file.machine, (), mounts)
+    model = Model(file.machine, (), mounts, circles=file.circles)
     terms = tuple(_term(model, entry, f"{path}: effect[{index}]") for index, entry in enumerate(file.effects))
     names = [term.effect for term in terms]
     if len(set(names)) != len(names):
@@ -50,9 +51,10 @@ def save_model(model: Model, path: Path | str) -> None:
     """
     place = Path(path)
     parameters = iter(model.parameters())
-    describe = _describe(model.machine)
+    describe = _describe(model.machine, model.circles)
     file = ModelFile(
         machine=model.machine,
+        circles=model.circles,
         effect=tuple(_entry(term, [next(parameters) for _ in term.values]) for term in model.terms),
         mount=tuple(MountEntry(record_sha256=key.record_hash, id=key.mount_id) for key in model.mounts),
         step=tuple(_step_entry(step) for step in model.ledger),
@@ -66,12 +68,12 @@ def save_model(model: Model, path: Path | str) -> None:
             shutil.copy2(place, place.with_suffix(".previous" + place.suffix))
 
 
-def _describe(machine: MachineFile) -> Describe:
-    return lambda mounts, effect: effect_info(machine, max(mounts, 1), effect)
+def _describe(machine: MachineFile, circles: Sequence[int]) -> Describe:
+    return lambda mounts, effect: effect_info(machine, max(mounts, 1), effect, max(len(circles), 1))
 
 
 def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], path: str) -> tuple[LedgerStep, ...]:
-    describe = _describe(file.machine)
+    describe = _describe(file.machine, file.circles)
     states = {
         entry.before_step: earlier_state(entry, mounts, describe, f"{path}: earlier[{index}]")
         for index, entry in enumerate(file.earlier)
@@ -109,7 +111,7 @@ def _entry(term: Term, parameters: list[Parameter]) -> EffectEntry:
 
 def _term(model: Model, entry: EffectEntry, where: str) -> Term:
     try:
-        info = effect_info(model.machine, max(len(model.mounts), 1), entry.name)
+        info = model.info(entry.name)
     except InputError as error:
         raise InputError(f"{where}.name: {error}") from None
     expected = [(element, each.name, each.unit) for element in info.elements for each in info.parameters]

@@ -32,6 +32,8 @@ class Model:
     ledger: tuple[LedgerStep, ...] = field(default=())
     path: Path | None = field(default=None, compare=False)
     """The file it was read from."""
+    circles: tuple[int, ...] = ()
+    """Circles whose set-up of the ball it knows, by id: the elements of `ball_eccentricity`."""
 
     @property
     def name(self) -> str:
@@ -40,7 +42,7 @@ class Model:
 
     def info(self, effect: str) -> _core.EffectInfo:
         """Describe one effect as it stands in this model."""
-        return effect_info(self.machine, max(len(self.mounts), 1), effect)
+        return effect_info(self.machine, max(len(self.mounts), 1), effect, max(len(self.circles), 1))
 
     def parameters(self) -> list[Parameter]:
         """Name every value, in the order of `values`."""
@@ -85,20 +87,35 @@ class Model:
 
     def with_mounts(self, keys: Sequence[MountKey]) -> Model:
         """Give the same model knowing these mounts too; their cups stand where planned until they are fitted."""
-        new = [key for key in keys if key not in self.mounts]
-        model = replace(self, mounts=(*self.mounts, *new))
-        return replace(model, terms=tuple(_extended(term, model.info(term.effect).size) for term in self.terms))
+        mounts = (*self.mounts, *(key for key in keys if key not in self.mounts))
+        return replace(self, mounts=mounts, terms=_with_places(self.terms, self.machine, mounts, self.circles))
+
+    def with_circles(self, ids: Sequence[int]) -> Model:
+        """Give the same model knowing these circles too; their balls sit where planned until they are fitted.
+
+        The states its ledger keeps know them as well.
+        """
+        circles = (*self.circles, *(each for each in ids if each not in self.circles))
+
+        def knowing(state: State) -> State:
+            return replace(state, terms=_with_places(state.terms, self.machine, state.mounts, circles))
+
+        ledger = tuple(
+            step if step.before is None else replace(step, before=knowing(step.before)) for step in self.ledger
+        )
+        terms = _with_places(self.terms, self.machine, self.mounts, circles)
+        return replace(self, circles=circles, terms=terms, ledger=ledger)
 
     def engine(self) -> _core.Model:
         """Give the engine's form of the model."""
         engine = _core.Model(engine_machine(self.machine))
         for term in self.terms:
-            engine.add(term.effect, max(len(self.mounts), 1))
+            engine.add(term.effect, max(len(self.mounts), 1), max(len(self.circles), 1))
         engine.values = self.values
         return engine
 
 
-def effect_info(machine: MachineFile, mounts: int, effect: str) -> _core.EffectInfo:
+def effect_info(machine: MachineFile, mounts: int, effect: str, circles: int = 1) -> _core.EffectInfo:
     """Describe an effect.
 
     Raises
@@ -107,7 +124,7 @@ def effect_info(machine: MachineFile, mounts: int, effect: str) -> _core.EffectI
         Where no effect has that name, with the names there are.
     """
     try:
-        return _core.effect_info(engine_machine(machine), mounts, effect)
+        return _core.effect_info(engine_machine(machine), mounts, effect, circles)
     except ValueError as error:
         raise InputError(str(error)) from None
 
@@ -116,9 +133,11 @@ def default_effects(machine: MachineFile) -> dict[str, bool]:
     """Give the effects of a new model and whether each is free.
 
     The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit
-    to a micrometre. The bar's length is calibrated and fixed.
+    to a micrometre. The bar's length is calibrated and fixed. Effects of the catalogue are added when something asks
+    for them.
     """
-    return {name: name != "bar_length" for name in _core.effect_names()}
+    names = [*_core.effect_names("geometry"), *_core.effect_names("set-up")]
+    return {name: name != "bar_length" for name in names}
 
 
 def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Model:
@@ -152,6 +171,16 @@ def _parameters(info: _core.EffectInfo) -> list[Parameter]:
         for element in info.elements
         for each in info.parameters
     ]
+
+
+def _with_places(
+    terms: Sequence[Term], machine: MachineFile, mounts: Sequence[MountKey], circles: Sequence[int]
+) -> tuple[Term, ...]:
+    """Give terms with a place for every value that so many mounts and circles make."""
+    counts = max(len(mounts), 1), max(len(circles), 1)
+    return tuple(
+        _extended(term, effect_info(machine, counts[0], term.effect, counts[1]).size) for term in terms
+    )
 
 
 def _extended(term: Term, size: int) -> Term:

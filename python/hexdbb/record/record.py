@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -48,9 +49,14 @@ class Record:
     """False where the capture was interrupted."""
     whole_hash: str | None = None
     """Content hash of the record that this is a part of; None for a whole one."""
+    origin: tuple[float, float] | None = None
+    """Time, s, and temperature, °C (nan where not measured), from which drift counts: those of the first sample, which
+    a part of a record keeps (`part`)."""
 
     def __post_init__(self) -> None:
         self.columns = normalise(self.columns, Origin(self.name))
+        if self.origin is None:
+            self.origin = _first_time_and_temperature(self.columns)
 
     def __len__(self) -> int:
         return len(self.columns["t_s"])
@@ -132,3 +138,12 @@ class Record:
                         f"{origin}: {section}.{key}: {format_value(other[key])}"
                         f" (expected {format_value(value)}, as in {self.name}: they do not belong together)"
                     )
+
+
+def _first_time_and_temperature(columns: Columns) -> tuple[float, float]:
+    """Time of the first sample; first measured temperature, nan where there is none."""
+    if len(columns["t_s"]) == 0:
+        return 0.0, math.nan
+    temperature = columns.get("temperature_c", np.full(1, np.nan))
+    measured = temperature[np.isfinite(temperature)]
+    return float(columns["t_s"][0]), float(measured[0]) if len(measured) else math.nan

@@ -1,0 +1,68 @@
+"""State of a record's samples beyond slider coordinates, as columns for the engine: what effects may depend on.
+
+What stands in the record is converted here (units, time and temperature from the record's first sample, sweeps numbered
+through all records); velocity, reversals, leg forces and nominal readings follow from it in the engine (`state.hpp`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.record import Record
+
+Columns = dict[str, NDArray[Any]]
+
+SECONDS_PER_MINUTE = 60.0
+
+
+def state_columns(records: Sequence[Record], circles: Sequence[int] = ()) -> Columns:
+    """Columns of the engine's state that a record holds, of several records one after another.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    circles : sequence of int
+        Ids of the circles a model knows; the `circle` of a sample is the place of its id, -1 where it is not among them.
+
+    Returns
+    -------
+    dict of str to ndarray, each of shape (n,)
+        Times in s, temperatures in °C and K (nan where not measured), angles in rad, feeds in mm/s.
+    """
+    parts = [_columns(record, circles) for record in records]
+    sweeps = 0
+    for part in parts:
+        _, number = np.unique(part["sweep"], return_inverse=True)
+        part["sweep"] = (sweeps + number).astype(np.int32)
+        sweeps += int(number.max(initial=-1)) + 1
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
+
+
+def _columns(record: Record, circles: Sequence[int]) -> Columns:
+    columns = record.columns
+    assert record.origin is not None  # a record sets it when it is made
+    start_s, start_c = record.origin
+    temperature_c = columns.get("temperature_c", np.full(len(record), np.nan))
+    return {
+        "time_s": columns["t_s"] - start_s,
+        "circle": _places(columns["circle"], circles),
+        "sweep": columns["sweep"],
+        "lap": columns["lap"],
+        "direction": columns["direction"].astype(np.float64),
+        "angle_rad": np.radians(columns["angle_deg"]),
+        "feed_mm_s": columns["feed_mm_min"] / SECONDS_PER_MINUTE,
+        "temperature_c": temperature_c,
+        "warming_k": temperature_c - start_c,
+    }
+
+
+def _places(ids: NDArray[Any], known: Sequence[int]) -> NDArray[np.int32]:
+    """Place of each id among the known ones, -1 where it is none of them."""
+    places = np.full(len(ids), -1, np.int32)
+    for place, each in enumerate(known):
+        places[ids == each] = place
+    return places
