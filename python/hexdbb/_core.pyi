@@ -39,7 +39,6 @@ __all__: list[str] = [
     "normal_equations",
     "platform_joint",
     "port_sensitivity",
-    "ports",
     "predict",
     "project_out",
     "rotation_from_rpy",
@@ -428,11 +427,6 @@ def platform_joint(
 def port_sensitivity(model: Model, samples: Samples) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
     d reading / d push at each port, (n, 55), mm per mm.
-    """
-
-def ports() -> dict[str, tuple[int, int]]:
-    """
-    First column and number of columns of every port, by name.
     """
 
 def predict(model: Model, samples: Samples, want_jacobian: bool = False) -> Prediction:
