@@ -12,8 +12,9 @@ namespace {
 EffectInfo user_info(std::string name, std::string physics, std::string source, std::string element_kind,
                      std::vector<std::string> elements, std::vector<ParameterInfo> parameters,
                      std::vector<std::string> ports) {
-  return {std::move(name),       std::move(physics), std::move(source), std::move(element_kind), std::move(elements),
-          std::move(parameters), std::move(ports),   false,             group::kUser};
+  return {std::move(name),     std::move(physics),    std::move(source), std::move(element_kind),
+          std::move(elements), std::move(parameters), std::move(ports),  false,
+          group::kUser};
 }
 
 }  // namespace

@@ -74,8 +74,9 @@ EffectPtr lead_error(const Machine& machine) {
   std::vector<Shape> shapes;
   const double mid_mm = mid_travel_mm(machine);
   for (int k = 0; k < kLegs; ++k) {
-    shapes.push_back({[k, mid_mm](const SampleBlock& block) -> BlockColumn { return block.slider_mm(k).array() - mid_mm; },
-                      {{k, port::kSlider + k, 1.0}}});
+    shapes.push_back(
+        {[k, mid_mm](const SampleBlock& block) -> BlockColumn { return block.slider_mm(k).array() - mid_mm; },
+         {{k, port::kSlider + k, 1.0}}});
   }
   // A rolled screw of tolerance class T10 may err by 210 um on 300 mm.
   EffectInfo info{"lead_error",

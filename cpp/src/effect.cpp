@@ -23,20 +23,9 @@ void Effect::require(const Samples& samples) const {
 }
 
 std::vector<EffectPtr> catalogue_effects(const Machine& machine, int circles) {
-  return {backlash(),
-          reversal_spike(),
-          pitch_cyclic(machine),
-          lead_error(machine),
-          straightness(machine),
-          servo_lag(),
-          leg_thermal(),
-          screw_thermal(machine),
-          gravity_sag(machine),
-          joint_offset(),
-          bar_drift(),
-          bar_gain(),
-          sample_delay(),
-          ball_eccentricity(circles)};
+  return {backlash(),  reversal_spike(), pitch_cyclic(machine),  lead_error(machine),       straightness(machine),
+          servo_lag(), leg_thermal(),    screw_thermal(machine), gravity_sag(machine),      joint_offset(),
+          bar_drift(), bar_gain(),       sample_delay(),         ball_eccentricity(circles)};
 }
 
 std::vector<std::string> effect_names(const std::string& group) {

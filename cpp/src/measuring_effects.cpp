@@ -29,21 +29,21 @@ EffectPtr bar_gain() {
   // The gain of the true reading is that of the nominal one (what the programme asks of the bar) plus that of the
   // errors, a thousandth of a tenth of a millimetre, which geometry absorbs. The measured reading must not stand in for
   // it: it would let the gain explain whatever the model misses.
-  Shape in_proportion{[](const SampleBlock& block) -> BlockColumn {
-                        return block.of(block.samples.state.nominal_reading_mm).array();
-                      },
-                      {{0, port::kReading, 1.0}}};
-  EffectInfo info{"bar_gain",
-                  "The gauge reads too much in proportion to its deflection, here that of the nominal machine; it can be "
-                  "told from geometry only where a circle is run off its nominal radius.",
-                  "gauge scale error",
-                  "machine",
-                  kWhole,
-                  {{"gain", "1", 5e-3, 0.2}},
-                  {"reading"},
-                  true,
-                  group::kCatalogue,
-                  {"nominal_reading_mm"}};
+  Shape in_proportion{
+      [](const SampleBlock& block) -> BlockColumn { return block.of(block.samples.state.nominal_reading_mm).array(); },
+      {{0, port::kReading, 1.0}}};
+  EffectInfo info{
+      "bar_gain",
+      "The gauge reads too much in proportion to its deflection, here that of the nominal machine; it can be "
+      "told from geometry only where a circle is run off its nominal radius.",
+      "gauge scale error",
+      "machine",
+      kWhole,
+      {{"gain", "1", 5e-3, 0.2}},
+      {"reading"},
+      true,
+      group::kCatalogue,
+      {"nominal_reading_mm"}};
   return std::make_shared<LinearEffect>(std::move(info), std::vector<Shape>{std::move(in_proportion)});
 }
 

@@ -104,8 +104,7 @@ Turn turn_near(const Smooth& track, int k, Eigen::Index extreme, double side) {
   if (before < end && velocity(before) > 0.0 && velocity(before + 1) <= 0.0) {
     const double step_s = track.time_s[before + 1] - track.time_s[before];
     const double ahead_s = step_s * velocity(before) / (velocity(before) - velocity(before + 1));
-    return {track.time_s[before] + ahead_s,
-            track.place_mm(before, k) + 0.5 * ahead_s * track.velocity_mm_s(before, k)};
+    return {track.time_s[before] + ahead_s, track.place_mm(before, k) + 0.5 * ahead_s * track.velocity_mm_s(before, k)};
   }
   return {track.time_s[extreme], track.place_mm(extreme, k)};
 }

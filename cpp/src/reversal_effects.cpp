@@ -38,8 +38,7 @@ class Backlash : public Effect {
       const auto side = block.of(block.samples.state.side, k).array();
       const auto travelled = block.of(block.samples.state.since_reversal_mm, k).array();
       const auto crossing = travelled < std::abs(values[k]);
-      jacobian.col(k).array() =
-          sensitivity.col(port::kSlider + k).array() * crossing.select(0.5 * side, -0.5 * side);
+      jacobian.col(k).array() = sensitivity.col(port::kSlider + k).array() * crossing.select(0.5 * side, -0.5 * side);
     }
   }
 
@@ -91,35 +90,35 @@ class ReversalSpike : public Effect {
 
 EffectPtr backlash() {
   // A worn nut or coupling has some hundredths of a millimetre; a tenth is a fault one hears.
-  return std::make_shared<Backlash>(
-      EffectInfo{"backlash",
-                 "Lost motion: a slider stands half its play behind the drive on the side it comes from, and crosses the "
-                 "play over the first travel after a reversal; unlike reversal_spike it stays until the next reversal, "
-                 "unlike servo_lag it does not grow with speed.",
-                 "play operator; ISO 230-4 reversal error",
-                 "slider",
-                 kSixElements,
-                 {{"play", "mm", 0.02, 1.0}},
-                 {"slider"},
-                 false,
-                 group::kCatalogue,
-                 {"side", "since_reversal_mm"}});
+  return std::make_shared<Backlash>(EffectInfo{
+      "backlash",
+      "Lost motion: a slider stands half its play behind the drive on the side it comes from, and crosses the "
+      "play over the first travel after a reversal; unlike reversal_spike it stays until the next reversal, "
+      "unlike servo_lag it does not grow with speed.",
+      "play operator; ISO 230-4 reversal error",
+      "slider",
+      kSixElements,
+      {{"play", "mm", 0.02, 1.0}},
+      {"slider"},
+      false,
+      group::kCatalogue,
+      {"side", "since_reversal_mm"}});
 }
 
 EffectPtr reversal_spike() {
   // Spikes of 5 to 20 um, of some tens of ms, are what uncompensated quadrant glitches look like on machine tools.
-  return std::make_shared<ReversalSpike>(
-      EffectInfo{"reversal_spike",
-                 "Stiction: after a reversal a slider hangs back and recovers exponentially, with a time constant of 50 "
-                 "ms times e to the log_time; unlike backlash it is gone after a few time constants.",
-                 "friction at velocity reversal (quadrant glitch), ISO 230-4 Annex",
-                 "slider",
-                 kSixElements,
-                 {{"height", "mm", 0.01, 0.5}, {"log_time", "1", 0.7, 3.0, true}},
-                 {"slider"},
-                 false,
-                 group::kCatalogue,
-                 {"side", "since_reversal_s"}});
+  return std::make_shared<ReversalSpike>(EffectInfo{
+      "reversal_spike",
+      "Stiction: after a reversal a slider hangs back and recovers exponentially, with a time constant of 50 "
+      "ms times e to the log_time; unlike backlash it is gone after a few time constants.",
+      "friction at velocity reversal (quadrant glitch), ISO 230-4 Annex",
+      "slider",
+      kSixElements,
+      {{"height", "mm", 0.01, 0.5}, {"log_time", "1", 0.7, 3.0, true}},
+      {"slider"},
+      false,
+      group::kCatalogue,
+      {"side", "since_reversal_s"}});
 }
 
 }  // namespace hexdbb

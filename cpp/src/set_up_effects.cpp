@@ -12,10 +12,14 @@ constexpr double kPlaceLimit_mm = 20.0;
 ParameterInfo place(const char* axis) { return {axis, "mm", kPlacePrior_mm, kPlaceLimit_mm}; }
 
 EffectPtr cup_position(int mounts) {
-  EffectInfo info{"cup_position", "The tool cup is fixed elsewhere than planned.",
-                  "set-up",       "mount",
-                  {},             {place("x"), place("y"), place("z")},
-                  {"cup"},        true,
+  EffectInfo info{"cup_position",
+                  "The tool cup is fixed elsewhere than planned.",
+                  "set-up",
+                  "mount",
+                  {},
+                  {place("x"), place("y"), place("z")},
+                  {"cup"},
+                  true,
                   group::kSetUp};
   return std::make_shared<PlacePerSetUp>(std::move(info), mounts, port::kCup, "mount",
                                          [](const Samples& samples, Eigen::Index row) { return samples.mount[row]; });
@@ -43,8 +47,6 @@ EffectPtr bar_length() {
 
 }  // namespace
 
-std::vector<EffectPtr> set_up_effects(int mounts) {
-  return {cup_position(mounts), ball_offset(), bar_length()};
-}
+std::vector<EffectPtr> set_up_effects(int mounts) { return {cup_position(mounts), ball_offset(), bar_length()}; }
 
 }  // namespace hexdbb

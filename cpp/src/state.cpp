@@ -59,8 +59,7 @@ void require_column(const State& state, const std::string& wanted, const std::st
 SliderTable leg_force(const NominalGeometry& nominal, const SliderTable& sliders_mm) {
   // A bar from the reference point down to a cup 1000 km below hangs vertical: what it reads is height.
   const SetUp plumb{Vector3(0.0, 0.0, -1e9), Vector3::Zero(), 0.0};
-  SliderTable out =
-      -port_sensitivity(Model(nominal.machine), places(sliders_mm, plumb)).middleCols<kLegs>(port::kLeg);
+  SliderTable out = -port_sensitivity(Model(nominal.machine), places(sliders_mm, plumb)).middleCols<kLegs>(port::kLeg);
   for (Eigen::Index row = 0; row < out.rows(); ++row) {
     if (out.row(row).isZero(0.0)) out.row(row).setConstant(kNothing);
   }

@@ -23,16 +23,17 @@ EffectPtr straightness(const Machine& machine) {
                       std::move(links)});
   }
   // A rail screwed to a frame that was not scraped: tenths of a millimetre over its length.
-  EffectInfo info{"straightness",
-                  "A guideway is bowed, outward and up: a parabola over the travel, zero at its ends, that carries both "
-                  "sliders; its mean and slope are guideway_translation's and guideway_rotation's.",
-                  "ISO 230-1, straightness; parabola as the bow of a beam",
-                  "guideway",
-                  kThreeElements,
-                  {{"lateral", "mm", 0.3, 5.0}, {"vertical", "mm", 0.3, 5.0}},
-                  {"slider_joint"},
-                  false,
-                  group::kCatalogue};
+  EffectInfo info{
+      "straightness",
+      "A guideway is bowed, outward and up: a parabola over the travel, zero at its ends, that carries both "
+      "sliders; its mean and slope are guideway_translation's and guideway_rotation's.",
+      "ISO 230-1, straightness; parabola as the bow of a beam",
+      "guideway",
+      kThreeElements,
+      {{"lateral", "mm", 0.3, 5.0}, {"vertical", "mm", 0.3, 5.0}},
+      {"slider_joint"},
+      false,
+      group::kCatalogue};
   return std::make_shared<LinearEffect>(std::move(info), std::move(shapes));
 }
 
@@ -40,24 +41,24 @@ EffectPtr gravity_sag(const Machine& machine) {
   const double weight_n = machine.moved_mass_kg * kGravity_m_s2;
   std::vector<Shape> shapes;
   for (int k = 0; k < kLegs; ++k) {
-    shapes.push_back({[k](const SampleBlock& block) -> BlockColumn {
-                        return block.of(block.samples.state.leg_force, k).array();
-                      },
-                      {{0, port::kLeg + k, weight_n}}});
+    shapes.push_back(
+        {[k](const SampleBlock& block) -> BlockColumn { return block.of(block.samples.state.leg_force, k).array(); },
+         {{0, port::kLeg + k, weight_n}}});
   }
   // A slender leg with its two ball joints gives 0.02 to 0.2 um/N; some tenths where a joint is worn.
-  EffectInfo info{"gravity_sag",
-                  "Legs give under the weight they carry: each is longer by compliance x mass x gravity x its axial force "
-                  "per newton of load, tension positive, so that legs in compression shorten; unlike leg_length it "
-                  "changes with the pose.",
-                  "static equilibrium, Hooke's law",
-                  "machine",
-                  kWhole,
-                  {{"compliance", "mm/N", 2e-4, 5e-3}},
-                  {"leg"},
-                  false,
-                  group::kCatalogue,
-                  {"leg_force"}};
+  EffectInfo info{
+      "gravity_sag",
+      "Legs give under the weight they carry: each is longer by compliance x mass x gravity x its axial force "
+      "per newton of load, tension positive, so that legs in compression shorten; unlike leg_length it "
+      "changes with the pose.",
+      "static equilibrium, Hooke's law",
+      "machine",
+      kWhole,
+      {{"compliance", "mm/N", 2e-4, 5e-3}},
+      {"leg"},
+      false,
+      group::kCatalogue,
+      {"leg_force"}};
   return std::make_shared<LinearEffect>(std::move(info), std::move(shapes));
 }
 

@@ -34,17 +34,18 @@ EffectPtr leg_thermal() {
     with_time.links.push_back({1, port::kLeg + k, 1.0});
   }
   // Steel of 400 mm grows by 4.6 um/K, aluminium by 9; a machine that warms up does some 5 K in its first hour.
-  EffectInfo info{"leg_thermal",
-                  "All legs grow alike with the measured temperature, else with time; unlike leg_length it changes during "
-                  "the test, unlike bar_drift it moves the platform.",
-                  "thermal expansion, ISO 230-3",
-                  "machine",
-                  kWhole,
-                  {{"per_kelvin", "mm/K", 0.01, 0.1}, {"per_time", "mm/s", 0.05 / kSecondsPerHour, 1.0 / kSecondsPerHour}},
-                  {"leg"},
-                  false,
-                  group::kCatalogue,
-                  kNeeds};
+  EffectInfo info{
+      "leg_thermal",
+      "All legs grow alike with the measured temperature, else with time; unlike leg_length it changes during "
+      "the test, unlike bar_drift it moves the platform.",
+      "thermal expansion, ISO 230-3",
+      "machine",
+      kWhole,
+      {{"per_kelvin", "mm/K", 0.01, 0.1}, {"per_time", "mm/s", 0.05 / kSecondsPerHour, 1.0 / kSecondsPerHour}},
+      {"leg"},
+      false,
+      group::kCatalogue,
+      kNeeds};
   return std::make_shared<LinearEffect>(std::move(info),
                                         std::vector<Shape>{std::move(with_temperature), std::move(with_time)});
 }
@@ -63,18 +64,19 @@ EffectPtr screw_thermal(const Machine& machine) {
                       {{2 * k + 1, port::kSlider + k, 1.0}}});
   }
   // Steel: 11.5e-6 /K. A driven screw warms faster than the air beside it: twice that, or 5 K an hour.
-  EffectInfo info{"screw_thermal",
-                  "A screw's lead grows with the measured temperature, else with time, counted from mid-travel; unlike "
-                  "lead_error it changes during the test, unlike leg_thermal it grows with the distance from "
-                  "mid-travel.",
-                  "thermal expansion, ISO 230-3",
-                  "slider",
-                  kSixElements,
-                  {{"per_kelvin", "1/K", 2e-5, 2e-4}, {"per_time", "1/s", 1e-4 / kSecondsPerHour, 2e-3 / kSecondsPerHour}},
-                  {"slider"},
-                  false,
-                  group::kCatalogue,
-                  kNeeds};
+  EffectInfo info{
+      "screw_thermal",
+      "A screw's lead grows with the measured temperature, else with time, counted from mid-travel; unlike "
+      "lead_error it changes during the test, unlike leg_thermal it grows with the distance from "
+      "mid-travel.",
+      "thermal expansion, ISO 230-3",
+      "slider",
+      kSixElements,
+      {{"per_kelvin", "1/K", 2e-5, 2e-4}, {"per_time", "1/s", 1e-4 / kSecondsPerHour, 2e-3 / kSecondsPerHour}},
+      {"slider"},
+      false,
+      group::kCatalogue,
+      kNeeds};
   return std::make_shared<LinearEffect>(std::move(info), std::move(shapes));
 }
 

@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
-from hexdbb.kinematics import inverse, status_name
+from hexdbb.kinematics import engine_machine, inverse, status_name
 from hexdbb.model import Model, MountKey, Parameter, new_term
 from hexdbb.plan import CircleRun, Plan
-from hexdbb.prediction import mount_keys, samples_of
+from hexdbb.prediction import circle_ids, mount_keys, samples_of
 from hexdbb.record import Record
+from hexdbb.state import planned_columns
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -96,12 +97,20 @@ def plan_sensitivity(
     runs = plan.runs()
     places = {mount.id: place for place, mount in enumerate(plan.mounts)}
     angle_rad = np.arange(samples_per_turn) * (2.0 * np.pi / samples_per_turn)
-    sliders = [_sliders_mm(run, angle_rad, model, origin) for run in runs]
+    sliders = [_sliders_mm(run, run.direction * angle_rad, model, origin) for run in runs]
     repeat = np.repeat(np.arange(len(runs), dtype=np.int32), samples_per_turn)
     mount = np.array([places[run.mount.id] for run in runs], dtype=np.int32)
     set_ups = [set_up_of(run, plan) for run in runs]
-    samples = _core.Samples(sliders_mm=np.vstack(sliders), set_up=repeat, mount=mount[repeat], set_ups=set_ups)
     known = with_planned_mounts(model, [mount.id for mount in plan.mounts])
+    known = known.with_circles([circle.id for circle in plan.circles])
+    samples = _core.Samples(
+        sliders_mm=np.vstack(sliders),
+        set_up=repeat,
+        mount=mount[repeat],
+        set_ups=set_ups,
+        state=planned_columns(runs, angle_rad, known.circles),
+    )
+    samples.derive(engine_machine(model.machine))
     counts = np.array([readings_of(run, cycle_rate_hz) for run in runs])
     weights = np.sqrt(counts / samples_per_turn)[repeat]
     return Sensitivity(
@@ -120,7 +129,7 @@ def record_sensitivity(records: Sequence[Record], model: Model) -> Sensitivity:
     InputError
         Where a record is of another machine, or a sample out of the nominal machine's reach.
     """
-    known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
+    known = model.with_mounts(list(dict.fromkeys(mount_keys(records)))).with_circles(circle_ids(records))
     names = ", ".join(record.name for record in records)
     jacobian = _jacobian(known, samples_of(records, known), names)
     return Sensitivity(jacobian, float(len(jacobian)), tuple(known.parameters()), known.free)
@@ -166,7 +175,7 @@ def _sliders_mm(run: CircleRun, angle_rad: NDArray[np.floating], model: Model, o
     sliders_mm, status = inverse(model.machine, circle.poses(angle_rad, run.mount.cup_mm), circle.platform_rpy_rad)
     if status.any():
         row = int(np.flatnonzero(status)[0])
-        place = f"{origin}: circle {circle.id} at {np.degrees(angle_rad[row]):.0f} deg"
+        place = f"{origin}: circle {circle.id} at {np.degrees(angle_rad[row]) % 360.0:.0f} deg"
         raise InputError(f"{place}: {status_name(int(status[row]))} (expected a circle within reach)")
     return sliders_mm
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 
 Columns = dict[str, NDArray[Any]]
@@ -26,7 +27,7 @@ def state_columns(records: Sequence[Record], circles: Sequence[int] = ()) -> Col
     ----------
     records : sequence of Record
     circles : sequence of int
-        Ids of the circles a model knows; the `circle` of a sample is the place of its id, -1 where it is not among them.
+        Ids of the circles a model knows; the `circle` of a sample is the place of its id among them, or -1.
 
     Returns
     -------
@@ -40,6 +41,44 @@ def state_columns(records: Sequence[Record], circles: Sequence[int] = ()) -> Col
         part["sweep"] = (sweeps + number).astype(np.int32)
         sweeps += int(number.max(initial=-1)) + 1
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
+
+
+def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating], circles: Sequence[int] = ()) -> Columns:
+    """Columns of the state that a plan would have: one lap of each run, one after another, temperature not measured.
+
+    Parameters
+    ----------
+    runs : sequence of CircleRun
+    angle_rad : ndarray, shape (m,)
+        Angles from the run's start, rising, the same for every run.
+    circles : sequence of int
+        As for `state_columns`.
+
+    Returns
+    -------
+    dict of str to ndarray, each of shape (len(runs) m,)
+    """
+    count = len(angle_rad)
+
+    def of_runs(values: list[float]) -> NDArray[np.float64]:
+        return np.repeat(np.array(values, dtype=np.float64), count)
+
+    feed_mm_s = of_runs([run.feed_mm_min / SECONDS_PER_MINUTE for run in runs])
+    lap_s = [2.0 * np.pi * run.circle.radius_mm / run.feed_mm_min * SECONDS_PER_MINUTE for run in runs]
+    begins_s = np.cumsum([0.0, *(run.laps * each for run, each in zip(runs, lap_s, strict=True))])[:-1]
+    direction = of_runs([run.direction for run in runs])
+    unknown = np.full(len(direction), np.nan)
+    return {
+        "time_s": of_runs(list(begins_s)) + np.outer(lap_s, angle_rad / (2.0 * np.pi)).ravel(),
+        "circle": _places(np.repeat([run.circle.id for run in runs], count), circles),
+        "sweep": np.repeat(np.arange(len(runs), dtype=np.int32), count),
+        "lap": np.zeros(len(direction), np.int32),
+        "direction": direction,
+        "angle_rad": direction * np.tile(angle_rad, len(runs)),
+        "feed_mm_s": feed_mm_s,
+        "temperature_c": unknown,
+        "warming_k": unknown,
+    }
 
 
 def _columns(record: Record, circles: Sequence[int]) -> Columns:

@@ -1,4 +1,4 @@
-"""Units at the edges: the engine's mm, rad and s as µm, µrad and ms in files, tables and JSON, the unit named beside."""
+"""Units at the edges: the engine's mm, rad and s as µm, µrad and ms in files, tables and JSON, with the unit named."""
 
 from __future__ import annotations
 

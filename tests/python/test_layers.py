@@ -36,11 +36,11 @@ ALLOWED: dict[str, set[str]] = {
     "model": {"errors", "validation", "atomic_file", "units", "machine", "kinematics", "_core"},
     "structure": {"model"},
     "redundancy": {"model", "structure"},
-    "state": {"record"},
+    "state": {"plan", "record"},
     "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
     "diagnosis": {"errors", "units", "record", "model", "prediction", "redundancy", "_core"},
     "ledger": {"errors", "units", "record", "model", "prediction", "diagnosis", "_core"},
-    "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "record", "_core"},
+    "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
     "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
     # which circles tell most
     "planning": {

@@ -15,9 +15,9 @@ namespace hexdbb {
 
 struct ParameterInfo {
   std::string name;
-  std::string unit;    // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
-  double prior_sigma;  // size to expect before any measurement, the scale of the fit
-  double limit;        // values beyond +-limit make no physical sense
+  std::string unit;       // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
+  double prior_sigma;     // size to expect before any measurement, the scale of the fit
+  double limit;           // values beyond +-limit make no physical sense
   bool is_shape = false;  // pushes nothing by itself: it shapes what the effect's other parameters push
 };
 

@@ -32,17 +32,17 @@ struct State {
   Eigen::VectorXi circle;  // as the model counts circles, from 0; negative where it does not know the circle
   Eigen::VectorXi sweep;   // uninterrupted capture
   Eigen::VectorXi lap;
-  Eigen::VectorXd direction;      // +1 counter-clockwise, -1 clockwise
-  Eigen::VectorXd angle_rad;      // commanded polar angle
-  Eigen::VectorXd feed_mm_s;      // commanded
-  Eigen::VectorXd temperature_c;  // NaN where not measured
-  Eigen::VectorXd warming_k;      // temperature minus the record's first one; NaN where not measured
+  Eigen::VectorXd direction;           // +1 counter-clockwise, -1 clockwise
+  Eigen::VectorXd angle_rad;           // commanded polar angle
+  Eigen::VectorXd feed_mm_s;           // commanded
+  Eigen::VectorXd temperature_c;       // NaN where not measured
+  Eigen::VectorXd warming_k;           // temperature minus the record's first one; NaN where not measured
   Eigen::VectorXd nominal_reading_mm;  // of the nominal machine: what the programme asks of the bar
   SliderTable velocity_mm_s;
   SliderTable side;               // +1 or -1: where the slider last moved to; 0 where it never moved
   SliderTable since_reversal_s;   // kLongAgo where there was none in the sweep
   SliderTable since_reversal_mm;  // travel from the turning point, likewise
-  SliderTable leg_force;          // axial force per newton of vertical load at the platform's reference point; tension +
+  SliderTable leg_force;  // axial force per newton of vertical load at the platform's reference point; tension +
 
   /// The same columns for some rows.
   State rows(const std::vector<Eigen::Index>& which) const;
