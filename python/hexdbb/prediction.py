@@ -27,6 +27,11 @@ def circle_ids(records: Sequence[Record]) -> list[int]:
     return sorted({int(each) for record in records for each in np.unique(record.columns["circle"])})
 
 
+def knowing(model: Model, records: Sequence[Record]) -> Model:
+    """Give the same model knowing the mounts and circles of some records; what is new to it stands where planned."""
+    return model.with_mounts(list(dict.fromkeys(mount_keys(records)))).with_circles(circle_ids(records))
+
+
 def unseen_mounts(record: Record, model: Model) -> list[MountKey]:
     """Give the mounts of a record whose cups a model does not know."""
     return [key for key in dict.fromkeys(mount_keys([record])) if key not in model.mounts]

@@ -19,7 +19,7 @@ from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine, inverse, status_name
 from hexdbb.model import Model, MountKey, Parameter, new_term
 from hexdbb.plan import CircleRun, Plan
-from hexdbb.prediction import circle_ids, mount_keys, samples_of
+from hexdbb.prediction import knowing, samples_of
 from hexdbb.record import Record
 from hexdbb.state import planned_columns
 
@@ -129,7 +129,7 @@ def record_sensitivity(records: Sequence[Record], model: Model) -> Sensitivity:
     InputError
         Where a record is of another machine, or a sample out of the nominal machine's reach.
     """
-    known = model.with_mounts(list(dict.fromkeys(mount_keys(records)))).with_circles(circle_ids(records))
+    known = knowing(model, records)
     names = ", ".join(record.name for record in records)
     jacobian = _jacobian(known, samples_of(records, known), names)
     return Sensitivity(jacobian, float(len(jacobian)), tuple(known.parameters()), known.free)

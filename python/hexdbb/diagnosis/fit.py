@@ -17,7 +17,7 @@ from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.step import ledger_step
 from hexdbb.errors import InputError, RunError
 from hexdbb.model import Model
-from hexdbb.prediction import mount_keys, residual_mm, samples_of
+from hexdbb.prediction import knowing, residual_mm, samples_of
 from hexdbb.record import Record
 from hexdbb.redundancy import sentences
 
@@ -104,7 +104,7 @@ def diagnose(
         raise InputError("no record to diagnose (expected at least one)")
     if not model.free.any():
         raise InputError("the model has no free value (expected at least one to fit)")
-    known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
+    known = knowing(model, records)
     noise = noise_of(records)
     first = evaluate_fit(records, known, known.free, noise, robust=robust)
     (fitted, result), either_sign = settle_signs(

@@ -23,7 +23,7 @@ from hexdbb.discovery.trial import Base, fitted_base, holm, try_effect
 from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.errors import InputError
 from hexdbb.model import Model
-from hexdbb.prediction import mount_keys
+from hexdbb.prediction import knowing
 from hexdbb.record import Record
 
 MOST_TRIED = 6
@@ -81,7 +81,7 @@ def discover(
         Where the model itself cannot be fitted.
     """
     _require_enough(records)
-    known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
+    known = knowing(model, records)
     noise = noise_of(records)
     progress("fitting the model as it is")
     base = fitted_base(records, known, noise)

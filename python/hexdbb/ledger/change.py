@@ -17,7 +17,7 @@ from hexdbb.diagnosis.heldout import Refit, as_it_is
 from hexdbb.errors import InputError
 from hexdbb.ledger.choice import held_at_zero, with_effect
 from hexdbb.model import Model, Size, split_choice
-from hexdbb.prediction import mount_keys, residual_mm
+from hexdbb.prediction import knowing, residual_mm
 from hexdbb.record import Record
 from hexdbb.units import shown_factor, shown_unit
 
@@ -91,7 +91,7 @@ def _fitted_as_it_is(records: Sequence[Record], model: Model, robust: bool) -> t
         base = diagnose(records, model, robust=robust, check_held_out=False)
         fitted = replace(base.model, ledger=model.ledger)
         return fitted, base.residual_mm, refitter(noise_of(records), robust)
-    known = model.with_mounts(list(dict.fromkeys(mount_keys(records))))
+    known = knowing(model, records)
     return known, residual_mm(records, known), as_it_is
 
 

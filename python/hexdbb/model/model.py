@@ -178,9 +178,7 @@ def _with_places(
 ) -> tuple[Term, ...]:
     """Give terms with a place for every value that so many mounts and circles make."""
     counts = max(len(mounts), 1), max(len(circles), 1)
-    return tuple(
-        _extended(term, effect_info(machine, counts[0], term.effect, counts[1]).size) for term in terms
-    )
+    return tuple(_extended(term, effect_info(machine, counts[0], term.effect, counts[1]).size) for term in terms)
 
 
 def _extended(term: Term, size: int) -> Term:
