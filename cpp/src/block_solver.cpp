@@ -25,6 +25,13 @@ void store_angles(const RssrAngles& angles, Block& block, Eigen::Index row) {
   block.angles.row(row) << angles.cosine.transpose(), angles.sine.transpose();
 }
 
+RssrAngles angles_of(const Block& block, Eigen::Index row) {
+  RssrAngles out;
+  out.cosine = block.angles.row(row).head<3>().transpose();
+  out.sine = block.angles.row(row).tail<3>().transpose();
+  return out;
+}
+
 }  // namespace
 
 BlockSolver::BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory)
@@ -68,19 +75,22 @@ void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fre
   if (joints_are_shared(block, rows.count)) {
     solve_block(model_.nominal, block, rows.count, from, want_sensitivity);
     for (Eigen::Index row = 0; row < rows.count; ++row) {
-      if (!is_solved(block, row)) solve_row(rows, row, want_sensitivity);
+      if (is_solved(block, row)) continue;
+      store_angles(RssrAngles(), block, row);  // what the lanes left there led nowhere
+      solve_row(rows, row, want_sensitivity);
     }
   } else {
-    for (Eigen::Index row = 0; row < rows.count; ++row) solve_row(rows, row, want_sensitivity);
+    for (Eigen::Index row = 0; row < rows.count; ++row) {
+      if (from == Start::kNeighbour && row > 0) block.angles.row(row) = block.angles.row(row - 1);
+      solve_row(rows, row, want_sensitivity);
+    }
   }
-  for (int i = 0; i < 3; ++i) {
-    last_.cosine[i] = block.angles(rows.count - 1, i);
-    last_.sine[i] = block.angles(rows.count - 1, 3 + i);
-  }
+  last_ = angles_of(block, rows.count - 1);
   if (memory_ != nullptr) memory_->blocks[rows.first / Block::kRows] = block.angles;
 }
 
-/// One row by the single-pose functions, from home: the RSSR loops, then six coordinates where joints are not shared.
+/// One row by the single-pose functions, from the angles the block has: the RSSR loops, then six coordinates where
+/// joints are not shared.
 void BlockSolver::solve_row(const SampleBlock& rows, Eigen::Index row, bool want_sensitivity) {
   Block& block = *block_;
   Ports push;
@@ -88,7 +98,7 @@ void BlockSolver::solve_row(const SampleBlock& rows, Eigen::Index row, bool want
   const Mechanism mechanism = assemble(model_.nominal, block.sliders_mm.row(row).transpose(), push);
   const bool shared = hexdbb::joints_are_shared(mechanism);
   const PlatformTriangle triangle(shared_joints(mechanism));
-  RssrAngles angles;
+  RssrAngles angles = angles_of(block, row);
   ForwardResult result = forward(mechanism, triangle, angles);
   if (result.status == Status::kOk && !shared) result = forward_six(mechanism, result.pose);
   const SetUp& set_up = samples_.set_ups[samples_.set_up[rows.first + row]];

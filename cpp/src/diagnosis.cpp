@@ -295,7 +295,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.sweep.size() == samples.size()) out.correlation = correlation_length(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
-  spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
+  if (options.curvature) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();
