@@ -26,4 +26,5 @@ def undo(model: Model) -> Model:
             f"{model.name}: step {last.step} ({last.what}) cannot be undone: the model before it was not kept"
             " (expected an [[earlier]] section)"
         )
-    return replace(model, terms=last.before.terms, mounts=last.before.mounts, ledger=model.ledger[:-1])
+    before = last.before
+    return replace(model, terms=before.terms, mounts=before.mounts, circles=before.circles, ledger=model.ledger[:-1])

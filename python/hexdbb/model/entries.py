@@ -89,11 +89,12 @@ class EarlierEffectEntry(StrictModel):
 class EarlierEntry(StrictModel):
     """The model as it stood before a step of the ledger: what taking the step back gives.
 
-    Mounts are only ever appended: `mounts` is how many of the file's there were.
+    Mounts and circles are only ever appended: `mounts` and `circles` are how many of the file's there were.
     """
 
     before_step: int
     mounts: Annotated[int, Field(ge=0)]
+    circles: Annotated[int, Field(ge=0)] = 0
     effects: tuple[EarlierEffectEntry, ...] = Field(default=(), strict=False, alias="effect")
 
 

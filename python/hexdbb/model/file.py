@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import shutil
-from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -51,7 +50,7 @@ def save_model(model: Model, path: Path | str) -> None:
     """
     place = Path(path)
     parameters = iter(model.parameters())
-    describe = _describe(model.machine, model.circles)
+    describe = _describe(model.machine)
     file = ModelFile(
         machine=model.machine,
         circles=model.circles,
@@ -68,14 +67,14 @@ def save_model(model: Model, path: Path | str) -> None:
             shutil.copy2(place, place.with_suffix(".previous" + place.suffix))
 
 
-def _describe(machine: MachineFile, circles: Sequence[int]) -> Describe:
-    return lambda mounts, effect: effect_info(machine, max(mounts, 1), effect, max(len(circles), 1))
+def _describe(machine: MachineFile) -> Describe:
+    return lambda mounts, circles, effect: effect_info(machine, max(mounts, 1), effect, max(circles, 1))
 
 
 def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], path: str) -> tuple[LedgerStep, ...]:
-    describe = _describe(file.machine, file.circles)
+    describe = _describe(file.machine)
     states = {
-        entry.before_step: earlier_state(entry, mounts, describe, f"{path}: earlier[{index}]")
+        entry.before_step: earlier_state(entry, mounts, file.circles, describe, f"{path}: earlier[{index}]")
         for index, entry in enumerate(file.earlier)
     }
     return tuple(replace(_step(entry), before=states.get(entry.step)) for entry in file.steps)

@@ -13,10 +13,11 @@ from hexdbb.model.terms import MountKey, Term
 
 @dataclass(frozen=True)
 class State:
-    """How a model stood: its effects with their values, and the mounts whose cups it knew."""
+    """How a model stood: its effects with their values, the mounts whose cups and the circles whose balls it knew."""
 
     terms: tuple[Term, ...]
     mounts: tuple[MountKey, ...]
+    circles: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

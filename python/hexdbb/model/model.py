@@ -51,7 +51,7 @@ class Model:
     @property
     def state(self) -> State:
         """Effects and mounts as they stand, for the ledger to keep."""
-        return State(self.terms, self.mounts)
+        return State(self.terms, self.mounts, self.circles)
 
     @property
     def values(self) -> Floats:
@@ -87,24 +87,17 @@ class Model:
 
     def with_mounts(self, keys: Sequence[MountKey]) -> Model:
         """Give the same model knowing these mounts too; their cups stand where planned until they are fitted."""
-        mounts = (*self.mounts, *(key for key in keys if key not in self.mounts))
-        return replace(self, mounts=mounts, terms=_with_places(self.terms, self.machine, mounts, self.circles))
+        new = [key for key in keys if key not in self.mounts]
+        return replace(self, mounts=(*self.mounts, *new))._with_places()
 
     def with_circles(self, ids: Sequence[int]) -> Model:
-        """Give the same model knowing these circles too; their balls sit where planned until they are fitted.
+        """Give the same model knowing these circles too; their balls sit where planned until they are fitted."""
+        new = [each for each in ids if each not in self.circles]
+        return replace(self, circles=(*self.circles, *new))._with_places()
 
-        The states its ledger keeps know them as well.
-        """
-        circles = (*self.circles, *(each for each in ids if each not in self.circles))
-
-        def knowing(state: State) -> State:
-            return replace(state, terms=_with_places(state.terms, self.machine, state.mounts, circles))
-
-        ledger = tuple(
-            step if step.before is None else replace(step, before=knowing(step.before)) for step in self.ledger
-        )
-        terms = _with_places(self.terms, self.machine, self.mounts, circles)
-        return replace(self, circles=circles, terms=terms, ledger=ledger)
+    def _with_places(self) -> Model:
+        """Give the same model with a place for every value that its mounts and circles make."""
+        return replace(self, terms=tuple(_extended(term, self.info(term.effect).size) for term in self.terms))
 
     def engine(self) -> _core.Model:
         """Give the engine's form of the model."""
@@ -171,14 +164,6 @@ def _parameters(info: _core.EffectInfo) -> list[Parameter]:
         for element in info.elements
         for each in info.parameters
     ]
-
-
-def _with_places(
-    terms: Sequence[Term], machine: MachineFile, mounts: Sequence[MountKey], circles: Sequence[int]
-) -> tuple[Term, ...]:
-    """Give terms with a place for every value that so many mounts and circles make."""
-    counts = max(len(mounts), 1), max(len(circles), 1)
-    return tuple(_extended(term, effect_info(machine, counts[0], term.effect, counts[1]).size) for term in terms)
 
 
 def _extended(term: Term, size: int) -> Term:
