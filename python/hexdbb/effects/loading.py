@@ -1,0 +1,54 @@
+"""Loading the file that holds a user's effects: named on the command line by the user, never by data."""
+
+from __future__ import annotations
+
+import importlib.util
+import traceback
+from pathlib import Path
+
+from hexdbb.effects.user import UserEffect
+from hexdbb.errors import InputError
+
+
+def load_effects(path: Path | str) -> list[UserEffect]:
+    """Run a Python file and give the effects it declares, in the order of its lines.
+
+    Raises
+    ------
+    InputError
+        No such file, a file that does not run (with the line that failed), no effect in it, or two of one name.
+    """
+    place = Path(path)
+    if not place.is_file():
+        raise InputError(f"{place}: no such file (expected a Python file that declares effects)")
+    spec = importlib.util.spec_from_file_location(f"hexdbb_user_effects_{place.stem}", place)
+    if spec is None or spec.loader is None:
+        raise InputError(f"{place}: not a Python file (expected NAME.py)")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except InputError:
+        raise
+    except Exception as error:  # a user's file may raise anything
+        raise InputError(f"{place}:{_line_in(place, error)}: {type(error).__name__}: {error}") from None
+    found = {id(value): value for value in vars(module).values() if isinstance(value, UserEffect)}
+    effects = sorted(found.values(), key=lambda each: each.line)
+    if not effects:
+        raise InputError(f"{place}: declares no effect (expected a function under @hexdbb.effects.effect)")
+    names = [each.name for each in effects]
+    for each in effects:
+        if names.count(each.name) > 1:
+            raise InputError(f"{each.where}: declared twice (expected a name of its own)")
+    return effects
+
+
+def _line_in(path: Path, error: Exception) -> int:
+    """Line of a file in which an error arose."""
+    if isinstance(error, SyntaxError):
+        return error.lineno or 0
+    return line_of(str(path), error)
+
+
+def line_of(path: str, error: Exception) -> int:
+    """Last line of a file that an exception passed through; 0 where it did not."""
+    return next((f.lineno or 0 for f in reversed(traceback.extract_tb(error.__traceback__)) if f.filename == path), 0)

@@ -1,0 +1,146 @@
+"""A user's own effect: a function of the samples' state, with what it pushes, its unit and its expected size.
+
+The function gives the push per unit of the effect's value, in every sample and at every place of the port: shape (n, 6)
+at the ports `slider` and `leg`, (n, 6, 3) at `slider_joint` and `platform_joint`, (n, 3) at `ball` and `cup`, (n,) at
+`reading`. With six elements each slider (leg) has a value of its own, with three each guideway, with one all share it. An
+effect of several parameters gives a sequence of such arrays, one each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hexdbb import _core
+from hexdbb.effects.sample_state import SampleState
+from hexdbb.errors import InputError
+
+Basis = Callable[[SampleState], Any]
+
+SHAPES: dict[str, tuple[int, ...]] = {
+    "slider": (6,),
+    "leg": (6,),
+    "slider_joint": (6, 3),
+    "platform_joint": (6, 3),
+    "ball": (3,),
+    "cup": (3,),
+    "reading": (),
+}
+"""Shape of one sample's push, by port."""
+KINDS = {1: "machine", 3: "guideway", 6: "slider"}
+"""What an element is, by their number."""
+LIMIT_OF_SIGMA = 100.0
+"""A value beyond so many expected sizes makes no physical sense, where the effect states no limit."""
+
+
+@dataclass(frozen=True)
+class UserEffect:
+    """A user's effect as it was declared; `line` is that of its function in `path`."""
+
+    name: str
+    physics: str
+    port: str
+    unit: str
+    parameters: tuple[str, ...]
+    prior_sigma: float
+    limit: float
+    elements: int
+    basis: Basis
+    path: str
+    line: int
+
+    @property
+    def where(self) -> str:
+        """File and line, as errors begin."""
+        return f"{self.path}:{self.line}: effect {self.name}"
+
+    def info(self) -> _core.EffectInfo:
+        """Describe it as the engine's own are described."""
+        kind = "leg" if self.elements == 6 and self.port in ("leg", "platform_joint") else KINDS[self.elements]
+        return _core.EffectInfo(
+            name=self.name,
+            physics=self.physics,
+            source=f"{self.path}:{self.line}",
+            element_kind=kind,
+            elements=[str(element + 1) for element in range(self.elements)],
+            parameters=[
+                _core.ParameterInfo(name=each, unit=self.unit, prior_sigma=self.prior_sigma, limit=self.limit)
+                for each in self.parameters
+            ],
+            ports=[self.port],
+        )
+
+
+def effect(
+    *,
+    port: str,
+    unit: str,
+    prior_sigma: float,
+    elements: int = 1,
+    parameters: Sequence[str] = ("size",),
+    limit: float | None = None,
+) -> Callable[[Basis], UserEffect]:
+    """Declare a function of the state an effect; its docstring's first line is the effect's physics.
+
+    Parameters
+    ----------
+    port : str
+        Where it pushes: slider, leg, slider_joint, platform_joint, ball, cup, reading.
+    unit : str
+        Of its values, such that value times basis is mm: ``mm`` where the basis is a pure number, ``mm/N``, ``s`` ...
+    prior_sigma : float
+        Size to expect before any measurement.
+    elements : int
+        6: a value for each slider or leg; 3: one for each guideway; 1: one for the whole machine.
+    parameters : sequence of str
+        Names of an element's values.
+    limit : float, optional
+        Values beyond +-limit make no physical sense; `LIMIT_OF_SIGMA` expected sizes where not given.
+
+    Raises
+    ------
+    InputError
+        Naming the file, line and option that is wrong.
+    """
+
+    def declare(function: Basis) -> UserEffect:
+        code = function.__code__
+        text = (function.__doc__ or "").strip().splitlines()
+        declared = UserEffect(
+            name=function.__name__,
+            physics=text[0] if text else f"User's effect {function.__name__}.",
+            port=port,
+            unit=unit,
+            parameters=tuple(parameters),
+            prior_sigma=prior_sigma,
+            limit=LIMIT_OF_SIGMA * prior_sigma if limit is None else limit,
+            elements=elements,
+            basis=function,
+            path=code.co_filename,
+            line=code.co_firstlineno,
+        )
+        _check(declared)
+        return declared
+
+    return declare
+
+
+def _check(declared: UserEffect) -> None:
+    shape = SHAPES.get(declared.port)
+    if shape is None:
+        raise InputError(f"{declared.where}: port {declared.port!r} (expected one of {', '.join(SHAPES)})")
+    possible = (1, 3, 6) if shape[:1] == (6,) else (1,)
+    if declared.elements not in possible:
+        counts = " or ".join(map(str, possible))
+        raise InputError(
+            f"{declared.where}: elements {declared.elements!r} (expected {counts} at port {declared.port})"
+        )
+    if not declared.parameters:
+        raise InputError(f"{declared.where}: parameters () (expected at least one name)")
+    if not 0.0 < declared.prior_sigma < float("inf"):
+        raise InputError(f"{declared.where}: prior_sigma {declared.prior_sigma!r} (expected a number > 0)")
+    if not declared.limit > 0.0:
+        raise InputError(f"{declared.where}: limit {declared.limit!r} (expected a number > 0)")
+    if declared.name in _core.effect_names():
+        raise InputError(f"{declared.where}: the name is that of a known effect (expected another)")
