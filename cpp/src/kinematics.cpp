@@ -207,6 +207,10 @@ const char* status_name(Status status) {
       return "travel: a slider would leave its travel";
     case Status::kGap:
       return "gap: two sliders would come closer than the smallest gap";
+    case Status::kCorrectionLimit:
+      return "correction limit: more than the compensation file allows";
+    case Status::kNotANumber:
+      return "not a number: pose, coordinates and velocities must be finite";
   }
   return "unknown status";
 }

@@ -5,8 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "drawing.hpp"
-#include "hexdbb/ball_bar.hpp"
+#include "compensating.hpp"
 
 namespace {
 long allocations = 0;
@@ -107,6 +106,29 @@ TEST_F(NoAllocation, SinglePosePath) {
       EXPECT_NE(sum + sensitivity.value.sum(), 0.0);
     }
   }
+}
+
+TEST_F(NoAllocation, AHundredThousandCallsOfTheCompensator) {
+  std::vector<std::string> names = kGeometricNames;
+  names.insert(names.end(), kCorrectable.begin(), kCorrectable.end());
+  names.push_back("leg_thermal");
+  names.push_back("screw_thermal");
+  Compensator compensator(data_of(wrong_machine(names, 92)));
+  const std::vector<Pose> path = circle_path(0.012, 1.0);
+  Direction direction;
+  direction.temperature_c = 23.0;
+  long failures = 0;
+  EXPECT_EQ(during([&] {
+              for (std::size_t call = 0; call < 100000; ++call) {
+                direction.velocity_mm_s.setConstant(call % 2000 < 1000 ? 1.0 : -1.0);
+                const SliderTargets targets = compensator.sliders(path[call % path.size()], direction);
+                failures += targets.status != Status::kOk;
+                failures += compensator.pose(targets.sliders_mm, direction).status != Status::kOk;
+              }
+              failures += compensator.sliders(make_pose(0, 0, 900, 0, 0, 0)).status == Status::kOk;
+            }),
+            0);
+  EXPECT_EQ(failures, 0);
 }
 
 TEST_F(NoAllocation, FailuresAllocateNothingEither) {

@@ -83,7 +83,7 @@ typedef struct hexdbb_pose {
 typedef struct hexdbb_motion {
   uint32_t struct_size;
   uint32_t reserved;
-  double velocity_mm_s[HEXDBB_SLIDERS]; /* commanded, of each slider; its sign is the direction, 0 keeps the last one */
+  double velocity_mm_s[HEXDBB_SLIDERS]; /* commanded; its sign is the direction, 0: see below */
   double temperature_c;                 /* measured; not a number (NAN) where it is not */
 } hexdbb_motion;
 
@@ -179,10 +179,10 @@ double hexdbb_enabled_part(const hexdbb_compensator* compensator) HEXDBB_NOEXCEP
 hexdbb_status hexdbb_reset(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
 
 /* Where the sliders must stand for a pose. Call it with poses in order of motion.
- * motion: NULL where unknown: directions then follow from the call before (a pose more than 2 mm of slider travel away
- * is looked at without being followed, unless the next call is near it, so that a controller may try end points in
- * between), velocities count as 0 and the temperature as not measured.
- * out->struct_size must be set. Returns out->status. */
+ * motion: NULL where unknown, which is the same as velocities of 0 and no temperature. The direction of a slider whose
+ * velocity is 0 follows from the call before; a pose more than 2 mm of slider travel away is then looked at without
+ * being followed, unless the next call is near it, so that a controller may try end points in between. out->struct_size
+ * must be set. Returns out->status. */
 hexdbb_status hexdbb_sliders_from_pose(hexdbb_compensator* compensator, const hexdbb_pose* pose,
                                        const hexdbb_motion* motion, hexdbb_target* out) HEXDBB_NOEXCEPT;
 

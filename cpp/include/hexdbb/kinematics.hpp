@@ -15,11 +15,13 @@ namespace hexdbb {
 
 enum class Status : int {
   kOk = 0,
-  kUnreachable = 1,     // the legs cannot reach
-  kSingular = 2,        // the platform can move with the sliders locked
-  kIterationLimit = 3,  // Newton did not converge
-  kTravel = 4,          // a slider would leave its travel
-  kGap = 5,             // the sliders of one guideway would come closer than the smallest gap
+  kUnreachable = 1,      // the legs cannot reach
+  kSingular = 2,         // the platform can move with the sliders locked
+  kIterationLimit = 3,   // Newton did not converge
+  kTravel = 4,           // a slider would leave its travel
+  kGap = 5,              // the sliders of one guideway would come closer than the smallest gap
+  kCorrectionLimit = 6,  // a correction would be larger than its file allows (compensation.hpp)
+  kNotANumber = 7,       // a pose, coordinate or velocity that is no finite number
 };
 
 const char* status_name(Status status);

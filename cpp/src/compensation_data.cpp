@@ -1,0 +1,165 @@
+// From a model to what of it can be compensated, and back to a model.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "compensation_layout.hpp"
+
+namespace hexdbb {
+
+namespace {
+
+using Reason = std::string;  // empty: none
+
+/// Columns of the state that a controller knows of the very moment.
+bool is_known_to_controllers(const std::string& column) {
+  static const std::vector<std::string> known = {"side",          "since_reversal_mm", "velocity_mm_s", "leg_force",
+                                                 "temperature_c", "warming_k",         "time_s"};
+  return std::find(known.begin(), known.end(), column) != known.end();
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_engines_own(const Machine& machine, const std::string& name) {
+  try {
+    find_effect(machine, 1, name);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+Reason why_not(const Machine& machine, const EffectInfo& info, double reference_temperature_c) {
+  if (info.is_set_up) return "belongs to the measurement, not to the machine";
+  if (!is_engines_own(machine, info.name)) return "is known to the program that fitted it, not to the engine";
+  for (const char* port : {"ball", "cup", "reading"}) {
+    if (has(info.ports, port)) return std::string("pushes the ") + port + ", not the machine";
+  }
+  for (const std::string& column : info.needs) {
+    if (!is_known_to_controllers(column)) return "depends on " + column + ", which a controller does not follow";
+  }
+  const bool has_temperature = has(info.needs, "warming_k") || has(info.needs, "temperature_c");
+  if (has(info.needs, "time_s") && !has_temperature) return "depends on time";
+  if (has(info.needs, "warming_k") && std::isnan(reference_temperature_c)) {
+    return "needs the temperature of the record's first sample, which was not stated";
+  }
+  return {};
+}
+
+CompensatedEffect named_values(const Term& term) {
+  CompensatedEffect out;
+  const EffectInfo& info = term.effect->info();
+  out.name = info.name;
+  Eigen::Index at = 0;
+  for (const std::string& element : info.elements) {
+    for (const ParameterInfo& parameter : info.parameters) {
+      out.values.push_back({element, parameter.name, term.values[at++]});
+    }
+  }
+  return out;
+}
+
+[[noreturn]] void refuse(CompensationFault fault, const std::string& message) {
+  throw CompensationError(fault, message);
+}
+
+/// Values in the effect's own order; every one named once.
+Eigen::VectorXd ordered_values(const EffectInfo& info, const CompensatedEffect& given, const std::string& where) {
+  Eigen::VectorXd out = Eigen::VectorXd::Constant(info.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const CompensationValue& value : given.values) {
+    const auto element = std::find(info.elements.begin(), info.elements.end(), value.element);
+    const auto parameter = std::find_if(info.parameters.begin(), info.parameters.end(),
+                                        [&](const ParameterInfo& each) { return each.name == value.parameter; });
+    const std::string name = value.element + "." + value.parameter;
+    if (element == info.elements.end() || parameter == info.parameters.end()) {
+      refuse(CompensationFault::kUnknownEffect, where + " has no value " + name);
+    }
+    const auto place = (element - info.elements.begin()) * static_cast<std::ptrdiff_t>(info.parameters.size()) +
+                       (parameter - info.parameters.begin());
+    if (!std::isnan(out[place])) refuse(CompensationFault::kMalformed, where + "." + name + ": there twice");
+    if (!std::isfinite(value.value)) {
+      refuse(CompensationFault::kMalformed, where + "." + name + ": expected a finite number");
+    }
+    out[place] = value.value;
+  }
+  if (out.hasNaN())
+    refuse(CompensationFault::kMalformed, where + ": expected " + std::to_string(info.size()) + " values");
+  return out;
+}
+
+const layout::Dimension* differing(const Machine& one, const Machine& other) {
+  for (const layout::Dimension& dimension : layout::kDimensions) {
+    const double a = one.*dimension.member, b = other.*dimension.member;
+    if (!(std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)))) return &dimension;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_possible(const Machine& machine) noexcept {
+  for (const layout::Dimension& each : layout::kDimensions) {
+    if (!std::isfinite(machine.*each.member)) return false;
+  }
+  const double reach = std::abs(machine.base_inradius_mm - machine.platform_circumradius_mm);
+  return machine.base_inradius_mm > 0.0 && machine.platform_circumradius_mm > 0.0 && machine.leg_length_mm > reach &&
+         machine.min_gap_mm > 0.0 && machine.travel_max_mm - machine.travel_min_mm > machine.min_gap_mm &&
+         machine.screw_lead_mm > 0.0 && machine.moved_mass_kg >= 0.0;
+}
+
+CompensationData compensation_of(const Model& model, const std::string& name, const std::string& model_sha256,
+                                 const CompensationLimits& limits, double reference_temperature_c) {
+  CompensationData out;
+  out.name = name;
+  out.model_sha256 = model_sha256;
+  out.reference_temperature_c = reference_temperature_c;
+  out.machine = model.nominal.machine;
+  out.limits = limits;
+  for (const Term& term : model.terms) {
+    const EffectInfo& info = term.effect->info();
+    const Reason reason = why_not(out.machine, info, reference_temperature_c);
+    if (!reason.empty()) {
+      out.left_out.push_back({info.name, reason});
+      continue;
+    }
+    out.effects.push_back(named_values(term));
+    if (has(info.needs, "time_s")) out.left_out.push_back({info.name, "the part of it that depends on time alone"});
+  }
+  return out;
+}
+
+bool is_same_machine(const Machine& one, const Machine& other) noexcept { return differing(one, other) == nullptr; }
+
+void require_machine(const Machine& of_data, const Machine& of_controller, const std::string& source) {
+  const layout::Dimension* dimension = differing(of_data, of_controller);
+  if (dimension == nullptr) return;
+  refuse(CompensationFault::kOtherMachine, source + ": of another machine: " + dimension->name + " is " +
+                                               layout::number(of_data.*dimension->member) + " (expected " +
+                                               layout::number(of_controller.*dimension->member) + ")");
+}
+
+Model compensation_model(const CompensationData& data, const std::string& source) {
+  if (!is_possible(data.machine))
+    refuse(CompensationFault::kMalformed, source + ": dimensions: no such machine can stand");
+  for (const layout::Limit& each : layout::kLimits) {
+    if (!(data.limits.*each.member > 0.0) || !std::isfinite(data.limits.*each.member)) {
+      refuse(CompensationFault::kMalformed, source + ": limits." + each.name + ": expected a number above 0");
+    }
+  }
+  Model out(data.machine);
+  for (const CompensatedEffect& given : data.effects) {
+    const std::string where = source + ": effect." + given.name;
+    if (!is_engines_own(data.machine, given.name)) {
+      refuse(CompensationFault::kUnknownEffect, where + ": no such effect in this version");
+    }
+    out.add(find_effect(data.machine, 1, given.name));
+    const EffectInfo& info = out.terms.back().effect->info();
+    if (info.is_set_up) refuse(CompensationFault::kUnknownEffect, where + ": belongs to the measurement");
+    out.terms.back().values = ordered_values(info, given, where);
+  }
+  return out;
+}
+
+}  // namespace hexdbb

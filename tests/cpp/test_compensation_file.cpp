@@ -1,0 +1,176 @@
+// The compensation file: nothing lost on the way, nothing wrong accepted.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "compensating.hpp"
+
+namespace hexdbb::testing {
+namespace {
+
+CompensationData everything() {
+  std::vector<std::string> names = kGeometricNames;
+  names.insert(names.end(), kCorrectable.begin(), kCorrectable.end());
+  names.push_back("leg_thermal");
+  names.push_back("cup_position");
+  CompensationData data = data_of(wrong_machine(names, 21));
+  data.name = "SP-120 \"left\" \\ hall 2\n";
+  return data;
+}
+
+/// The text with a right checksum again, as a program other than this would write it.
+std::string resealed(const std::string& text) {
+  const std::string above = text.substr(0, text.rfind("[check]\n"));
+  char hex[9];
+  std::snprintf(hex, sizeof hex, "%08x", static_cast<unsigned>(crc32(above)));
+  return above + "[check]\ncrc32 = \"" + hex + "\"\n";
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& with) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, std::string::npos) << old;
+  return text.replace(at, old.size(), with);
+}
+
+CompensationFault fault_of(const std::string& text, std::string* message = nullptr) {
+  try {
+    parse_compensation(text, "a.hexcomp");
+    return CompensationFault::kNone;
+  } catch (const CompensationError& error) {
+    if (message != nullptr) *message = error.what();
+    return error.fault();
+  }
+}
+
+TEST(CompensationFile, ReadsAsTheSameBits) {
+  const CompensationData data = everything();
+  const std::string text = compensation_text(data);
+  const CompensationData again = parse_compensation(text, "a.hexcomp");
+  EXPECT_EQ(compensation_text(again), text);
+  ASSERT_EQ(again.effects.size(), data.effects.size());
+  for (std::size_t e = 0; e < data.effects.size(); ++e) {
+    EXPECT_EQ(again.effects[e].name, data.effects[e].name);
+    ASSERT_EQ(again.effects[e].values.size(), data.effects[e].values.size());
+    for (std::size_t v = 0; v < data.effects[e].values.size(); ++v) {
+      EXPECT_EQ(again.effects[e].values[v].value, data.effects[e].values[v].value);
+      EXPECT_EQ(again.effects[e].values[v].element, data.effects[e].values[v].element);
+      EXPECT_EQ(again.effects[e].values[v].parameter, data.effects[e].values[v].parameter);
+    }
+  }
+  EXPECT_EQ(again.left_out.size(), data.left_out.size());
+  EXPECT_TRUE(is_same_machine(again.machine, data.machine));
+  EXPECT_EQ(again.name, "SP-120 \"left\" \\ hall 2 ");
+  EXPECT_EQ(again.model_sha256, data.model_sha256);
+  EXPECT_EQ(again.reference_temperature_c, data.reference_temperature_c);
+}
+
+TEST(CompensationFile, ChecksumIsTheUsualOne) { EXPECT_EQ(crc32("123456789"), 0xcbf43926u); }
+
+TEST(CompensationFile, CutShortAnywhereIsTruncated) {
+  const std::string text = compensation_text(everything());
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    ASSERT_EQ(fault_of(text.substr(0, length)), CompensationFault::kTruncated) << length;
+  }
+}
+
+TEST(CompensationFile, AnyByteChangedIsRefused) {
+  const std::string text = compensation_text(everything());
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string other = text;
+    other[at] = static_cast<char>(other[at] ^ 1);
+    ASSERT_NE(fault_of(other), CompensationFault::kNone) << at;
+  }
+  EXPECT_EQ(fault_of(replaced(text, "1.longer = ", "1.longer = -")), CompensationFault::kAltered);
+  EXPECT_EQ(fault_of(text + "\n"), CompensationFault::kAltered);
+}
+
+TEST(CompensationFile, ALaterVersionIsNamed) {
+  std::string message;
+  const std::string text = replaced(compensation_text(everything()), "compensation/1", "compensation/2");
+  EXPECT_EQ(fault_of(resealed(text), &message), CompensationFault::kLaterVersion);
+  EXPECT_EQ(message, "a.hexcomp: of a later version: hexdbb.compensation/2 (expected at most 1)");
+}
+
+TEST(CompensationFile, OfAnotherMachineIsNamed) {
+  const std::string path = ::testing::TempDir() + "other_machine.hexcomp";
+  std::ofstream(path) << compensation_text(everything());
+  Machine ours;
+  EXPECT_NO_THROW(load_compensation(path, ours));
+  ours.leg_length_mm = 401.0;
+  try {
+    load_compensation(path, ours);
+    FAIL();
+  } catch (const CompensationError& error) {
+    EXPECT_EQ(error.fault(), CompensationFault::kOtherMachine);
+    EXPECT_EQ(std::string(error.what()), path + ": of another machine: leg_length_mm is 400 (expected 401)");
+  }
+}
+
+TEST(CompensationFile, ThatIsNotThereIsNamed) {
+  try {
+    load_compensation("/no/such/file.hexcomp");
+    FAIL();
+  } catch (const CompensationError& error) {
+    EXPECT_EQ(error.fault(), CompensationFault::kCannotRead);
+  }
+}
+
+struct Wrong {
+  const char* what;
+  const char* old;
+  const char* with;
+  CompensationFault fault;
+  const char* message;
+};
+
+class WrongContent : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongContent, IsRefusedByName) {
+  const Wrong& wrong = GetParam();
+  std::string message;
+  EXPECT_EQ(fault_of(resealed(replaced(compensation_text(everything()), wrong.old, wrong.with)), &message),
+            wrong.fault);
+  EXPECT_NE(message.find(wrong.message), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CompensationFile, WrongContent,
+    ::testing::Values(
+        Wrong{"effect", "[effect.leg_length]", "[effect.leg_lengths]", CompensationFault::kUnknownEffect,
+              "effect.leg_lengths: no such effect"},
+        Wrong{"setup", "[effect.leg_length]", "[effect.ball_offset]", CompensationFault::kUnknownEffect,
+              "effect.ball_offset: belongs to the measurement"},
+        Wrong{"element", "1.longer", "7.longer", CompensationFault::kUnknownEffect, "no value 7.longer"},
+        Wrong{"parameter", "1.longer", "1.shorter", CompensationFault::kUnknownEffect, "no value 1.shorter"},
+        Wrong{"missing_value", "1.longer", "# 1.longer", CompensationFault::kMalformed, "expected 6 values"},
+        Wrong{"twice", "2.longer", "1.longer", CompensationFault::kMalformed, "expected every key once"},
+        Wrong{"number", "1.longer = ", "1.longer = x", CompensationFault::kMalformed, "expected a finite number"},
+        Wrong{"infinite", "leg_length_mm = 400", "leg_length_mm = inf", CompensationFault::kMalformed, "finite number"},
+        Wrong{"impossible", "leg_length_mm = 400", "leg_length_mm = 40", CompensationFault::kMalformed, "can stand"},
+        Wrong{"no_limit", "max_correction_mm = 2", "max_correction_mm = 0", CompensationFault::kMalformed, "above 0"},
+        Wrong{"missing_key", "leg_length_mm = 400\n", "", CompensationFault::kMalformed, "leg_length_mm: missing"},
+        Wrong{"unknown_key", "[limits]", "speed = 1\n[limits]", CompensationFault::kMalformed, "no such key"},
+        Wrong{"no_string", "model_sha256 = \"", "model_sha256 = ", CompensationFault::kMalformed, "expected a string"},
+        Wrong{"no_equals", "[limits]", "limits", CompensationFault::kMalformed, "key = value"},
+        Wrong{"schema", "hexdbb.compensation", "hexdbb.machine", CompensationFault::kMalformed, "not a compensation"},
+        Wrong{"spike", "[effect.leg_length]\n", "[effect.reversal_spike]\n", CompensationFault::kUnknownEffect,
+              "no value 1.longer"}),
+    [](const ::testing::TestParamInfo<Wrong>& info) { return info.param.what; });
+
+TEST(CompensationFile, HeaderHoldsEveryValue) {
+  const CompensationData data = everything();
+  const std::string header = compensation_header(data);
+  std::size_t values = 0;
+  for (const CompensatedEffect& effect : data.effects) {
+    for (const CompensationValue& value : effect.values) {
+      const std::string line = "{\"" + effect.name + "\", \"" + value.element + "\", \"" + value.parameter + "\", ";
+      EXPECT_NE(header.find(line), std::string::npos) << line;
+      ++values;
+    }
+  }
+  EXPECT_NE(header.find("    " + std::to_string(values) + ", /* values */"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hexdbb::testing
