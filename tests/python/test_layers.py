@@ -26,6 +26,8 @@ ALLOWED: dict[str, set[str]] = {
     "atomic_file": {"errors"},
     "validation": {"errors"},
     "circle_fit": {"errors"},
+    "frames": {"errors"},
+    "json_schemas": {"errors", "machine"},
     "can_setup": {"errors", "validation"},
     "circle": {"errors", "validation", "kinematics"},
     "machine": {"errors", "validation", "can_setup"},
@@ -38,8 +40,8 @@ ALLOWED: dict[str, set[str]] = {
     "redundancy": {"model", "structure"},
     "state": {"plan", "record"},
     "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
-    "diagnosis": {"errors", "units", "record", "model", "prediction", "redundancy", "_core"},
-    "ledger": {"errors", "units", "record", "model", "prediction", "diagnosis", "_core"},
+    "diagnosis": {"errors", "frames", "units", "record", "model", "prediction", "redundancy", "_core"},
+    "ledger": {"errors", "frames", "units", "record", "model", "prediction", "diagnosis", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
     "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
     # which circles tell most
@@ -59,7 +61,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     # where the model fails; readings come in as arrays, predicted or measured
     "iso230": {"errors", "circle_fit"},
-    "compare": {"errors", "record", "circle", "iso230"},
+    "compare": {"errors", "frames", "record", "circle", "iso230"},
     "plots": {"errors", "atomic_file", "circle", "iso230", "compare"},
     # the thesis' own way, to hold beside it
     "thesis": {

@@ -11,12 +11,12 @@ from rich.progress import Progress
 
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
+from hexdbb.cli.existing_model import existing_model
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.tables import comparison_text
 from hexdbb.diagnosis import fit_mounts
 from hexdbb.errors import InputError
-from hexdbb.model import load_model
-from hexdbb.prediction import predict_reading_mm
+from hexdbb.prediction import predict_reading_mm, samples_of
 from hexdbb.record import read_record
 
 
@@ -44,8 +44,10 @@ from hexdbb.record import read_record
 def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no_plot: bool, as_json: bool) -> None:
     """Compare measured readings with those a model predicts.
 
-    Prints the residual (measured - predicted) and the quantities of ISO 230-4 for every circle, feed and direction,
-    and where the prediction fails worst. Draws polar plots with a stated magnification.
+    Prints the residual (measured - predicted) and the quantities of ISO 230-4 for every circle, feed and direction;
+    where the prediction fails worst and what those samples have in common; what is the same in both directions and what
+    turns with direction; harmonics; which variable of the machine's state carries the residual. Draws polar plots with
+    a stated magnification, and the residual against each variable.
 
     \b
     RECORD is a Parquet record or a text-form CSV. Examples:
@@ -74,21 +76,18 @@ def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no
 
 def _comparison(paths: tuple[Path, ...], model_path: Path, progress: Progress) -> tuple[Comparison, list[str]]:
     """Compare, and say in sentences which set-ups had to be fitted first."""
-    if not model_path.exists():
-        raise InputError(
-            f"{model_path}: no such model (expected a model file, as `hexdbb diagnose RECORD -m {model_path}` makes)"
-        )
-    model = load_model(model_path)
+    model = existing_model(model_path)
     task = progress.add_task("predicting", total=len(paths))
-    records, predicted_mm, sentences = [], [], []
+    records, predicted_mm, states, sentences = [], [], [], []
     for path in paths:
         record = read_record(path)
         with_mounts, fitted = fit_mounts(record, model)
         records.append(record)
         predicted_mm.append(predict_reading_mm(record, with_mounts))
+        states.append(samples_of([record], with_mounts).state)
         sentences += fitted
         progress.advance(task)
-    return compare(records, predicted_mm), sentences
+    return compare(records, predicted_mm, states), sentences
 
 
 def _draw(comparison: Comparison, stem: Path, progress: Progress) -> list[Path]:

@@ -13,6 +13,8 @@ import numpy.typing as npt
 
 from hexdbb import iso230
 from hexdbb.circle import Circle
+from hexdbb.compare.both_ways import BothWays, both_ways
+from hexdbb.compare.harmonics import Harmonic, harmonics
 from hexdbb.compare.quantities import Quantities, evaluate_quantities
 from hexdbb.iso230 import FloatArray, Path
 from hexdbb.record import Record
@@ -41,6 +43,8 @@ class DirectionComparison:
         Mean path over the laps.
     measured_quantities, predicted_quantities : Quantities
         ISO 230-4, in mm.
+    harmonics : tuple of Harmonic
+        Of the residual; empty where the capture is not a full circle.
     """
 
     direction: int
@@ -51,6 +55,7 @@ class DirectionComparison:
     predicted: Path
     measured_quantities: Quantities
     predicted_quantities: Quantities
+    harmonics: tuple[Harmonic, ...]
 
     @property
     def rms_mm(self) -> float:
@@ -76,6 +81,14 @@ class CircleComparison:
     def rms_mm(self) -> float:
         """Root mean square of the residual of all its samples."""
         return root_mean_square(np.concatenate([part.residual_mm for part in self.directions]))
+
+    @property
+    def both_ways(self) -> BothWays | None:
+        """Residuals of both directions held together; None where one is missing."""
+        if len(self.directions) < 2:
+            return None
+        ccw, cw = ((part.angle_rad, part.residual_mm) for part in self.directions)
+        return both_ways(ccw, cw)
 
     @property
     def set_up_centre_mm(self) -> FloatArray | None:
@@ -120,16 +133,19 @@ def _compare_circle(
     measured = {d: _mean_path(record, circle, found, record.reading_mm) for d, found in rows.items()}
     predicted = {d: _mean_path(record, circle, found, predicted_mm) for d, found in rows.items()}
     measured_quantities, predicted_quantities = evaluate_quantities(measured), evaluate_quantities(predicted)
+    angle_rad = np.radians(columns["angle_deg"])
+    residual_mm = record.reading_mm - predicted_mm
     directions = tuple(
         DirectionComparison(
             direction=direction,
             rows=found,
-            angle_rad=np.radians(columns["angle_deg"][found]),
-            residual_mm=record.reading_mm[found] - predicted_mm[found],
+            angle_rad=angle_rad[found],
+            residual_mm=residual_mm[found],
             measured=measured[direction],
             predicted=predicted[direction],
             measured_quantities=measured_quantities[direction],
             predicted_quantities=predicted_quantities[direction],
+            harmonics=harmonics(angle_rad[found], residual_mm[found]) if measured[direction].is_full_circle else (),
         )
         for direction, found in rows.items()
     )

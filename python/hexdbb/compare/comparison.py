@@ -1,18 +1,21 @@
-"""The comparison of records with their prediction, and its form as JSON."""
+"""The comparison of records with their prediction."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from hexdbb import iso230
-from hexdbb.compare.circles import CircleComparison, DirectionComparison, compare_circles, root_mean_square
-from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities
+from hexdbb.compare.circles import CircleComparison, compare_circles, root_mean_square
+from hexdbb.compare.failures import Failures, failures
+from hexdbb.compare.json_form import comparison_html, comparison_json
+from hexdbb.compare.samples import Columns, State, sample_columns
+from hexdbb.compare.variables import Dependence, dependences
 from hexdbb.compare.worst import WorstPlace, worst_places
 from hexdbb.errors import InputError
+from hexdbb.frames import to_frame
 from hexdbb.iso230 import FloatArray
 from hexdbb.record import Record
 
@@ -31,25 +34,37 @@ class Comparison:
         In the order of the records, then circle, then feed.
     worst : tuple of WorstPlace
         Arcs with the largest residual, largest first.
+    failures : Failures
+        What the samples with the largest residuals have in common.
+    dependences : tuple of Dependence
+        How much of the residual each variable of the samples' state carries, largest first.
+    columns : dict of str to (n,) arrays
+        Every sample: where and when it was taken, measured, predicted and residual in um.
     """
 
     rms_mm: float
     peak_to_valley_mm: float
     circles: tuple[CircleComparison, ...]
     worst: tuple[WorstPlace, ...]
+    failures: Failures
+    dependences: tuple[Dependence, ...]
+    columns: Columns = field(repr=False, compare=False)
 
     def to_json(self) -> dict[str, Any]:
         """Give the object `hexdbb compare --json` prints: micrometres, null where a quantity cannot be evaluated."""
-        return {
-            "rms_um": UM_PER_MM * self.rms_mm,
-            "peak_to_valley_um": UM_PER_MM * self.peak_to_valley_mm,
-            "edition": iso230.EDITION,
-            "circles": [_direction_json(circle, part) for circle in self.circles for part in circle.directions],
-            "worst": [{"where": place.where, "rms_um": UM_PER_MM * place.rms_mm} for place in self.worst],
-        }
+        return comparison_json(self)
+
+    def to_frame(self) -> Any:
+        """Give `columns` as a ``pandas.DataFrame``, a row a sample; `InputError` where pandas is not installed."""
+        return to_frame(self.columns)
+
+    def _repr_html_(self) -> str:
+        return comparison_html(self)
 
 
-def compare(records: Sequence[Record], predicted_mm: Sequence[FloatArray]) -> Comparison:
+def compare(
+    records: Sequence[Record], predicted_mm: Sequence[FloatArray], states: Sequence[State] | None = None
+) -> Comparison:
     """Compare records with predicted readings.
 
     Parameters
@@ -58,6 +73,9 @@ def compare(records: Sequence[Record], predicted_mm: Sequence[FloatArray]) -> Co
         At least one, each with at least one sample.
     predicted_mm : sequence of (n,) arrays
         For each record, the predicted reading of each of its samples, in mm.
+    states : sequence of mappings, optional
+        For each record, columns of the machine's state that are not in it: velocities and reversals of the sliders, as
+        `hexdbb.prediction.samples_of(...).state` gives them. Without them nothing is said of these.
 
     Raises
     ------
@@ -67,15 +85,20 @@ def compare(records: Sequence[Record], predicted_mm: Sequence[FloatArray]) -> Co
     if not records or len(records) != len(predicted_mm):
         raise InputError(f"comparing needs one prediction per record, got {len(predicted_mm)} for {len(records)}")
     circles: list[CircleComparison] = []
-    for record, name, predicted in zip(records, _names(records), predicted_mm, strict=True):
+    names = _names(records)
+    for record, name, predicted in zip(records, names, predicted_mm, strict=True):
         _check_prediction(record, name, predicted)
         circles += compare_circles(record, name, predicted)
     residual_mm = np.concatenate([part.residual_mm for circle in circles for part in circle.directions])
+    columns = sample_columns(records, names, predicted_mm, states or [{} for _ in records])
     return Comparison(
         rms_mm=root_mean_square(residual_mm),
         peak_to_valley_mm=float(np.ptp(residual_mm)),
         circles=tuple(circles),
         worst=tuple(worst_places(circles, WORST_COUNT)),
+        failures=failures(columns),
+        dependences=tuple(dependences(columns)),
+        columns=columns,
     )
 
 
@@ -97,23 +120,3 @@ def _check_prediction(record: Record, name: str, predicted_mm: FloatArray) -> No
     if not np.isfinite(predicted_mm).all():
         row = int(np.flatnonzero(~np.isfinite(predicted_mm))[0])
         raise InputError(f"{name}: predicted reading of sample {row} is {predicted_mm[row]}, expected a finite length")
-
-
-def _direction_json(circle: CircleComparison, part: DirectionComparison) -> dict[str, Any]:
-    """One entry of `circles`: measured quantities under their own names, predicted ones under `predicted`."""
-    return {
-        "record": circle.record_name,
-        "circle": circle.circle.id,
-        "direction": part.direction,
-        "feed_mm_min": circle.feed_mm_min,
-        "samples": len(part.rows),
-        "rms_um": UM_PER_MM * part.rms_mm,
-        "peak_to_valley_um": UM_PER_MM * part.peak_to_valley_mm,
-        **_quantities_json(part.measured_quantities),
-        "predicted": _quantities_json(part.predicted_quantities),
-    }
-
-
-def _quantities_json(quantities: Quantities) -> dict[str, float | None]:
-    values = {quantity.key: quantities[quantity.key] for quantity in QUANTITIES}
-    return {f"{key}_um": None if value is None else UM_PER_MM * value for key, value in values.items()}

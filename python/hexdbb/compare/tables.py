@@ -1,4 +1,4 @@
-"""A comparison as text: one table per direction, one for both directions, and where the prediction fails worst."""
+"""A comparison as text: one table per direction, one for both directions, where the prediction fails worst, the residual."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from hexdbb import iso230
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
 from hexdbb.compare.comparison import Comparison
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantity
+from hexdbb.compare.residual_tables import residual_text
 
 
 def comparison_text(comparison: Comparison) -> RenderableType:
@@ -28,6 +29,8 @@ def comparison_text(comparison: Comparison) -> RenderableType:
         "",
         "Where the prediction fails worst:",
         *(f"  {UM_PER_MM * place.rms_mm:8.2f} µm rms  {place.where}" for place in comparison.worst),
+        "",
+        *residual_text(comparison),
     ]
     return Group(*parts)
 

@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 from hexdbb.diagnosis.heldout import HeldOut
 from hexdbb.diagnosis.noise import Noise
+from hexdbb.diagnosis.tables import value_columns, values_html
+from hexdbb.frames import to_frame
 from hexdbb.model import Model
 from hexdbb.units import shown_factor, shown_unit
 
@@ -69,6 +71,19 @@ class Diagnosis:
         variances, directions = principal(self.covariance, self.model)
         known = (variances > 0.0) & (variances < KNOWN_PART**2)
         return directions[:, known], np.sqrt(variances[known])
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Give every value of the model with name, uncertainty and unit, one array a column."""
+        return value_columns(self.model)
+
+    def to_frame(self) -> Any:
+        """Give `columns` as a ``pandas.DataFrame``; `InputError` where pandas is not installed."""
+        return to_frame(self.columns())
+
+    def _repr_html_(self) -> str:
+        fall = f"reading error {self.rms_before_um:.2f} → {self.rms_after_um:.2f} µm RMS"
+        noise = f"noise {self.noise.sigma_mm * 1e3:.2f} µm ({self.noise.source})"
+        return f"<p>{fall}, {noise}</p>{values_html(self.model)}"
 
     def to_json(self) -> dict[str, Any]:
         """Give the object that `hexdbb diagnose --json` prints."""

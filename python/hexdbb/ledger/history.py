@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import html
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from hexdbb.frames import html_table
 from hexdbb.ledger.words import arrow, deed, sentence
 from hexdbb.model import LedgerStep, Model
 
@@ -30,9 +30,7 @@ class History:
         rows = [
             [str(step.step), deed(step), _fitted(step), _held_out(step), ", ".join(step.records)] for step in self.steps
         ]
-        head = "".join(f"<th>{each}</th>" for each in heads)
-        body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-        return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+        return html_table(heads, rows)
 
 
 def history(model: Model) -> History:

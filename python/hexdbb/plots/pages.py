@@ -24,6 +24,7 @@ from hexdbb.compare import UM_PER_MM, CircleComparison, Comparison
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
 from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
+from hexdbb.plots.residual_pages import directions_page, harmonics_page, state_page
 
 OVERVIEW_COLUMNS = 4
 FORMATS: dict[str, dict[str, Any]] = {".png": {"dpi": 150}, ".svg": {"metadata": {"Date": None}}}
@@ -39,18 +40,32 @@ class Page:
 
 
 def comparison_pages(comparison: Comparison) -> list[Page]:
-    """List the pages of a comparison: one circle makes one page, several make an overview and a page each."""
+    """List the pages of a comparison: one circle makes one page, several make an overview and a page each.
+
+    Three pages of the residual follow: over each state variable, both directions together, harmonics.
+    """
     grouped: dict[tuple[str, int], list[CircleComparison]] = {}
     for circle in comparison.circles:
         grouped.setdefault((circle.record_name, circle.circle.id), []).append(circle)
+    residual = _residual_pages(comparison)
     if len(grouped) == 1:
-        return [Page("", partial(circle_page, comparison.circles))]
+        return [Page("", partial(circle_page, comparison.circles)), *residual]
     names = list(dict.fromkeys(record for record, _ in grouped))
     pages = [Page("", partial(overview_page, comparison))]
     for (record, identity), circles in grouped.items():
         # The number keeps records apart whose names differ only in their directory or suffix.
         prefix = f"-{names.index(record) + 1}-{Path(record).stem}" if len(names) > 1 else ""
         pages.append(Page(f"{prefix}-circle{identity}", partial(circle_page, circles)))
+    return [*pages, *residual]
+
+
+def _residual_pages(comparison: Comparison) -> list[Page]:
+    """List the pages of the residual; what has nothing to show is left out."""
+    pages = [Page("-state", partial(state_page, comparison))]
+    if any(circle.both_ways is not None for circle in comparison.circles):
+        pages.append(Page("-directions", partial(directions_page, comparison)))
+    if any(part.harmonics for circle in comparison.circles for part in circle.directions):
+        pages.append(Page("-harmonics", partial(harmonics_page, comparison)))
     return pages
 
 

@@ -1,0 +1,37 @@
+"""Columns as a data frame, for notebooks. pandas is not needed for anything else and is not installed with hexdbb."""
+
+from __future__ import annotations
+
+import html
+import importlib
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.errors import InputError
+
+
+def to_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
+    """Give columns of equal length as a ``pandas.DataFrame``.
+
+    Raises
+    ------
+    InputError
+        Where pandas is not installed, saying what gives the same without it.
+    """
+    try:
+        pandas = importlib.import_module("pandas")
+    except ModuleNotFoundError:
+        raise InputError(
+            "pandas is not installed (expected it for data frames: pip install pandas; columns() needs only NumPy)"
+        ) from None
+    return pandas.DataFrame({name: np.asarray(values) for name, values in columns.items()})
+
+
+def html_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Give a table as notebooks show it; cells are escaped."""
+    head = "".join(f"<th>{html.escape(each)}</th>" for each in heads)
+    body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

@@ -1,0 +1,142 @@
+"""Pictures of the residual alone: against each state variable, its two directions together, its harmonics."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from hexdbb.compare import UM_PER_MM, Comparison
+from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison
+from hexdbb.compare.variables import Dependence
+from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS
+
+COLUMNS = 4
+MOST_VARIABLES = 20
+MOST_LINES = 2
+"""A variable with more classes apart (each circle) is drawn in one colour."""
+LINE_COLOURS = ("#1f5fa8", "#c0561a")
+SUM_COLOUR, DIFFERENCE_COLOUR = PREDICTED_COLOURS[1], MEASURED_COLOURS[-1]
+
+
+def state_page(comparison: Comparison) -> Figure:
+    """Draw the mean residual over each variable, the one that carries most first, all to one scale."""
+    found = comparison.dependences[:MOST_VARIABLES]
+    rows = -(-len(found) // COLUMNS)
+    figure = Figure(figsize=(11.5, 2.2 * rows + 0.9), layout="constrained")
+    grid = figure.subplots(rows, COLUMNS, squeeze=False, sharey=True)
+    for axes, dependence in zip(grid.flat, found, strict=False):
+        _draw_dependence(axes, dependence)
+    for axes in grid.flat[len(found) :]:
+        axes.set_axis_off()
+    for row in grid:
+        row[0].set_ylabel("mean residual, µm", fontsize=8)
+    figure.suptitle(
+        "Mean residual (measured - predicted) over each variable, and the share of the mean square residual it carries\n"
+        "(means of one half of the laps, judged on the other; shares overlap)",
+        fontsize=11,
+    )
+    return figure
+
+
+def directions_page(comparison: Comparison) -> Figure:
+    """Draw half the sum and half the difference of both directions' residuals, circle by circle, all to one scale."""
+    pairs = [circle for circle in comparison.circles if circle.both_ways is not None]
+    rows = max(-(-len(pairs) // COLUMNS), 1)
+    figure = Figure(figsize=(11.5, 2.2 * rows + 1.2), layout="constrained")
+    grid = figure.subplots(rows, COLUMNS, squeeze=False, sharex=True, sharey=True)
+    for axes, circle in zip(grid.flat, pairs, strict=False):
+        _draw_both_ways(axes, circle)
+    for axes in grid.flat[len(pairs) :]:
+        axes.set_axis_off()
+    for axes in grid.flat[max(len(pairs) - COLUMNS, 0) : len(pairs)]:
+        axes.tick_params(labelbottom=True)
+    for row in grid:
+        row[0].set_ylabel("residual, µm", fontsize=8)
+    figure.suptitle("Residuals of both directions together, against commanded polar angle (deg)", fontsize=11)
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=8, frameon=False)
+    return figure
+
+
+def harmonics_page(comparison: Comparison) -> Figure:
+    """Draw the amplitude of every harmonic of the residual, a line for each circle, feed and direction."""
+    rows = [
+        (f"circle {circle.circle.id}, {circle.feed_mm_min:g}, {SHORT_DIRECTION_NAMES[part.direction]}", part.harmonics)
+        for circle in comparison.circles
+        for part in circle.directions
+        if part.harmonics
+    ]
+    highest = max(len(harmonics) for _, harmonics in rows)
+    amplitude_um = np.full((len(rows), highest), np.nan)
+    for row, (_, harmonics) in enumerate(rows):
+        amplitude_um[row, : len(harmonics)] = [UM_PER_MM * each.amplitude_mm for each in harmonics]
+    figure = Figure(figsize=(8.5, 0.24 * len(rows) + 2.0), layout="constrained")
+    axes = figure.subplots()
+    image = axes.imshow(amplitude_um, aspect="auto", cmap="Blues", vmin=0.0)
+    axes.set_xticks(np.arange(highest), [str(order) for order in range(1, highest + 1)], fontsize=8)
+    axes.set_yticks(np.arange(len(rows)), [label for label, _ in rows], fontsize=7)
+    axes.set_xlabel("order (periods per turn)", fontsize=8)
+    axes.set_title("Harmonics of the residual (circle, feed in mm/min, direction)", fontsize=11)
+    largest = float(np.nanmax(amplitude_um))
+    for row, column in np.argwhere(amplitude_um > 0.0):
+        value = amplitude_um[row, column]
+        colour = "white" if value > 0.6 * largest else "black"
+        axes.text(
+            column,
+            row,
+            f"{value:.1f}" if value >= 1.0 else f"{value:.2f}",
+            ha="center",
+            va="center",
+            fontsize=6,
+            color=colour,
+        )
+    bar = figure.colorbar(image, ax=axes)
+    bar.set_label("amplitude, µm", fontsize=8)
+    bar.ax.tick_params(labelsize=8)
+    return figure
+
+
+def _draw_dependence(axes: Axes, dependence: Dependence) -> None:
+    axes.axhline(0.0, color="0.6", linewidth=0.6)
+    classes = not dependence.unit
+    for index, means in enumerate(dependence.means):
+        colour = LINE_COLOURS[index] if len(dependence.means) <= MOST_LINES else LINE_COLOURS[0]
+        marker, line = ("o", "none") if classes else (".", "-")
+        axes.plot(
+            means.centre,
+            means.mean_um,
+            color=colour,
+            linewidth=0.8,
+            markersize=3.5,
+            marker=marker,
+            linestyle=line,
+            label=means.name,
+        )
+    if all(means.name for means in dependence.means):
+        axes.legend(loc="best", fontsize=6, frameon=False)
+    axes.set_title(f"{dependence.variable}: {100.0 * dependence.share:.0f} %", fontsize=8)
+    if classes:
+        axes.set_xticks(sorted({float(each) for means in dependence.means for each in means.centre}))
+        axes.margins(x=0.2)
+    else:
+        axes.set_xlabel(dependence.unit, fontsize=7, labelpad=1)
+    axes.tick_params(labelsize=7)
+    axes.grid(color="0.92", linewidth=0.5)
+
+
+def _draw_both_ways(axes: Axes, circle: CircleComparison) -> None:
+    both = circle.both_ways
+    assert both is not None  # the page is made of circles that have both directions
+    angle_deg = np.degrees(both.angle_rad)
+    axes.axhline(0.0, color="0.6", linewidth=0.6)
+    for values_mm, colour, label in (
+        (both.sum_mm, SUM_COLOUR, "(ccw + cw) / 2: the same both ways"),
+        (both.difference_mm, DIFFERENCE_COLOUR, "(ccw - cw) / 2: turns with direction"),
+    ):
+        axes.plot(angle_deg, UM_PER_MM * values_mm, color=colour, linewidth=1.0, label=label)
+    axes.set_title(f"circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min", fontsize=8)
+    axes.set_xlim(0.0, 360.0)
+    axes.set_xticks(np.arange(0, 361, 90))
+    axes.tick_params(labelsize=7)
+    axes.grid(color="0.92", linewidth=0.5)
