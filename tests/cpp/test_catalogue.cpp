@@ -1,0 +1,242 @@
+// What every effect of the catalogue pushes, against formulas written here from its physics, and nothing else pushed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "circles.hpp"
+#include "drawing.hpp"
+#include "hexdbb/tabulated_effect.hpp"
+#include "refusal.hpp"
+
+namespace hexdbb::testing {
+namespace {
+
+constexpr Eigen::Index kRow = 131;  // measured rows are those from 160 on
+
+class Catalogue : public ::testing::Test {
+ protected:
+  Machine machine;
+  Samples samples = moving_samples(machine, seven_circles(), 46);
+
+  /// What an effect pushes in one row.
+  Ports pushed(const std::string& name, const Eigen::VectorXd& values, Eigen::Index row = kRow) const {
+    Eigen::Matrix<double, Eigen::Dynamic, port::kCount> out(1, int{port::kCount});
+    out.setZero();
+    find_effect(machine, 1, name, 7)->push({samples, row, 1}, values, out);
+    Ports ports;
+    ports.value = out.transpose();
+    return ports;
+  }
+
+  /// Expects what is pushed to be `expected`, to 1e-12 of its largest entry.
+  static void expect_same(const Ports& found, const Ports& expected) {
+    EXPECT_GT(expected.value.cwiseAbs().maxCoeff(), 0.0);
+    EXPECT_LT((found.value - expected.value).cwiseAbs().maxCoeff(), 1e-12 * expected.value.cwiseAbs().maxCoeff());
+  }
+
+  Eigen::VectorXd some(const std::string& name, double size) const {
+    Drawing drawing(7);
+    return size * drawing.normals(find_effect(machine, 1, name, 7)->info().size());
+  }
+
+  double slider(int k, Eigen::Index row = kRow) const { return samples.sliders_mm(row, k); }
+  const State& state() const { return samples.state; }
+};
+
+TEST_F(Catalogue, IsCompleteAndInOrder) {
+  const std::vector<std::string> expected = {"backlash",     "reversal_spike",   "pitch_cyclic", "lead_error",
+                                             "straightness", "servo_lag",        "leg_thermal",  "screw_thermal",
+                                             "gravity_sag",  "joint_offset",     "bar_drift",    "bar_gain",
+                                             "sample_delay", "ball_eccentricity"};
+  EXPECT_EQ(effect_names(group::kCatalogue), expected);
+  for (const std::string& name : expected) {
+    const EffectInfo info = find_effect(machine, 1, name)->info();
+    EXPECT_FALSE(info.source.empty());
+    EXPECT_EQ(info.physics.back(), '.');
+    for (const ParameterInfo& parameter : info.parameters) EXPECT_LT(parameter.prior_sigma, parameter.limit);
+    for (const std::string& column : info.needs) EXPECT_NO_THROW(require_column(state(), column, name));
+  }
+  EXPECT_EQ(effect_names(group::kGeometry).size(), 7U);
+  EXPECT_EQ(effect_names(group::kSetUp).size(), 3U);
+  EXPECT_EQ(effect_names().size(), 24U);
+}
+
+TEST_F(Catalogue, WithoutTheStateItNeedsAnEffectIsRefused) {
+  Samples bare = samples;
+  bare.state = State();
+  for (const std::string& name : effect_names(group::kCatalogue)) {
+    Model model(machine);
+    model.add(find_effect(machine, 1, name, 7));
+    const EffectInfo& info = model.terms[0].effect->info();
+    if (info.needs.empty()) {
+      EXPECT_NO_THROW(predict(model, bare, false)) << name;
+    } else {
+      const std::string said = refusal([&] { predict(model, bare, false); });
+      EXPECT_TRUE(contains(said, "effect " + name + " needs the samples' " + info.needs[0])) << said;
+    }
+  }
+}
+
+TEST_F(Catalogue, ColumnWithAHoleIsRefused) {
+  samples.state.velocity_mm_s(17, 2) = std::nan("");
+  Model model(machine);
+  model.add(find_effect(machine, 1, "servo_lag"));
+  EXPECT_EQ(refusal([&] { predict(model, samples, false); }), "effect servo_lag needs velocity_mm_s[17], not a number");
+}
+
+// Play operator stepped through time: the slider is dragged by the edges of the play.
+TEST_F(Catalogue, BacklashIsThePlayOperator) {
+  samples = moving_samples(machine, {CircleSpec()}, 1800);
+  for (const double play : {0.03, 2.0, -0.03}) {
+    const Eigen::VectorXd values = Eigen::VectorXd::Constant(kLegs, play);
+    for (int k = 0; k < kLegs; ++k) {
+      const double half = 0.5 * std::abs(play), turned = play < 0.0 ? -1.0 : 1.0;
+      double place = slider(k, 0) - half * state().side(0, k);
+      for (Eigen::Index row = 0; row < samples.size(); ++row) {
+        place = std::min(std::max(place, slider(k, row) - half), slider(k, row) + half);
+        // The operator does not see how far the slider went between two samples: up to 0.3 um at a turn.
+        ASSERT_NEAR(pushed("backlash", values, row).slider()[k], turned * (place - slider(k, row)), 5e-4)
+            << "row " << row << " slider " << k;
+      }
+    }
+  }
+}
+
+TEST_F(Catalogue, ReversalSpike) {
+  Eigen::VectorXd values = some("reversal_spike", 0.3);
+  samples.state.since_reversal_s.row(kRow).setConstant(0.04);
+  Ports expected;
+  for (int k = 0; k < kLegs; ++k) {
+    expected.slider()[k] =
+        -state().side(kRow, k) * values[2 * k] * std::exp(-0.04 / (0.05 * std::exp(values[2 * k + 1])));
+  }
+  expect_same(pushed("reversal_spike", values), expected);
+  samples.state.since_reversal_s.row(kRow).setConstant(kLongAgo);
+  EXPECT_TRUE(pushed("reversal_spike", values).value.isZero(0.0));
+}
+
+TEST_F(Catalogue, PitchCyclic) {
+  const Eigen::VectorXd values = some("pitch_cyclic", 0.01);
+  Ports expected;
+  for (int k = 0; k < kLegs; ++k) {
+    for (int harmonic = 1; harmonic <= 2; ++harmonic) {
+      const double angle = 2.0 * M_PI * harmonic * slider(k) / 5.0;
+      const int at = 4 * k + 2 * (harmonic - 1);
+      expected.slider()[k] += values[at] * std::cos(angle) + values[at + 1] * std::sin(angle);
+    }
+  }
+  expect_same(pushed("pitch_cyclic", values), expected);
+}
+
+TEST_F(Catalogue, LeadServoAndDelay) {
+  const Eigen::VectorXd values = some("lead_error", 1e-3);
+  Ports lead, lag, delay;
+  for (int k = 0; k < kLegs; ++k) {
+    lead.slider()[k] = values[k] * (slider(k) - 433.0);  // travel 20 to 846
+    lag.slider()[k] = -values[k] * state().velocity_mm_s(kRow, k);
+    delay.slider()[k] = 0.004 * state().velocity_mm_s(kRow, k);
+  }
+  expect_same(pushed("lead_error", values), lead);
+  expect_same(pushed("servo_lag", values), lag);
+  expect_same(pushed("sample_delay", Eigen::VectorXd::Constant(1, 0.004)), delay);
+}
+
+TEST_F(Catalogue, StraightnessIsLevelAtTheEndsAndFullAtMidSpan) {
+  const Eigen::VectorXd values = some("straightness", 0.1);
+  Ports expected;
+  for (int k = 0; k < kLegs; ++k) {
+    const int guideway = k / 2;
+    const double shape = (slider(k) - 20.0) * (846.0 - slider(k)) / (413.0 * 413.0);
+    const double turn = 2.0 * M_PI / 3.0 * guideway;
+    expected.slider_joint(k) = shape * Vector3(values[2 * guideway] * std::cos(turn),
+                                               values[2 * guideway] * std::sin(turn), values[2 * guideway + 1]);
+  }
+  expect_same(pushed("straightness", values), expected);
+}
+
+TEST_F(Catalogue, ThermalGrowthTakesTemperatureWhereThereIsOneElseTime) {
+  const Eigen::VectorXd values = some("screw_thermal", 1e-6);
+  const Eigen::Index measured = samples.size() - 5;
+  for (const Eigen::Index row : {kRow, measured}) {
+    const bool is_measured = row == measured;
+    const double grown = is_measured ? state().temperature_c[row] - 20.0 : state().time_s[row];
+    ASSERT_EQ(std::isfinite(state().temperature_c[row]), is_measured);
+    Ports legs, screws;
+    legs.leg().setConstant((is_measured ? 2e-3 : 3e-6) * grown);
+    for (int k = 0; k < kLegs; ++k) {
+      screws.slider()[k] = values[2 * k + (is_measured ? 0 : 1)] * grown * (slider(k, row) - 433.0);
+    }
+    expect_same(pushed("leg_thermal", Eigen::Vector2d(2e-3, 3e-6), row), legs);
+    expect_same(pushed("screw_thermal", values, row), screws);
+  }
+}
+
+TEST_F(Catalogue, SagLowersThePlatform) {
+  Model model(machine);
+  model.add(find_effect(machine, 1, "gravity_sag"));
+  const double before = forward_table(model, samples).pose(kRow, 2);
+  model.set_values(Eigen::VectorXd::Constant(1, 1e-4));
+  const double sag = before - forward_table(model, samples).pose(kRow, 2);
+  // Castigliano: the load sinks by compliance x load x sum of squared forces per load.
+  const double load_n = 12.0 * 9.80665;
+  EXPECT_NEAR(sag, 1e-4 * load_n * state().leg_force.row(kRow).squaredNorm(), 1e-3 * sag);
+  EXPECT_GT(sag, 0.0);
+  for (int k = 0; k < kLegs; ++k) {
+    EXPECT_NEAR(pushed("gravity_sag", Eigen::VectorXd::Constant(1, 1e-4)).leg()[k],
+                1e-4 * load_n * state().leg_force(kRow, k), 1e-12);
+  }
+}
+
+TEST_F(Catalogue, JointOffsetMovesOneLegsJoint) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(18);
+  values.segment<3>(9) << 0.01, -0.02, 0.03;
+  Ports expected;
+  expected.platform_joint(3) << 0.01, -0.02, 0.03;
+  expect_same(pushed("joint_offset", values), expected);
+}
+
+TEST_F(Catalogue, WhatTheGaugeAdds) {
+  Ports drift, gain;
+  drift.reading() = 1e-6 * state().time_s[kRow];
+  gain.reading() = 0.01 * 0.1;  // circle of 100 mm, bar of 99.9 mm
+  expect_same(pushed("bar_drift", Eigen::VectorXd::Constant(1, 1e-6)), drift);
+  const Ports found = pushed("bar_gain", Eigen::VectorXd::Constant(1, 0.01));
+  EXPECT_NEAR(found.reading(), gain.reading(), 1e-12);
+}
+
+TEST_F(Catalogue, BallOfEachCircle) {
+  const Eigen::VectorXd values = some("ball_eccentricity", 0.05);
+  Ports expected;
+  expected.ball() = values.segment<3>(3 * 2);  // row 131 of 46 a circle
+  expect_same(pushed("ball_eccentricity", values), expected);
+  samples.state.circle[5] = -1;
+  Model model(machine);
+  model.add(find_effect(machine, 1, "ball_eccentricity", 7));
+  EXPECT_EQ(refusal([&] { predict(model, samples, false); }),
+            "circle[5] is -1, expected 0 to 6, which ball_eccentricity knows");
+}
+
+TEST_F(Catalogue, TableIsTheEffectItWasMadeOf) {
+  std::vector<TabulatedLink> links;
+  EffectInfo info = find_effect(machine, 1, "servo_lag")->info();
+  for (int k = 0; k < kLegs; ++k) links.push_back({k, port::kSlider + k, -state().velocity_mm_s.col(k)});
+  Model built_in(machine), tabulated(machine);
+  built_in.add(find_effect(machine, 1, "servo_lag"));
+  tabulated.add(std::make_shared<TabulatedEffect>(info, links));
+  const Eigen::VectorXd values = some("servo_lag", 2e-3);
+  built_in.set_values(values);
+  tabulated.set_values(values);
+  for (const Samples& part : {samples, samples.every(7), samples.every(5).every(3)}) {
+    const Prediction expected = predict(built_in, part, true), found = predict(tabulated, part, true);
+    EXPECT_LT((expected.reading_mm - found.reading_mm).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((expected.jacobian - found.jacobian).cwiseAbs().maxCoeff(), 1e-9);
+  }
+  const Samples other = moving_samples(machine, {CircleSpec()}, 30);
+  EXPECT_TRUE(contains(refusal([&] { predict(tabulated, other, false); }), "is tabulated for 322 samples"));
+  links[2].per_unit[4] = std::nan("");
+  EXPECT_THROW(TabulatedEffect(info, links), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace hexdbb::testing

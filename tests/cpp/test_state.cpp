@@ -1,0 +1,177 @@
+// State that follows from the sliders' places over time: velocity, reversals, leg forces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "circles.hpp"
+#include "drawing.hpp"
+#include "hexdbb/state.hpp"
+#include "refusal.hpp"
+
+namespace hexdbb::testing {
+namespace {
+
+constexpr double kAmplitude_mm = 60.0, kOmega = 0.126;  // a 100 mm circle at 754 mm/min
+
+/// Six sliders swinging in different phases, read `rate` times a second through encoders of 0.1 um with some noise.
+struct Swing {
+  Eigen::VectorXd time_s;
+  Eigen::VectorXi sweep;
+  SliderTable sliders_mm;
+
+  Swing(double rate, double seconds, double noise_mm, double phase = 0.3) {
+    const auto count = static_cast<Eigen::Index>(rate * seconds);
+    Drawing drawing(3);
+    time_s = Eigen::VectorXd::LinSpaced(count, 0.0, static_cast<double>(count - 1) / rate);
+    sweep.setZero(count);
+    sliders_mm.resize(count, kLegs);
+    for (Eigen::Index row = 0; row < count; ++row) {
+      for (int k = 0; k < kLegs; ++k) {
+        const double exact = 400.0 + kAmplitude_mm * std::sin(angle(row, k, phase));
+        sliders_mm(row, k) = 1e-4 * std::round((exact + noise_mm * drawing.normal()) / 1e-4);
+      }
+    }
+  }
+  double angle(Eigen::Index row, int k, double phase = 0.3) const { return kOmega * time_s[row] + phase + 0.7 * k; }
+};
+
+class Encoders : public ::testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(Encoders, VelocityAndReversals) {
+  const auto [rate, noise_mm] = GetParam();
+  const Swing swing(rate, 60.0, noise_mm);
+  const Motion moved = motion(swing.time_s, swing.sweep, swing.sliders_mm);
+  for (int k = 0; k < kLegs; ++k) {
+    for (Eigen::Index row = 0; row < swing.time_s.size(); ++row) {
+      const double angle = swing.angle(row, k), speed = kAmplitude_mm * kOmega;
+      ASSERT_NEAR(moved.velocity_mm_s(row, k), speed * std::cos(angle), 0.03 * speed) << "row " << row;
+      const double past = std::fmod(angle + 0.5 * M_PI, M_PI) / kOmega;  // s since the last turn, were it in the sweep
+      if (past < 0.1 || past > M_PI / kOmega - 0.1) continue;            // a tenth of a second about a turn
+      ASSERT_EQ(moved.side(row, k), std::cos(angle) > 0.0 ? 1.0 : -1.0) << "row " << row << " slider " << k;
+      if (past < swing.time_s[row]) {
+        ASSERT_NEAR(moved.since_reversal_s(row, k), past, 0.06);
+        ASSERT_NEAR(moved.since_reversal_mm(row, k),
+                    kAmplitude_mm * (1.0 - std::abs(std::sin(angle))) * (past < 0.5 * M_PI / kOmega ? 1.0 : 0.0) +
+                        kAmplitude_mm * (1.0 + std::abs(std::sin(angle))) * (past < 0.5 * M_PI / kOmega ? 0.0 : 1.0),
+                    5e-3);
+      } else {
+        ASSERT_EQ(moved.since_reversal_s(row, k), kLongAgo);
+        ASSERT_EQ(moved.since_reversal_mm(row, k), kLongAgo);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, Encoders,
+                         ::testing::Values(std::pair{250.0, 0.0}, std::pair{250.0, 3e-4}, std::pair{1000.0, 3e-4},
+                                           std::pair{20.0, 0.0}));
+
+TEST(State, SweepsAreApart) {
+  Swing swing(50.0, 10.0, 0.0);
+  const Motion whole = motion(swing.time_s, swing.sweep, swing.sliders_mm);
+  const Eigen::Index half = swing.time_s.size() / 2;
+  swing.sweep.tail(half).setConstant(1);
+  swing.time_s.tail(half).array() -= 100.0;  // what came before in another sweep does not matter
+  swing.sliders_mm.bottomRows(half).array() += 7.0;
+  const Motion apart = motion(swing.time_s, swing.sweep, swing.sliders_mm);
+  EXPECT_LT((whole.velocity_mm_s - apart.velocity_mm_s).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST(State, SweepsMayBeInterleaved) {
+  const Swing swing(50.0, 30.0, 0.0);
+  const Eigen::Index count = swing.time_s.size();
+  Eigen::VectorXd time_s(2 * count);
+  Eigen::VectorXi sweep(2 * count);
+  SliderTable sliders_mm(2 * count, kLegs);
+  for (Eigen::Index row = 0; row < count; ++row) {
+    for (int which = 0; which < 2; ++which) {
+      time_s[2 * row + which] = swing.time_s[row];
+      sweep[2 * row + which] = which;
+      sliders_mm.row(2 * row + which) = (which == 0 ? 1.0 : -1.0) * swing.sliders_mm.row(row);
+    }
+  }
+  const Motion alone = motion(swing.time_s, swing.sweep, swing.sliders_mm);
+  const Motion both = motion(time_s, sweep, sliders_mm);
+  for (Eigen::Index row = 0; row < count; ++row) {
+    ASSERT_EQ(both.side.row(2 * row), alone.side.row(row));
+    ASSERT_EQ(both.side.row(2 * row + 1), -alone.side.row(row));
+    ASSERT_LT((both.since_reversal_mm.row(2 * row) - alone.since_reversal_mm.row(row)).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(State, SliderThatStandsHasNoSide) {
+  Swing swing(100.0, 2.0, 0.0);
+  Drawing drawing(5);
+  for (Eigen::Index row = 0; row < swing.time_s.size(); ++row) {
+    swing.sliders_mm(row, 0) = 300.0 + 1e-4 * std::round(2.0 * drawing.normal());  // noise of 0.2 um
+  }
+  const Motion moved = motion(swing.time_s, swing.sweep, swing.sliders_mm);
+  EXPECT_TRUE(moved.side.col(0).isZero(0.0));
+  EXPECT_TRUE((moved.since_reversal_mm.col(0).array() == kLongAgo).all());
+}
+
+TEST(State, ShortSweeps) {
+  Swing swing(100.0, 0.06, 0.0);
+  ASSERT_EQ(swing.time_s.size(), 6);
+  swing.sweep << 0, 1, 1, 2, 2, 2;
+  const Motion moved = motion(swing.time_s, swing.sweep, swing.sliders_mm);
+  EXPECT_TRUE(moved.velocity_mm_s.row(0).array().isNaN().all());
+  EXPECT_NEAR(moved.velocity_mm_s(1, 0), (swing.sliders_mm(2, 0) - swing.sliders_mm(1, 0)) * 100.0, 1e-9);
+  EXPECT_TRUE(moved.velocity_mm_s.bottomRows(3).allFinite());
+}
+
+TEST(State, TimeThatStandsStillIsNamed) {
+  Swing swing(100.0, 1.0, 0.0);
+  swing.time_s[40] = swing.time_s[39];
+  EXPECT_EQ(refusal([&] { motion(swing.time_s, swing.sweep, swing.sliders_mm); }),
+            "time_s[40] is not after the sample before it");
+}
+
+// Forces of the legs on the platform and the load in equilibrium: sum of forces, and moments about the reference point.
+TEST(State, LegForcesAreInEquilibriumWithAUnitLoad) {
+  const Machine machine;
+  const NominalGeometry nominal(machine);
+  const Samples samples = circle_samples(machine, seven_circles(), 20);
+  const SliderTable force = leg_force(nominal, samples.sliders_mm);
+  const PoseTable poses = forward_table(Model(machine), samples);
+  for (Eigen::Index row = 0; row < samples.size(); ++row) {
+    const Vector3 position = poses.pose.row(row).head<3>().transpose();
+    Matrix3 rotation;
+    for (int i = 0; i < 3; ++i) rotation.row(i) = poses.pose.row(row).segment<3>(3 + 3 * i);
+    Vector3 sum = -Vector3::UnitZ(), moment = Vector3::Zero();
+    for (int k = 0; k < kLegs; ++k) {
+      const Vector3 arm = rotation * nominal.platform_joint.col(k);
+      const Vector3 joint = nominal.vertex.col(k) + samples.sliders_mm(row, k) * nominal.direction.col(k);
+      const Vector3 pull = force(row, k) * (joint - position - arm).normalized();  // tension pulls to the slider
+      sum += pull;
+      moment += Vector3(arm[1] * pull[2] - arm[2] * pull[1], arm[2] * pull[0] - arm[0] * pull[2],
+                        arm[0] * pull[1] - arm[1] * pull[0]);
+    }
+    ASSERT_LT(sum.norm(), 1e-6);
+    ASSERT_LT(moment.norm(), 1e-4);
+  }
+}
+
+TEST(State, PlaceWithoutAPoseHasNoForces) {
+  SliderTable sliders_mm(1, int{kLegs});
+  sliders_mm << 20, 846, 20, 846, 20, 846;
+  EXPECT_TRUE(leg_force(NominalGeometry(Machine()), sliders_mm).array().isNaN().all());
+}
+
+TEST(State, RowsKeepTheirPlaceInTheTable) {
+  const Samples samples = moving_samples(Machine(), seven_circles(), 20);
+  const Samples part = samples.rows({5, 3, 100}).rows({2, 0});
+  EXPECT_EQ(part.state.row, Eigen::Vector2i(100, 5));
+  EXPECT_EQ(part.state.time_s[0], samples.state.time_s[100]);
+  EXPECT_EQ(part.state.side.row(1), samples.state.side.row(5));
+  EXPECT_THROW(samples.rows({140}), std::invalid_argument);
+}
+
+TEST(State, ColumnOfAnotherLengthIsNamed) {
+  Samples samples = moving_samples(Machine(), {CircleSpec()}, 20);
+  samples.state.lap.setZero(7);
+  EXPECT_EQ(refusal([&] { samples.validate(); }), "lap has 7 rows, expected 20 as in sliders_mm");
+}
+
+}  // namespace
+}  // namespace hexdbb::testing
