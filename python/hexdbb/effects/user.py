@@ -2,8 +2,8 @@
 
 The function gives the push per unit of the effect's value, in every sample and at every place of the port: shape (n, 6)
 at the ports `slider` and `leg`, (n, 6, 3) at `slider_joint` and `platform_joint`, (n, 3) at `ball` and `cup`, (n,) at
-`reading`. With six elements each slider (leg) has a value of its own, with three each guideway, with one all share it. An
-effect of several parameters gives a sequence of such arrays, one each.
+`reading`. With six elements each slider (leg) has a value of its own, with three each guideway, with one all share it.
+An effect of several parameters gives a sequence of such arrays, one each.
 """
 
 from __future__ import annotations
