@@ -1,8 +1,9 @@
 """What the samples with the largest residuals have in common, in words.
 
 The residual is averaged over arcs of ten degrees of each capture first, so that single noisy readings do not count. The
-worst tenth of the samples, by arc, is held against all of them: a trait that most of the worst have and few of all is
-where the model fails. Ranges (angle, position, time) are the shortest that hold `MOST` of the worst.
+worst arcs, those at least half as bad as the worst of all and at most a tenth of the samples, are held against all: a
+trait that most of the worst have and few of all is where the model fails. Ranges (angle, position, time) are the
+shortest that hold `MOST` of the worst.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from hexdbb.iso230 import FloatArray
 
 ARC_DEG = 10.0
 WORST_PART = 0.1
-MOST = 0.8
+AS_BAD = 0.5
+MOST = 0.7
 """A trait is common where so many of the worst samples have it ..."""
 TIMES_OVER = 1.5
 """... and they have it so many times more often than all samples."""
@@ -88,15 +90,16 @@ def failures(columns: Columns) -> Failures:
 
 
 def _worst(columns: Columns) -> Mask:
-    """Samples of the arcs with the largest root mean square, up to `WORST_PART` of all, one arc at least."""
+    """Samples of the arcs with the largest root mean square: `AS_BAD` as the worst, up to `WORST_PART` of all."""
     arc = np.floor((columns["angle_deg"] % 360.0) / ARC_DEG + 1e-9).astype(np.int64)
     keys = np.column_stack([codes(columns["record"]), columns["sweep"], columns["lap"], arc])
     arc_of = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
     size = np.bincount(arc_of)
     squared = np.bincount(arc_of, columns["residual_um"] ** 2) / size
     order = np.argsort(-squared, kind="stable")
-    taken = max(int(np.searchsorted(np.cumsum(size[order]), WORST_PART * len(arc_of), side="right")), 1)
-    return np.isin(arc_of, order[:taken])
+    as_bad = int(np.sum(squared >= AS_BAD**2 * squared[order[0]]))
+    most = int(np.searchsorted(np.cumsum(size[order]), WORST_PART * len(arc_of), side="right"))
+    return np.isin(arc_of, order[: max(min(as_bad, most), 1)])
 
 
 def _traits(columns: Columns, worst: Mask) -> Iterator[tuple[str, Mask]]:

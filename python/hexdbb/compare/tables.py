@@ -1,4 +1,4 @@
-"""A comparison as text: one table per direction, one for both directions, where the prediction fails worst, the residual."""
+"""A comparison as text: one table per direction, one for both, where it fails worst, the residual."""
 
 from __future__ import annotations
 

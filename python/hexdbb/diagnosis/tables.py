@@ -53,7 +53,7 @@ def values_html(model: Model) -> str:
     return html_table(("effect", "element", "parameter", "value", "± 1 sigma", "unit"), rows)
 
 
-def _sigma(columns: dict[str, NDArray[Any]], row: int) -> str:
+def _sigma(columns: dict[str, NDArray[Any]], row: np.intp) -> str:
     if not columns["free"][row]:
         return "held"
     return f"{columns['sigma'][row]:.2f}" if columns["identifiable"][row] else "~"

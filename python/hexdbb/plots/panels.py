@@ -15,6 +15,8 @@ from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
 
 SMOOTHED_OVER_DEG = 3
 """Arc over which the dark residual line is averaged; a divisor of 360."""
+BREAK_DEG = 15
+"""Where there is no sample over more than this the line breaks; fast circles may have one in four degrees only."""
 SMOOTHED_WIDTHS = {1: 2.4, -1: 1.0}
 """Broad below narrow, so that both directions are seen where they coincide."""
 
@@ -47,14 +49,15 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
 
 
 def _smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
-    """Middle angle (deg) and mean (um) of each arc; nan where an arc has no sample, so that the line breaks there."""
+    """Middle angle (deg) and mean (um) of each arc with a sample; nan where the line breaks, as in `BREAK_DEG`."""
     count = 360 // SMOOTHED_OVER_DEG
     arc = np.minimum((np.degrees(residual.angle_rad) // SMOOTHED_OVER_DEG).astype(np.int64), count - 1)
     samples = np.bincount(arc, minlength=count)
     total_um = UM_PER_MM * np.bincount(arc, weights=residual.deviation_mm, minlength=count)
-    mean_um = np.full(count, np.nan)
-    np.divide(total_um, samples, out=mean_um, where=samples > 0)
-    return (np.arange(count, dtype=np.float64) + 0.5) * SMOOTHED_OVER_DEG, mean_um
+    there = np.flatnonzero(samples)
+    angle_deg = (there + 0.5) * SMOOTHED_OVER_DEG
+    breaks = np.flatnonzero(np.diff(angle_deg) > BREAK_DEG) + 1
+    return np.insert(angle_deg, breaks, np.nan), np.insert(total_um[there] / samples[there], breaks, np.nan)
 
 
 def draw_quantities(axes: Axes, circle: CircleComparison) -> None:

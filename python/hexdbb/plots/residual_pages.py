@@ -32,7 +32,7 @@ def state_page(comparison: Comparison) -> Figure:
     for row in grid:
         row[0].set_ylabel("mean residual, µm", fontsize=8)
     figure.suptitle(
-        "Mean residual (measured - predicted) over each variable, and the share of the mean square residual it carries\n"
+        "Mean residual (measured - predicted) over each variable, and the share of its mean square that this carries\n"
         "(means of one half of the laps, judged on the other; shares overlap)",
         fontsize=11,
     )
@@ -73,11 +73,11 @@ def harmonics_page(comparison: Comparison) -> Figure:
         amplitude_um[row, : len(harmonics)] = [UM_PER_MM * each.amplitude_mm for each in harmonics]
     figure = Figure(figsize=(8.5, 0.24 * len(rows) + 2.0), layout="constrained")
     axes = figure.subplots()
-    image = axes.imshow(amplitude_um, aspect="auto", cmap="Blues", vmin=0.0)
+    axes.imshow(amplitude_um, aspect="auto", cmap="Blues", vmin=0.0)
     axes.set_xticks(np.arange(highest), [str(order) for order in range(1, highest + 1)], fontsize=8)
     axes.set_yticks(np.arange(len(rows)), [label for label, _ in rows], fontsize=7)
     axes.set_xlabel("order (periods per turn)", fontsize=8)
-    axes.set_title("Harmonics of the residual (circle, feed in mm/min, direction)", fontsize=11)
+    axes.set_title("Amplitude of the residual's harmonics, µm (circle, feed in mm/min, direction)", fontsize=11)
     largest = float(np.nanmax(amplitude_um))
     for row, column in np.argwhere(amplitude_um > 0.0):
         value = amplitude_um[row, column]
@@ -91,9 +91,6 @@ def harmonics_page(comparison: Comparison) -> Figure:
             fontsize=6,
             color=colour,
         )
-    bar = figure.colorbar(image, ax=axes)
-    bar.set_label("amplitude, µm", fontsize=8)
-    bar.ax.tick_params(labelsize=8)
     return figure
 
 

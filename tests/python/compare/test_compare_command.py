@@ -20,6 +20,8 @@ from hexdbb.record import Record, write_record
 
 NOISE_UM = 0.5
 SAMPLES_PER_LAP = 360
+RESIDUAL = ("-state", "-directions", "-harmonics")
+"""Pictures of the residual, beside those of the circles."""
 
 
 def run_compare(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -93,7 +95,7 @@ def test_tables_and_pictures(folder: Path, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert "Where the prediction fails worst:" in done.stdout
     assert "…" not in done.stdout
-    names = {f"week{page}{suffix}" for page in ("", "-circle0", "-circle1") for suffix in (".png", ".svg")}
+    names = {f"week{page}{suffix}" for page in ("", "-circle0", "-circle1", *RESIDUAL) for suffix in (".png", ".svg")}
     assert {path.name for path in tmp_path.iterdir()} == names
     assert all(str(tmp_path / name) in done.stderr for name in names)
 
@@ -101,7 +103,8 @@ def test_tables_and_pictures(folder: Path, tmp_path: Path) -> None:
 def test_pictures_go_beside_the_first_record(folder: Path) -> None:
     done = run_compare(folder / "one.parquet", "-m", folder / "diagnosed.toml")
     assert done.returncode == 0, done.stderr
-    assert {path.name for path in folder.glob("one-compare*")} == {"one-compare.png", "one-compare.svg"}
+    names = {f"one-compare{page}{suffix}" for page in ("", *RESIDUAL) for suffix in (".png", ".svg")}
+    assert {path.name for path in folder.glob("one-compare*")} == names
 
 
 @pytest.mark.parametrize(

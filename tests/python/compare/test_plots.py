@@ -24,6 +24,8 @@ from hexdbb.plots.polar import curve, draw_polar, drawn_paths, largest_drawn_mm
 from hexdbb.record import Record
 
 MakeRecord = Callable[..., Record]
+RESIDUAL = ["-state", "-directions", "-harmonics"]
+"""Pages of the residual, after those of the circles."""
 
 
 def backlash_off_centre(angle_rad: np.ndarray, direction: int) -> np.ndarray:
@@ -100,20 +102,24 @@ def test_a_line_closes_a_full_circle_and_breaks_at_a_gap() -> None:
 def test_one_circle_makes_one_page_and_several_an_overview_each(
     comparison: Comparison, seven_circles: Comparison
 ) -> None:
-    assert [page.suffix for page in comparison_pages(comparison)] == [""]
-    assert [page.suffix for page in comparison_pages(seven_circles)] == ["", *(f"-circle{k}" for k in range(7))]
+    assert [page.suffix for page in comparison_pages(comparison)] == ["", *RESIDUAL]
+    assert [page.suffix for page in comparison_pages(seven_circles)] == [
+        "",
+        *(f"-circle{k}" for k in range(7)),
+        *RESIDUAL,
+    ]
 
 
 def test_pages_of_several_records_do_not_overwrite_each_other(make_record: MakeRecord) -> None:
     records = [make_record(backlash_off_centre, path=Path(name)) for name in ("monday.parquet", "tuesday.csv")]
     pages = comparison_pages(compare(records, [record.reading_mm for record in records]))
-    assert [page.suffix for page in pages] == ["", "-1-monday-circle0", "-2-tuesday-circle0"]
+    assert [page.suffix for page in pages] == ["", "-1-monday-circle0", "-2-tuesday-circle0", *RESIDUAL]
     same = [replace(record, path=Path(day) / "demo.csv") for record, day in zip(records, "ab", strict=True)]
     suffixes = [page.suffix for page in comparison_pages(compare(same, [record.reading_mm for record in same]))]
-    assert len(set(suffixes)) == 3
+    assert len(set(suffixes)) == 3 + len(RESIDUAL)
 
 
-@pytest.mark.parametrize("page", [0, 3])
+@pytest.mark.parametrize("page", [0, 3, -3, -2, -1])
 def test_nothing_is_cut_off(seven_circles: Comparison, page: int) -> None:
     figure = comparison_pages(seven_circles)[page].draw()
     canvas = FigureCanvasAgg(figure)
@@ -128,7 +134,7 @@ def test_nothing_is_cut_off(seven_circles: Comparison, page: int) -> None:
 
 
 def test_files_are_whole_stated_and_repeatable(comparison: Comparison, tmp_path: Path) -> None:
-    (page,) = comparison_pages(comparison)
+    page = comparison_pages(comparison)[0]
     first, second = (save_figure(page.draw(), tmp_path / name) for name in ("one", "two.v2"))
     assert [path.name for path in first + second] == ["one.png", "one.svg", "two.v2.png", "two.v2.svg"]
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(path.name for path in first + second)
@@ -147,6 +153,6 @@ def test_files_are_whole_stated_and_repeatable(comparison: Comparison, tmp_path:
 
 
 def test_a_place_that_cannot_be_written_is_named(comparison: Comparison, tmp_path: Path) -> None:
-    (page,) = comparison_pages(comparison)
+    page = comparison_pages(comparison)[0]
     with pytest.raises(RunError, match=r"absent/demo\.png: cannot be written"):
         save_figure(page.draw(), tmp_path / "absent" / "demo")
