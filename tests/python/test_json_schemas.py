@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -101,3 +102,11 @@ def test_a_diagnosis_shows_itself_in_a_notebook(record: Record) -> None:
     assert "reading error" in shown
     held = replace(found, model=found.model.with_free(np.zeros(9, bool)))
     assert "<td>held</td>" in held._repr_html_()
+
+
+def test_without_pandas_a_frame_is_refused_in_words(record: Record, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    found = diagnose([record], new_model(record.machine, ["cup_position"]), check_held_out=False)
+    with pytest.raises(InputError, match="pandas is not installed"):
+        found.to_frame()
+    assert found.columns()["name"].tolist() == ["x", "y", "z"]

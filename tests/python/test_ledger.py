@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.truth.cases import case
 from tests.truth.plans import discovery_plan
 from tests.truth.simulate import Pace, simulate
 
@@ -301,3 +302,21 @@ def test_wrong_use_is_one_line_and_changes_nothing(
     assert len(done.stderr.strip().splitlines()) == 1
     assert words in done.stderr
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_hidden_mechanism_of_the_catalogue_is_added_and_the_error_falls_to_the_noise() -> None:
+    hidden = case("backlash-x10-s0")
+    (fault,) = hidden.hidden
+    record = hidden.record()
+    model, found = add_effect(
+        [record], diagnose([record], new_model(record.machine)).model, f"backlash:{fault.element}"
+    )
+    step = model.ledger[-1]
+    noise_um = found.noise.sigma_mm * 1e3
+    assert step.rms_before_um > 5.0 * noise_um
+    assert step.heldout_before_um > 5.0 * noise_um
+    assert step.rms_after_um < step.heldout_after_um < 1.2 * noise_um
+    (size,) = step.sizes
+    assert size.value == pytest.approx(fault.mechanism.width_um, abs=0.5)
+    assert 0.0 < size.sigma < 0.5
+    assert f"added backlash of slider {fault.element} (play" in history(model).text.splitlines()[-1]
