@@ -2,15 +2,21 @@
 #include <cmath>
 
 #include "hexdbb/compensation.hpp"
+#include "sample_kernel.hpp"
+#include "slider_dependence.hpp"
 
 namespace hexdbb {
 
 namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-// A push answers to a change of the slider's place by less than this part of it: 20 um of pitch error twice a turn of
-// 5 mm are a twentieth.
-constexpr double kContraction = 0.1;
+// Slider coordinates answer to a push on their leg by at most this factor, wherever a machine is any use.
+constexpr double kLever = 2.5;
+// An effect whose push changes by less than this per mm of slider travel need not be asked again within a call, in
+// which a place changes by um.
+constexpr double kGentle = 5e-4;
+// Curvature of what is pushed, as 2 pi / the shortest period, per mm.
+constexpr double kCurvature_mm = 6.3;
 // What four iterations must reach at least.
 constexpr double kGoodEnough_mm = 1e-5;
 
@@ -33,6 +39,8 @@ bool needs(const Effect& effect, const std::string& column) {
   return std::find(all.begin(), all.end(), column) != all.end();
 }
 
+rssr::Vec<double> vec(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
 double largest(const Vector6& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
@@ -54,16 +62,21 @@ Compensator::Compensator(const CompensationData& data, const std::string& source
 }
 
 void Compensator::prepare() {
+  side_per_mm_ = 2.0 / limits_.reversal_travel_mm;
   now_ = one_row();
   nominal_triangle_ = PlatformTriangle(shared_joints(assemble(model_.nominal, Vector6::Zero(), Ports())));
   has_effects_ = !model_.terms.empty();
-  std::vector<Term> asked;
-  for (Term& term : model_.terms) {
-    if (term.effect->info().needs.empty() && polynomials_.fold(term)) continue;
+  const std::vector<Term> all = std::move(model_.terms);
+  model_.terms.clear();
+  for (const Term& term : all) {
+    const EffectInfo& info = term.effect->info();
+    const double steepness_here = steepness(term, machine());
+    contraction_ += kLever * steepness_here;
+    if (info.needs.empty() && polynomials_.fold(term)) continue;
     needs_leg_force_ = needs_leg_force_ || needs(*term.effect, "leg_force");
-    asked.push_back(std::move(term));
+    const bool is_gentle = steepness_here <= kGentle;
+    (is_gentle ? settled_ : model_.terms).push_back(term);
   }
-  model_.terms = std::move(asked);
   reset();
 }
 
@@ -87,11 +100,13 @@ bool Compensator::follow(const Vector6& nominal_mm, const Vector6& velocity_mm_s
     followed_mm_ = visited_mm_;
   }
   visited_mm_.setConstant(kNowhere);
-  if (!std::isnan(followed_mm_[0])) {
+  if (std::isnan(followed_mm_[0])) {  // whoever moves at the first call is taken to have moved so before
+    for (int k = 0; k < kLegs; ++k) side_[k] = velocity_mm_s[k] == 0.0 ? 0.0 : std::copysign(1.0, velocity_mm_s[k]);
+  } else {
     for (int k = 0; k < kLegs; ++k) {
       const double travel = nominal_mm[k] - followed_mm_[k];
       const double towards = velocity_mm_s[k] == 0.0 ? travel : std::copysign(travel, velocity_mm_s[k]);
-      side_[k] = std::clamp(side_[k] + 2.0 * towards / limits_.reversal_travel_mm, -1.0, 1.0);
+      side_[k] = std::clamp(side_[k] + side_per_mm_ * towards, -1.0, 1.0);
     }
   }
   followed_mm_ = nominal_mm;
@@ -106,45 +121,82 @@ void Compensator::set_state(const Direction& direction, const Vector6& side) noe
   state.warming_k[0] = direction.temperature_c - reference_temperature_c_;
 }
 
-/// Static equilibrium of the nominal machine; by virtual work -dz / dl, read off a plumb bar 1000 km long (state.hpp).
+/// Static equilibrium of the nominal machine: forces in the legs that carry a newton at the reference point, tension
+/// positive.
 void Compensator::set_leg_force(const Pose& pose, const Vector6& nominal_mm) noexcept {
-  const SetUp plumb{Vector3(0.0, 0.0, -1e9), Vector3::Zero(), 0.0};
-  Ports sensitivity;
-  reading_sensitivity(model_.nominal, assemble(model_.nominal, nominal_mm, Ports()), nominal_triangle_, pose, plumb,
-                      Ports(), sensitivity);
-  now_.state.leg_force.row(0) = -sensitivity.leg().transpose();
+  const NominalGeometry& nominal = model_.nominal;
+  rssr::Joints<double> joints;
+  rssr::TriangleFrame<double> frame;
+  rssr::PlacedPlatform<double> platform;
+  for (int k = 0; k < kLegs; ++k)
+    joints.base[k] = vec(nominal.vertex.col(k) + nominal_mm[k] * nominal.direction.col(k));
+  platform.position = vec(pose.position);
+  for (int i = 0; i < kGuideways; ++i) {
+    joints.platform[i] = vec(nominal_triangle_.joints.col(i));
+    frame.row[i] = vec(nominal_triangle_.frame_inverse.row(i).transpose());
+    frame.side_squared[i] = nominal_triangle_.side_squared[i];
+    platform.column[i] = vec(pose.rotation.col(i));
+  }
+  const rssr::LegForces<double> carried =
+      rssr::leg_forces(joints, frame, platform, vec(Vector3::Zero()), vec(Vector3::UnitZ()));
+  const bool is_held = carried.determinant * carried.determinant > 1e-18 * carried.scale;
+  for (int k = 0; k < kLegs; ++k) {
+    now_.state.leg_force(0, k) = is_held ? -carried.share[k] * nominal.machine.leg_length_mm : 0.0;
+  }
+}
+
+void Compensator::add_pushes(const std::vector<Term>& terms, Ports& push) noexcept {
+  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>> row(
+      push.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
+  for (const Term& term : terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
+}
+
+/// What hardly depends on the sliders' places, or not at all, once the state is set.
+void Compensator::settle(const Vector6& sliders_mm) noexcept {
+  if (settled_.empty()) return;
+  now_.sliders_mm.row(0) = sliders_mm.transpose();
+  settled_push_.value.setZero();
+  add_pushes(settled_, settled_push_);
 }
 
 const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
   polynomials_.evaluate(sliders_mm, push_);
+  if (!settled_.empty()) push_.value += settled_push_.value;
   if (!model_.terms.empty()) {
     now_.sliders_mm.row(0) = sliders_mm.transpose();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>> row(
-        push_.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
-    for (const Term& term : model_.terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
+    add_pushes(model_.terms, push_);
   }
   if (part_ != 1.0) push_.value *= part_;
   return push_;
 }
 
-/// Fixed point from the last correction. Stops where the next change would be below the tolerance, taking each to be
-/// the same part of the one before.
+/// Fixed point from the last correction. Each slider's coordinate answers to its own: two steps tell the ratio r at
+/// which they shrink, and all that would follow is step r / (1 - r) (Aitken). What is left is of second order in the
+/// steps.
 bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept {
-  Vector6 at = nominal_mm + last_correction_mm_;
-  double before = 0.0, next = 0.0;
+  Vector6 at = nominal_mm + last_correction_mm_, step_before;
+  double left_mm = 0.0, largest_before = 0.0;
   for (out.iterations = 1;; ++out.iterations) {
     const InverseResult result = inverse(model_.nominal, pose, push_at(at));
     out.status = result.status;
     out.slider = result.leg;
     out.sliders_mm = result.sliders_mm;
     if (result.status == Status::kUnreachable) return false;
-    const double change = largest(result.sliders_mm - at);
-    next = change * (out.iterations == 1 ? kContraction : std::min(change / before, 1.0));
-    if (next <= kTolerance_mm || out.iterations == kMaxIterations) break;
-    at = result.sliders_mm;
-    before = change;
+    const Vector6 step = result.sliders_mm - at;
+    const double largest_step = largest(step);
+    left_mm = contraction_ * largest_step;
+    if (out.iterations > 1) {
+      left_mm *= std::min(kCurvature_mm * largest_before, 1.0);
+      const auto one = step_before.array();
+      const auto two = step.array();
+      out.sliders_mm.array() += (two.abs() < 0.5 * one.abs()).select(two.square() / (one - two), 0.0);
+    }
+    if (left_mm <= kTolerance_mm || out.iterations == kMaxIterations) break;
+    at = out.sliders_mm;
+    step_before = step;
+    largest_before = largest_step;
   }
-  if (!(next <= kGoodEnough_mm)) out.status = Status::kIterationLimit;
+  if (!(left_mm <= kGoodEnough_mm)) out.status = Status::kIterationLimit;
   out.correction_mm = out.sliders_mm - nominal_mm;
   return out.status == Status::kOk;
 }
@@ -169,6 +221,7 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   const bool is_followed = follow(nominal.sliders_mm, direction.velocity_mm_s);
   set_state(direction, side_);
   if (needs_leg_force_) set_leg_force(pose, nominal.sliders_mm);
+  settle(nominal.sliders_mm + last_correction_mm_);
   if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
@@ -197,6 +250,7 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
     if (standing.status == Status::kOk) set_leg_force(standing.pose, sliders_mm);
   }
+  settle(sliders_mm);
   const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(sliders_mm));
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);

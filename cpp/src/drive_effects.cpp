@@ -1,26 +1,40 @@
 // What stands between a drive's encoder and its slider in motion: the screw and the servo.
-#include <cmath>
 #include <utility>
 
 #include "catalogue.hpp"
 #include "linear_effect.hpp"
+#include "multiversion.hpp"
+#include "turns.hpp"
 
 namespace hexdbb {
 
 namespace {
 
+constexpr int kPerSlider = 4;
+
+/// Six sliders side by side: cos_1, sin_1, cos_2, sin_2 of each one after another.
+HEXDBB_MULTIVERSION
+void pitch_errors(const double* slider_mm, const double* values, double per_mm, double* out_mm) {
+  for (int k = 0; k < kLegs; ++k) {
+    const auto [c, s] = cos_sin_of_turns(per_mm * slider_mm[k]);
+    const double* v = values + kPerSlider * k;
+    out_mm[k] = v[0] * c + v[1] * s + v[2] * (c * c - s * s) + v[3] * 2.0 * c * s;
+  }
+}
+
 /// Screw pitch error: push = sum over h = 1, 2 of cos_h cos(h a) + sin_h sin(h a), a = 2 pi s / lead.
 class CyclicEffect : public Effect {
  public:
-  CyclicEffect(EffectInfo info, double period_mm) : info_(std::move(info)), per_mm_(2.0 * M_PI / period_mm) {}
+  CyclicEffect(EffectInfo info, double period_mm) : info_(std::move(info)), per_mm_(1.0 / period_mm) {}
 
   const EffectInfo& info() const override { return info_; }
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
-    for (int k = 0; k < kLegs; ++k) {
-      const auto of_slider = values.segment<kPerSlider>(kPerSlider * k);
-      if (of_slider.isZero(0.0)) continue;
-      ports.col(port::kSlider + k) += harmonics(block, k) * of_slider;
+    for (Eigen::Index row = 0; row < block.count; ++row) {
+      double slider_mm[kLegs], pushed_mm[kLegs];
+      for (int k = 0; k < kLegs; ++k) slider_mm[k] = block.slider_mm(k)[row];
+      pitch_errors(slider_mm, values.data(), per_mm_, pushed_mm);
+      for (int k = 0; k < kLegs; ++k) ports(row, port::kSlider + k) += pushed_mm[k];
     }
   }
 
@@ -32,7 +46,6 @@ class CyclicEffect : public Effect {
   }
 
  private:
-  static constexpr int kPerSlider = 4;
   using Harmonics = Eigen::Matrix<double, Eigen::Dynamic, kPerSlider, 0, Block::kRows, kPerSlider>;
 
   /// cos a, sin a, cos 2a, sin 2a, the latter by double angles.
@@ -40,8 +53,7 @@ class CyclicEffect : public Effect {
     Harmonics out(block.count, int{kPerSlider});
     const auto slider_mm = block.slider_mm(k);
     for (Eigen::Index row = 0; row < block.count; ++row) {
-      const double angle = per_mm_ * slider_mm[row];
-      const double c = std::cos(angle), s = std::sin(angle);
+      const auto [c, s] = cos_sin_of_turns(per_mm_ * slider_mm[row]);
       out.row(row) << c, s, c * c - s * s, 2.0 * c * s;
     }
     return out;

@@ -1,18 +1,15 @@
 #include "hexdbb/slider_polynomials.hpp"
 
-#include <cmath>
-
 #include "multiversion.hpp"
+#include "slider_dependence.hpp"
 
 namespace hexdbb {
 
 namespace {
 
-using Pushes = Eigen::Matrix<double, Eigen::Dynamic, port::kCount>;
 using PortVector = Eigen::Matrix<double, SliderPolynomials::kPorts, 1>;
 
 constexpr double kSame_mm = 1e-11;
-constexpr int kTrials = 24;
 
 /// The slider to which a port belongs, for the whole row of ports.
 PortVector of_ports(const Vector6& of_sliders) {
@@ -26,18 +23,11 @@ PortVector of_ports(const Vector6& of_sliders) {
   return out;
 }
 
-Pushes ask(const Term& term, const SliderTable& sliders_mm) {
-  Samples samples;
-  samples.sliders_mm = sliders_mm;
-  Pushes out = Pushes::Zero(sliders_mm.rows(), int{port::kCount});
-  term.effect->push(SampleBlock{samples, 0, samples.size()}, term.values, out);
-  return out;
-}
-
 }  // namespace
 
 SliderPolynomials::SliderPolynomials(const Machine& machine)
-    : middle_mm_(0.5 * (machine.travel_min_mm + machine.travel_max_mm)),
+    : machine_(machine),
+      middle_mm_(0.5 * (machine.travel_min_mm + machine.travel_max_mm)),
       half_mm_(0.5 * (machine.travel_max_mm - machine.travel_min_mm)) {
   coefficient_.setZero();
 }
@@ -51,18 +41,11 @@ bool SliderPolynomials::fold(const Term& term) {
   found.col(1) = 0.5 * (known.row(2) - known.row(0)).head<kPorts>();
   found.col(2) = 0.5 * (known.row(2) + known.row(0)).head<kPorts>() - known.row(1).head<kPorts>();
 
-  // Each slider elsewhere, at places that no period divides: multiples of the golden ratio, another phase a slider.
-  SliderTable trials(int{kTrials}, int{kLegs});
-  for (int row = 0; row < kTrials; ++row) {
-    for (int k = 0; k < kLegs; ++k) {
-      const double turns = 0.6180339887498949 * (row + 1) + 0.7548776662466927 * (k + 1);
-      trials(row, k) = middle_mm_ + half_mm_ * (2.0 * (turns - std::floor(turns)) - 1.0);
-    }
-  }
+  const SliderTable trials = trial_places(machine_);
   const Pushes asked = ask(term, trials);
   SliderPolynomials alone = *this;
   alone.coefficient_ = found;
-  for (int row = 0; row < kTrials; ++row) {
+  for (Eigen::Index row = 0; row < trials.rows(); ++row) {
     Ports expected;
     alone.evaluate(trials.row(row).transpose(), expected);
     if (!((asked.row(row).transpose() - expected.value).cwiseAbs().maxCoeff() <= kSame_mm)) return false;

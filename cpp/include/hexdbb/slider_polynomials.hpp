@@ -22,6 +22,7 @@ class SliderPolynomials {
   void evaluate(const Vector6& sliders_mm, Ports& push) const noexcept;
 
  private:
+  Machine machine_;
   double middle_mm_, half_mm_;
   Eigen::Matrix<double, kPorts, 3> coefficient_;
 };
