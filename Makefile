@@ -88,10 +88,11 @@ demo: setup  ## a circular test on the simulated rig, diagnosed and compared
 	@PATH="$(CURDIR)/$(BIN):$$PATH" .ci/scripts/demo.sh
 
 .PHONY: bench
-bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md
+bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md, docs/real-time.md
 	@$(STEP) "Configure the benchmarks" cmake --preset bench
 	@$(STEP) "Compile the benchmarks" cmake --build --preset bench
 	@$(BIN)/python cpp/bench/report.py build/bench/cpp/bench/hexdbb_bench --output docs/benchmarks.md
+	@$(BIN)/python cpp/bench/compensation_report.py build/bench/cpp/bench/hexdbb_compensation_bench --output docs/real-time.md
 
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,6 @@
 // Time of one call of the compensator along a circle at 3000 mm/min, 1 kHz: median and tail over single calls, each timed
 // with the processor's counter; cost of reading the counter taken off. The tail is the machine's as much as ours: a busy
-// system interrupts. 
+// system interrupts.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ void sliders(benchmark::State& state, const std::vector<std::string>& effects) {
   }
   state.counters["median_ns"] = part(times, 0.5);
   state.counters["p999_ns"] = part(times, 0.999);
-  state.counters["iterations"] = iterations;
+  state.counters["iterations_needed"] = iterations;
 }
 
 void pose(benchmark::State& state, const std::vector<std::string>& effects) {
