@@ -10,4 +10,5 @@ PYBIND11_MODULE(_core, module) {
   bind_samples(module);
   bind_prediction(module);
   bind_diagnosis(module);
+  bind_compensation(module);
 }

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "bindings.hpp"
+#include "hexdbb/compensation.hpp"
+
+namespace hexdbb::bindings {
+
+namespace py = pybind11;
+
+namespace {
+
+using Rows3 = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>;
+using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, kLegs, Eigen::RowMajor>;
+
+Pose pose_of(const Rows3& position_mm, const Rows3& rpy_rad, Eigen::Index row) {
+  return {position_mm.row(row).transpose(), rotation_from_rpy(rpy_rad(row, 0), rpy_rad(row, 1), rpy_rad(row, 2))};
+}
+
+/// Targets along a path. Velocities are those of the nominal sliders between the neighbours of each row.
+py::tuple sliders_along(Compensator& compensator, const Rows3& position_mm, const Rows3& rpy_rad,
+                        const Eigen::VectorXd& time_s, const Eigen::VectorXd& temperature_c) {
+  const Eigen::Index count = position_mm.rows();
+  if (rpy_rad.rows() != count || time_s.size() != count || temperature_c.size() != count) {
+    throw std::invalid_argument("position_mm, rpy_rad, time_s and temperature_c differ in length");
+  }
+  const NominalGeometry nominal(compensator.machine());
+  Rows6 sliders(count, int{kLegs}), correction(count, int{kLegs});
+  Eigen::VectorXi status(count), slider(count);
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const Eigen::Index before = std::max<Eigen::Index>(row - 1, 0), after = std::min(row + 1, count - 1);
+    Direction direction = direction_between(nominal, pose_of(position_mm, rpy_rad, before),
+                                            pose_of(position_mm, rpy_rad, after), time_s[after] - time_s[before]);
+    direction.temperature_c = temperature_c[row];
+    const SliderTargets targets = compensator.sliders(pose_of(position_mm, rpy_rad, row), direction);
+    sliders.row(row) = targets.sliders_mm.transpose();
+    correction.row(row) = targets.correction_mm.transpose();
+    status[row] = static_cast<int>(targets.status);
+    slider[row] = targets.slider;
+  }
+  return py::make_tuple(sliders, correction, status, slider);
+}
+
+py::tuple poses_of(Compensator& compensator, const Rows6& sliders_mm) {
+  RowMajorMatrix pose(sliders_mm.rows(), 12);
+  Eigen::VectorXi status(sliders_mm.rows());
+  for (Eigen::Index row = 0; row < sliders_mm.rows(); ++row) {
+    const PoseEstimate found = compensator.pose(sliders_mm.row(row).transpose());
+    pose.row(row).head<3>() = found.pose.position.transpose();
+    for (int i = 0; i < 9; ++i) pose(row, 3 + i) = found.pose.rotation(i / 3, i % 3);
+    status[row] = static_cast<int>(found.status);
+  }
+  return py::make_tuple(pose, status);
+}
+
+}  // namespace
+
+void bind_compensation(py::module_& module) {
+  py::register_exception<CompensationError>(module, "CompensationError", PyExc_ValueError);
+
+  py::class_<CompensationData>(module, "CompensationData", "What a controller loads; see compensation_file.hpp.")
+      .def_readonly("name", &CompensationData::name)
+      .def_readonly("model_sha256", &CompensationData::model_sha256)
+      .def_readonly("reference_temperature_c", &CompensationData::reference_temperature_c)
+      .def_readonly("machine", &CompensationData::machine)
+      .def_property_readonly("max_correction_mm", [](const CompensationData& d) { return d.limits.max_correction_mm; })
+      .def_property_readonly("reversal_travel_mm",
+                             [](const CompensationData& d) { return d.limits.reversal_travel_mm; })
+      .def_property_readonly(
+          "effects",
+          [](const CompensationData& data) {
+            std::vector<std::string> names;
+            for (const CompensatedEffect& each : data.effects) names.push_back(each.name);
+            return names;
+          },
+          "Names of the effects it corrects.")
+      .def_property_readonly(
+          "left_out",
+          [](const CompensationData& data) {
+            std::vector<std::pair<std::string, std::string>> out;
+            for (const LeftOut& each : data.left_out) out.emplace_back(each.effect, each.reason);
+            return out;
+          },
+          "Effects it does not correct, each with the reason.")
+      .def("text", &compensation_text, "Content of a compensation file.")
+      .def("header", &compensation_header, "The same as constants of a C program.");
+
+  module.def(
+      "compensation_of",
+      [](const Model& model, const std::string& name, const std::string& model_sha256, double max_correction_mm,
+         double reversal_travel_mm, double reference_temperature_c) {
+        return compensation_of(model, name, model_sha256, {max_correction_mm, reversal_travel_mm},
+                               reference_temperature_c);
+      },
+      py::arg("model"), py::kw_only(), py::arg("name"), py::arg("model_sha256"), py::arg("max_correction_mm"),
+      py::arg("reversal_travel_mm"), py::arg("reference_temperature_c"),
+      "What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known.");
+  module.def("read_compensation", &read_compensation, py::arg("path"),
+             "Read a compensation file; CompensationError says why it is refused.");
+  module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),
+             "CompensationError naming the first dimension that differs.");
+
+  py::class_<Compensator>(module, "Compensator", "Slider targets under every effect of compensation data.")
+      .def(py::init<const CompensationData&, const std::string&>(), py::arg("data"), py::arg("source"))
+      .def("sliders_along", &sliders_along, py::arg("position_mm"), py::arg("rpy_rad"), py::arg("time_s"),
+           py::arg("temperature_c"),
+           "Targets (n, 6) and corrections (n, 6) in mm, status (n,) and slider at fault (n,) of poses in order of "
+           "motion; temperature_c: nan where not measured.")
+      .def("poses_of", &poses_of, py::arg("sliders_mm"),
+           "Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of slider coordinates in order of "
+           "motion.")
+      .def("enable", &Compensator::enable, py::arg("on"), "Off or on; it fades over the next 500 poses.")
+      .def("reset", &Compensator::reset, "Forget how the machine moved before.");
+}
+
+}  // namespace hexdbb::bindings

@@ -1,0 +1,145 @@
+"""`hexdbb compensate`: compensation data for motion controllers, or the same correction applied to a path."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+import numpy as np
+
+from hexdbb import _core
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.existing_model import existing_model
+from hexdbb.compensation import (
+    MAX_CORRECTION_MM,
+    REVERSAL_TRAVEL_MM,
+    SUFFIX,
+    make_compensation,
+    path_targets,
+    read_compensation,
+    read_poses,
+    sliders_csv,
+    write_text,
+)
+from hexdbb.errors import InputError
+
+POSITIVE = click.FloatRange(min=0.0, min_open=True)
+
+
+@click.command("compensate")
+@click.argument("model", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    help="Compensation file to write (NAME.hexcomp); with --poses the table of slider coordinates.",
+)
+@click.option("--poses", type=click.Path(path_type=Path), help="CSV of poses in order of motion.")
+@click.option("--header", type=click.Path(path_type=Path), help="C header of constants to write, for firmware.")
+@click.option(
+    "--max-correction-um",
+    type=POSITIVE,
+    default=1e3 * MAX_CORRECTION_MM,
+    show_default=True,
+    help="Largest correction of a slider; controllers refuse poses that need more.",
+)
+@click.option(
+    "--reversal-travel-um",
+    type=POSITIVE,
+    default=1e3 * REVERSAL_TRAVEL_MM,
+    show_default=True,
+    help="Travel over which a slider's correction changes sides when it turns back.",
+)
+@click.option(
+    "--reference-temperature-c", type=float, help="Temperature at the record's first sample; else growth is left out."
+)
+@click.option("--temperature-c", type=float, help="With --poses: the temperature to correct for.")
+@click.option("--overwrite", is_flag=True, help="Replace existing files.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+def command(
+    model: Path,
+    output: Path | None,
+    poses: Path | None,
+    header: Path | None,
+    max_correction_um: float,
+    reversal_travel_um: float,
+    reference_temperature_c: float | None,
+    temperature_c: float | None,
+    overwrite: bool,
+    as_json: bool,
+) -> None:
+    """Write what a motion controller needs to correct the errors of MODEL, or correct a path with it.
+
+    MODEL is a model file, or a compensation file (NAME.hexcomp) made of one. Effects that belong to the measurement, or
+    depend on what a controller does not follow, are left out and listed with the reason.
+
+    POSES has the columns x_mm, y_mm, z_mm, roll_deg, pitch_deg, yaw_deg; the table written has s1_mm to s6_mm, a row a
+    pose. It has no times, so that lags in proportion to speed are not corrected there.
+
+    \b
+    Examples:
+      hexdbb compensate model.toml -o sp120.hexcomp
+      hexdbb compensate model.toml --header compensation_constants.h
+      hexdbb compensate model.toml --poses path.csv -o sliders.csv
+    """
+    if output is None and header is None:
+        raise InputError("hexdbb compensate: nothing to write (expected -o FILE, --header FILE.h or both)")
+    if poses is not None and output is None:
+        raise InputError("hexdbb compensate: --poses without -o (expected -o SLIDERS.csv)")
+    for path in filter(None, (output, header)):
+        refuse_existing(path, overwrite)
+    if model.suffix == SUFFIX:
+        data = read_compensation(model)
+    else:
+        data = make_compensation(
+            existing_model(model),
+            max_correction_mm=1e-3 * max_correction_um,
+            reversal_travel_mm=1e-3 * reversal_travel_um,
+            reference_temperature_c=reference_temperature_c,
+        )
+    summary = _summary(data)
+    if output is not None and poses is not None:
+        summary |= _correct_path(data, poses, output, temperature_c)
+    elif output is not None:
+        write_text(data.text(), output)
+    if header is not None:
+        write_text(data.header(), header)
+    click.echo(json.dumps(summary, indent=2, allow_nan=False) if as_json else _words(summary))
+
+
+def _correct_path(
+    data: _core.CompensationData, poses: Path, output: Path, temperature_c: float | None
+) -> dict[str, object]:
+    table = read_poses(poses)
+    targets = path_targets(
+        data,
+        table[:, :3],
+        np.radians(table[:, 3:]),
+        temperature_c=np.nan if temperature_c is None else temperature_c,
+        name=str(poses),
+    )
+    write_text(sliders_csv(targets.sliders_mm), output)
+    return {"poses": len(table), "largest_correction_um": 1e3 * float(np.abs(targets.correction_mm).max())}
+
+
+def _summary(data: _core.CompensationData) -> dict[str, object]:
+    return {
+        "machine": data.name,
+        "corrected": data.effects,
+        "left_out": [{"effect": effect, "reason": reason} for effect, reason in data.left_out],
+        "max_correction_um": 1e3 * data.max_correction_mm,
+        "reversal_travel_um": 1e3 * data.reversal_travel_mm,
+    }
+
+
+def _words(summary: dict[str, object]) -> str:
+    corrected, left_out = summary["corrected"], summary["left_out"]
+    assert isinstance(corrected, list)
+    assert isinstance(left_out, list)
+    lines = [f"machine      {summary['machine']}", f"corrected    {', '.join(corrected) or 'nothing'}"]
+    lines += [f"left out     {each['effect']}: {each['reason']}" for each in left_out]
+    lines.append(f"limit        {summary['max_correction_um']:g} um a slider")
+    if "poses" in summary:
+        lines.append(f"path         {summary['poses']} poses, corrected by up to {summary['largest_correction_um']:.1f} um")
+    return "\n".join(lines)
