@@ -14,10 +14,10 @@ from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.diagnosis import Diagnosis
-from hexdbb.ledger import add_effect, with_effect
+from hexdbb.ledger import add_effect
 from hexdbb.ledger.history import step_json
 from hexdbb.ledger.words import PLACES, arrow
-from hexdbb.model import LedgerStep, save_model
+from hexdbb.model import LedgerStep, save_model, split_choice
 from hexdbb.record import read_record
 
 
@@ -49,7 +49,7 @@ def command(effect: str, records: tuple[Path, ...], model_path: Path, robust: bo
     """
     refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path)
-    with_effect(model, effect)  # a name that is not known is said before records are read
+    model.info(split_choice(effect)[0])  # a name that is not known is said before records are read
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
         read = [read_record(path) for path in records]

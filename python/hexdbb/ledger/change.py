@@ -54,7 +54,7 @@ def add_effect(
     RunError
         Where a fit did not end in a usable solution.
     """
-    with_effect(model, choice)  # refuse before anything is computed
+    with_effect(knowing(model, records), choice)  # refuse before anything is computed
     base, before_mm, refit = _fitted_as_it_is(records, model, robust)
     found = diagnose(records, with_effect(base, choice), robust=robust, against=(base, refit))
     return _with_step("add", model, records, choice, before_mm, found, _sizes(found.model, choice))
@@ -74,7 +74,7 @@ def remove_effect(
     RunError
         Where a fit did not end in a usable solution.
     """
-    held_at_zero(model, choice)  # refuse before anything is computed
+    held_at_zero(knowing(model, records), choice)  # refuse before anything is computed
     base, before_mm, refit = _fitted_as_it_is(records, model, robust)
     found = diagnose(records, held_at_zero(base, choice), robust=robust, against=(base, refit))
     return _with_step("remove", model, records, choice, before_mm, found, _sizes(base, choice))
