@@ -149,6 +149,9 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
       ++passed;
     }
     out.velocity_mm_s(row, k) = track.velocity_mm_s(at, k);
+    const auto [first, last] = window(track.time_s, at);
+    out.acceleration_mm_s2(row, k) =
+        (track.velocity_mm_s(last, k) - track.velocity_mm_s(first, k)) / (track.time_s[last] - track.time_s[first]);
     out.side(row, k) = side;
     if (passed > 0) {
       const Turn& last = turns.at[passed - 1];
@@ -162,8 +165,8 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
 
 Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
   const Eigen::Index count = sliders_mm.rows();
-  Motion out{SliderTable(count, kLegs), SliderTable(count, kLegs), SliderTable::Constant(count, kLegs, kLongAgo),
-             SliderTable::Constant(count, kLegs, kLongAgo)};
+  Motion out{SliderTable(count, kLegs), SliderTable(count, kLegs), SliderTable(count, kLegs),
+             SliderTable::Constant(count, kLegs, kLongAgo), SliderTable::Constant(count, kLegs, kLongAgo)};
   for (const Rows& rows : rows_by_sweep(sweep)) {
     for (std::size_t at = 1; at < rows.size(); ++at) {
       if (!(time_s[rows[at]] > time_s[rows[at - 1]])) {
