@@ -36,6 +36,7 @@ ALLOWED: dict[str, set[str]] = {
     # the machine's line
     "kinematics": {"errors", "machine", "_core"},
     "model": {"errors", "validation", "atomic_file", "units", "machine", "kinematics", "_core"},
+    "effects": {"errors", "units", "machine", "plan", "kinematics", "model", "state", "_core"},
     "structure": {"model"},
     "redundancy": {"model", "structure"},
     "state": {"plan", "record"},

@@ -13,6 +13,7 @@ COMMANDS = {
     "rig": "the simulated rig as a process of its own",
     "model": "make model files",
     "diagnose": "fit the model's effects to records",
+    "effects": "effects a model can have; the handbook of them",
     "discover": "which effect is missing from a model",
     "compare": "prediction against measurement, ISO 230-4 quantities, where the model fails",
     "add": "one effect more in a model, and how the error falls",

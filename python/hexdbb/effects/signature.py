@@ -1,0 +1,141 @@
+"""What an effect of its expected size does to the reading along the thesis' circle, in both directions, as a picture.
+
+The first element of the effect is given its expected size, one parameter at a time, and the prediction is run with and
+without it. The circle is run 0.1 mm off the bar's length, so that a gauge's gain shows; temperature rises by 1 K a lap
+for effects of temperature, and is not measured for all others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.effects.handbook import effect_infos, handbook, shown_size
+from hexdbb.kinematics import engine_machine, inverse
+from hexdbb.machine import MachineFile
+from hexdbb.plan import load_plan
+from hexdbb.state import planned_columns
+
+Floats = NDArray[np.float64]
+
+PER_LAP = 720
+BAR_MM = 99.9
+UM_PER_MM = 1000.0
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7")
+"""Okabe and Ito's palette, one a parameter; clockwise is dashed."""
+FLAT = 1e-6
+"""A change that varies by less than this part of its size is drawn as constant."""
+SHARE_OF_RADIUS = 0.3
+"""Part of the circle's drawn radius that the largest deviation takes."""
+
+
+@dataclass(frozen=True)
+class Signature:
+    """Change of the reading, um, shape (directions, n), by one parameter of an effect."""
+
+    parameter: _core.ParameterInfo
+    change_um: Floats
+
+
+def write_handbook(folder: Path) -> list[Path]:
+    """Write every page and picture of the handbook; give their paths."""
+    images = folder / "images"
+    images.mkdir(parents=True, exist_ok=True)
+    written = []
+    for name, text in handbook().items():
+        written.append(folder / name)
+        written[-1].write_text(text, encoding="utf-8")
+    angle_rad, directions, samples = _circle()
+    for info in effect_infos():
+        written.append(images / f"{info.name}.png")
+        _draw(info, angle_rad, directions, signatures(info, samples), written[-1])
+    return written
+
+
+def signatures(info: _core.EffectInfo, samples: dict[bool, _core.Samples]) -> list[Signature]:
+    """Signature of every parameter that pushes by itself; `samples` with (True) and without a measured temperature."""
+    machine = engine_machine(_machine())
+    found = []
+    for index, parameter in enumerate(info.parameters):
+        if parameter.is_shape:
+            continue
+        changes = []
+        for each in samples.values():
+            model = _core.Model(machine)
+            model.add(info.name, 1)
+            without = _core.predict(model, each).reading_mm
+            values = np.zeros(model.size)
+            values[index] = parameter.prior_sigma
+            model.values = values
+            changes.append(UM_PER_MM * (_core.predict(model, each).reading_mm - without))
+        largest = max(changes, key=lambda change: float(np.abs(change).max()))
+        found.append(Signature(parameter, largest.reshape(-1, PER_LAP)))
+    return found
+
+
+def _machine() -> MachineFile:
+    return load_plan("thesis").machine_file()
+
+
+def _circle() -> tuple[Floats, list[int], dict[bool, _core.Samples]]:
+    """Polar angles, directions, and samples of one lap in each direction, with and without a thermometer."""
+    plan = load_plan("thesis")
+    runs = [next(run for run in plan.runs() if run.direction == direction) for direction in (1, -1)]
+    angle_rad = np.linspace(0.0, 2.0 * np.pi, PER_LAP, endpoint=False)
+    run = runs[0]
+    poses = [run.circle.poses(each.direction * angle_rad, run.mount.cup_mm) for each in runs]
+    sliders_mm, _ = inverse(_machine(), np.vstack(poses), run.circle.platform_rpy_rad)
+    rows = np.zeros(len(sliders_mm), np.int32)
+    set_up = _core.SetUp(
+        cup_mm=np.array(run.mount.cup_mm), ball_offset_mm=np.array(run.circle.ball_offset_mm), bar_length_mm=BAR_MM
+    )
+    samples = {}
+    for has_thermometer in (False, True):
+        state = planned_columns(runs, angle_rad, [run.circle.id])
+        if has_thermometer:
+            state["warming_k"] = np.tile(angle_rad / (2.0 * np.pi), len(runs))
+        each = _core.Samples(sliders_mm=sliders_mm, set_up=rows, mount=rows, set_ups=[set_up], state=state)
+        each.derive(engine_machine(_machine()))
+        samples[has_thermometer] = each
+    return angle_rad, [run.direction for run in runs], samples
+
+
+def _draw(info: _core.EffectInfo, angle_rad: Floats, directions: list[int], drawn: list[Signature], path: Path) -> None:
+    figure = Figure(figsize=(9.0, 3.6), layout="constrained")
+    FigureCanvasAgg(figure)
+    plain = figure.add_subplot(1, 2, 1)
+    polar = figure.add_subplot(1, 2, 2, projection="polar")
+    largest = max(float(np.abs(each.change_um).max()) for each in drawn) or 1.0
+    closed = np.append(angle_rad, angle_rad[:1] + 2.0 * np.pi)
+    polar.plot(closed, np.ones(len(closed)), color="0.6", linewidth=0.8)
+    for signature, colour in zip(drawn, COLOURS, strict=False):
+        for direction, change_um in zip(directions, signature.change_um, strict=True):
+            polar_angle = np.mod(direction * angle_rad, 2.0 * np.pi)
+            order = np.argsort(polar_angle)
+            way = "counter-clockwise" if direction > 0 else "clockwise"
+            label = f"{signature.parameter.name} {shown_size(signature.parameter)}" if direction > 0 else None
+            line: dict[str, Any] = {
+                "color": colour,
+                "linestyle": "-" if direction > 0 else "--",
+                "linewidth": 1.1,
+                "gid": way,
+            }
+            plain.plot(np.degrees(polar_angle[order]), change_um[order], label=label, **line)
+            polar.plot(polar_angle[order], 1.0 + SHARE_OF_RADIUS * change_um[order] / largest, **line)
+    plain.set(xlabel="polar angle (deg)", ylabel="change of the reading (um)", xlim=(0, 360), xticks=range(0, 361, 60))
+    plain.set_title(f"{info.name}, {info.element_kind} {info.elements[0]}; dashed: clockwise", fontsize=9)
+    plain.grid(alpha=0.3)
+    if all(np.ptp(each.change_um) < FLAT * largest for each in drawn):
+        plain.set_ylim(0.0, 1.5 * largest)  # or rounding errors would fill the picture
+    plain.legend(fontsize=8)
+    polar.set_yticks([])
+    polar.set_ylim(0.0, 1.0 + 1.3 * SHARE_OF_RADIUS)
+    polar.set_title(f"largest deviation {largest:.3g} um", fontsize=9)
+    figure.savefig(path, dpi=100, metadata={"Software": None})
