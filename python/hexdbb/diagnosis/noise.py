@@ -43,12 +43,18 @@ def noise_of(records: Sequence[Record]) -> Noise:
     repeated = [difference for record in records for difference in _lap_differences(record)]
     if sum(map(len, repeated)) >= LEAST_REPEATS:
         return Noise(_robust_sigma(np.concatenate(repeated)), "repeated laps")
-    stated = [_stated_mm(record) for record in records]
-    known = [each for each in stated if each is not None]
-    if len(known) == len(stated):
-        return Noise(max(*known, LEAST_NOISE_MM), "stated")
+    stated = stated_noise(records)
+    if stated is not None:
+        return stated
     rough = [np.diff(record.reading_mm[rows], n=2) / np.sqrt(6.0) for record in records for rows in record.sweeps()]
     return Noise(_robust_sigma(np.concatenate(rough)), "roughness")
+
+
+def stated_noise(records: Sequence[Record]) -> Noise | None:
+    """Give the noise as the gauges state it, the noisiest; None where one of them states none."""
+    stated = [_stated_mm(record) for record in records]
+    known = [each for each in stated if each is not None]
+    return Noise(max(*known, LEAST_NOISE_MM), "stated") if len(known) == len(stated) else None
 
 
 def _stated_mm(record: Record) -> float | None:

@@ -14,11 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.diagnosis import HeldOut, held_out, noise_of, refitter
-from hexdbb.discovery.lack_of_fit import LackOfFit, lack_of_fit
+from hexdbb.diagnosis import HeldOut, Noise, held_out, noise_of, refitter, stated_noise
+from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import Candidate, Discovery, Verdict
-from hexdbb.discovery.screen import Screen, Screened, screen
+from hexdbb.discovery.screen import Screened, screen
 from hexdbb.discovery.trial import Base, fitted_base, holm, try_effect
 from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.errors import InputError
@@ -30,14 +30,20 @@ MOST_TRIED = 6
 """So many effects get a fit of their own."""
 SUBSTANTIAL = 0.5
 """Share of the unexplained that an effect must explain, where structure stays beside it."""
+PER_VALUE = 0.03
+MOST_ASKED = 0.95
 SUBSTANTIAL_LEFT_OUT = 0.3
 """The same on readings left out of the fit."""
+COMPLETE = 0.97
+"""Share of the unexplained that two effects together must explain, where a little structure stays."""
 STRONG = 10.0
 """Fall of BIC that counts as very strong evidence (Kass and Raftery 1995)."""
 SIGNIFICANT_P = 1e-3
 ALIKE = 10.0
 """Effects whose chi-squares differ by less explain the readings alike."""
 MOST_FOLDS = 4
+UNSTEADY = 1.25
+"""Noise of repeated laps over the gauge's stated noise beyond which the machine does not repeat."""
 LEAST_READINGS = 200
 LEAST_SWEEPS = 2
 
@@ -82,11 +88,12 @@ def discover(
     """
     _require_enough(records)
     known = knowing(model, records)
-    noise = noise_of(records)
+    noise, unsteady = _noise(records)
     progress("fitting the model as it is")
     base = fitted_base(records, known, noise)
     adjusted = _adjusted(base.model)
-    lack = lack_of_fit(records, base.residual_mm, noise, adjusted)
+    test = FitTest(records, noise)
+    lack = test.of(base.residual_mm, adjusted)
     progress("screening all effects")
     names = list(candidates) if candidates is not None else absent_effects(base.model)
     screened = screen(records, base.model, names, noise, 1.0)
@@ -94,25 +101,49 @@ def discover(
         (screened.best_elements(name) for name in screened.effects()),
         key=lambda each: -each.bic_drop(screened.readings),
     )
-    trials = _try(base, [each for each in ranked if each.gain > 0.0][:MOST_TRIED], adjusted, progress)
+    trials = _try(base, [each for each in ranked if each.gain > 0.0][:MOST_TRIED], test, adjusted, progress)
     tried = sum(1 + len(screened.elements(name)) for name in screened.effects())
     trials = _sorted_trials(trials, tried)
-    return _judge(base, lack, trials, screened, progress)
+    found = _judge(base, test, lack, trials, progress)
+    return _with_unsteadiness(found, base, unsteady) if unsteady is not None else found
+
+
+def _noise(records: Sequence[Record]) -> tuple[Noise, str | None]:
+    """Noise to judge by: of repeated laps where they are as steady as the gauge is stated to be, else the gauge's.
+
+    Where laps repeat much worse than the gauge should, something is missing that no lap shares with the next; that is
+    said, and what is stated counts.
+    """
+    repeated, stated = noise_of(records), stated_noise(records)
+    if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
+        return repeated, None
+    return stated, (
+        f"laps repeat to {repeated.sigma_mm * 1e3:.2f} um only,"
+        f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} um:"
+        " something changes from lap to lap"
+    )
+
+
+def _with_unsteadiness(found: Discovery, base: Base, unsteady: str) -> Discovery:
+    if found.verdict != "none":
+        return replace(found, remarks=(*found.remarks, unsteady))
+    structure = unexplained_structure(base.records, base.residual_mm, base.noise)
+    return replace(found, verdict="unknown", structure=structure, remarks=(*found.remarks, unsteady))
 
 
 def absent_effects(model: Model) -> list[str]:
     """Name the effects that could be missing: known ones that the model lacks, or holds in part."""
     partly = {term.effect for term in model.terms if not term.free.all() and not np.any(term.values[~term.free])}
     wholly = {term.effect for term in model.terms} - partly
-    return [name for name in _core.effect_names() if name not in wholly and not model.info(name).is_set_up]
+    return [name for name in _core.effect_names("catalogue") if name not in wholly]
 
 
-def _try(base: Base, chosen: Sequence[Screened], adjusted: int, progress: Progress) -> list[_Trial]:
+def _try(base: Base, chosen: Sequence[Screened], test: FitTest, adjusted: int, progress: Progress) -> list[_Trial]:
     trials = []
     for each in chosen:
         progress(f"trying {each.effect}")
         candidate, result = try_effect(base, each.effect, each.elements)
-        lack = lack_of_fit(base.records, result.residual_mm, base.noise, adjusted + len(candidate.values))
+        lack = test.of(result.residual_mm, adjusted + len(candidate.values))
         trials.append(_Trial(candidate, result, lack))
     return trials
 
@@ -123,16 +154,16 @@ def _sorted_trials(trials: Sequence[_Trial], tried: int) -> list[_Trial]:
     return sorted(with_p, key=lambda trial: -trial.candidate.bic_drop)
 
 
-def _judge(base: Base, lack: LackOfFit, trials: list[_Trial], screened: Screen, progress: Progress) -> Discovery:
+def _judge(base: Base, test: FitTest, lack: LackOfFit, trials: list[_Trial], progress: Progress) -> Discovery:
     best = trials[0] if trials and _is_evident(trials[0].candidate) else None
     if best is None or (not lack.is_significant and best.candidate.bic_drop < 3.0 * STRONG):
         verdict: Verdict = "unknown" if lack.is_significant else "none"
         return _outcome(verdict, base, lack, trials, None)
     progress("confirming on readings left out of the fit")
     checked = _confirm(base, best.candidate)
-    convincing = best.candidate.share >= SUBSTANTIAL or not best.lack.is_significant
+    convincing = best.candidate.share >= _substantial(best.candidate) or not best.lack.is_significant
     holds = checked is None or checked.share(lack.noise_um) >= SUBSTANTIAL_LEFT_OUT * best.candidate.share
-    if not (convincing and holds) and not (holds and _completes(base, best, screened, progress)):
+    if not (convincing and holds) and not (holds and _completes(base, best, test, progress)):
         return _outcome("unknown" if lack.is_significant else "none", base, lack, trials, checked)
     alike = [
         trial.candidate
@@ -149,11 +180,16 @@ def _judge(base: Base, lack: LackOfFit, trials: list[_Trial], screened: Screen, 
     )
 
 
+def _substantial(candidate: Candidate) -> float:
+    """Share an effect must explain where structure stays: the more values it brings, the more it could anyway."""
+    return min(SUBSTANTIAL + PER_VALUE * len(candidate.values), MOST_ASKED)
+
+
 def _is_evident(candidate: Candidate) -> bool:
     return candidate.bic_drop > STRONG and candidate.p_value < SIGNIFICANT_P
 
 
-def _completes(base: Base, best: _Trial, screened: Screen, progress: Progress) -> bool:
+def _completes(base: Base, best: _Trial, test: FitTest, progress: Progress) -> bool:
     """Whether a second effect beside the best one leaves only noise: two faults of one size each explain half."""
     progress("looking for a second effect beside it")
     wider = replace(base, model=best.candidate.model)
@@ -166,9 +202,9 @@ def _completes(base: Base, best: _Trial, screened: Screen, progress: Progress) -
     second = fitted_base(base.records, best.candidate.model, base.noise)
     candidate, result = try_effect(second, ranked[0].effect, ranked[0].elements)
     adjusted = _adjusted(base.model) + len(best.candidate.values) + len(candidate.values)
-    left = lack_of_fit(base.records, result.residual_mm, base.noise, adjusted)
+    left = test.of(result.residual_mm, adjusted)
     together = (base.squared - float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2) / base.excess
-    return _is_evident(candidate) and (not left.is_significant or together > 0.9)
+    return _is_evident(candidate) and (not left.is_significant or together > COMPLETE)
 
 
 def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:

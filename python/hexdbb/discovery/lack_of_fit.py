@@ -57,42 +57,64 @@ class LackOfFit:
         return float(np.sqrt(max(self.rms_um**2 - self.noise_um**2, 0.0)))
 
 
-def lack_of_fit(records: Sequence[Record], residual_mm: Floats, noise: Noise, fitted_values: int) -> LackOfFit:
-    """Test a residual for anything but noise.
+class FitTest:
+    """Tests residuals of some records, again and again: the Fourier bases of the sweeps are prepared once.
 
     Parameters
     ----------
     records : sequence of Record
-    residual_mm : ndarray, shape (n,)
-        Of all records, one after another.
     noise : Noise
         Of one reading.
-    fitted_values : int
-        Number of directions the fit has adjusted: so much smooth residual it has taken away.
     """
-    count = len(residual_mm)
-    rms_mm = float(np.sqrt(residual_mm @ residual_mm / max(count - fitted_values, 1)))
-    doubt = np.hypot(NOISE_DOUBT[noise.source], np.sqrt(0.5 / count))
-    level = (rms_mm / noise.sigma_mm - 1.0) / doubt
-    return LackOfFit(rms_mm * 1e3, noise.sigma_mm * 1e3, float(level), _shape_p(records, residual_mm, fitted_values))
 
+    def __init__(self, records: Sequence[Record], noise: Noise) -> None:
+        self._noise = noise
+        self._sweeps: list[tuple[NDArray[np.intp], Floats]] = []
+        first = 0
+        for record in records:
+            angle = np.radians(record.columns["angle_deg"])
+            self._sweeps += [
+                (first + rows, _orthonormal(angle[rows])) for rows in record.sweeps() if len(rows) >= LEAST_ROWS
+            ]
+            first += len(angle)
 
-def _shape_p(records: Sequence[Record], residual_mm: Floats, fitted_values: int) -> float:
-    smooth, rest, smooth_freedom, rest_freedom, first = 0.0, 0.0, -fitted_values, 0, 0
-    for record in records:
-        angle = np.radians(record.columns["angle_deg"])
-        for rows in record.sweeps():
-            if len(rows) < LEAST_ROWS:
-                continue
-            own = residual_mm[first + rows]
-            multiples = angle[rows][:, None] * np.arange(1, HARMONICS + 1)
-            basis, _ = np.linalg.qr(np.column_stack([np.ones(len(rows)), np.cos(multiples), np.sin(multiples)]))
-            taken = float(np.sum((basis.T @ own) ** 2))
+    def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
+        """Test a residual for anything but noise.
+
+        Parameters
+        ----------
+        residual_mm : ndarray, shape (n,)
+            Of all records, one after another.
+        fitted_values : int
+            Number of values the fit has adjusted: so much smooth residual it may have taken away.
+        """
+        count = len(residual_mm)
+        rms_mm = float(np.sqrt(residual_mm @ residual_mm / max(count - fitted_values, 1)))
+        doubt = np.hypot(NOISE_DOUBT[self._noise.source], np.sqrt(0.5 / count))
+        level = (rms_mm / self._noise.sigma_mm - 1.0) / doubt
+        return LackOfFit(
+            rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), self._shape_p(residual_mm, fitted_values)
+        )
+
+    def _shape_p(self, residual_mm: Floats, fitted_values: int) -> float:
+        smooth, rest, smooth_freedom, rest_freedom = 0.0, 0.0, -fitted_values, 0
+        for rows, basis in self._sweeps:
+            own = residual_mm[rows]
+            taken = float(np.sum((own @ basis) ** 2))
             smooth += taken
             rest += float(own @ own) - taken
             smooth_freedom += basis.shape[1]
             rest_freedom += len(rows) - basis.shape[1]
-        first += len(angle)
-    if smooth_freedom <= 0 or rest_freedom <= 0:
-        return 1.0
-    return float(stats.f.sf((smooth / smooth_freedom) / (rest / rest_freedom), smooth_freedom, rest_freedom))
+        if smooth_freedom <= 0 or rest_freedom <= 0:
+            return 1.0
+        ratio = (smooth / smooth_freedom) / (rest / rest_freedom)
+        return float(stats.f.sf(ratio, smooth_freedom, rest_freedom))
+
+
+def _orthonormal(angle_rad: Floats) -> Floats:
+    """Fourier series of a sweep's angles as orthonormal columns: nearly orthogonal already, so by Cholesky."""
+    multiples = angle_rad[:, None] * np.arange(1, HARMONICS + 1)
+    basis = np.column_stack([np.ones(len(angle_rad)), np.cos(multiples), np.sin(multiples)])
+    factor = np.linalg.cholesky(basis.T @ basis + 1e-9 * len(angle_rad) * np.eye(basis.shape[1]))
+    orthonormal: Floats = np.linalg.solve(factor, basis.T).T
+    return orthonormal

@@ -101,7 +101,7 @@ def _imagined(like: Record, circle: Circle, feed_mm_min: float) -> Record | None
 
 
 def _difference(base: Base, record: Record, models: tuple[Model, Model], information: Floats) -> float:
-    """Distance of two models' readings in standard deviations; `information` is what the records tell of the first's."""
+    """Distance of two models' readings in sigmas; `information` is what the records tell of the first's values."""
     first, second = models
     try:
         one = _core.predict(first.engine(), samples_of([record], first), want_jacobian=True)

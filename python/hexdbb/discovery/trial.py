@@ -23,6 +23,12 @@ from hexdbb.units import shown_factor, shown_unit
 Floats = NDArray[np.float64]
 
 
+CLEARLY = 10.0
+"""An element's weight must exceed the cost of its parameters by this much."""
+SMALLEST_PART = 0.01
+"""Of the weight of the effect's strongest element: below it an element mends the others' shape."""
+
+
 @dataclass(frozen=True)
 class Base:
     """The model a candidate must improve on, fitted to the same records."""
@@ -62,9 +68,18 @@ def with_effect(model: Model, effect: str, elements: Sequence[str]) -> Model:
 
 
 def try_effect(base: Base, effect: str, elements: Sequence[str]) -> tuple[Candidate, _core.FitResult]:
-    """Fit the base's model with an effect; the p-value is not corrected for other candidates yet."""
+    """Fit the base's model with an effect; the p-value is not corrected for other candidates yet.
+
+    Elements that to first order seemed to pay but hardly contribute once the effect has its true size are left out, and
+    the rest is fitted again.
+    """
     wider = with_effect(base.model, effect, elements)
-    fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise)
+    fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, curvature=False)
+    kept = _contributing(base, fitted, result, effect, elements)
+    if kept != tuple(elements):
+        elements = kept
+        wider = with_effect(base.model, effect, elements)
+        fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, curvature=False)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
     count = int((wider.free & ~with_effect(base.model, effect, ()).free).sum())
     readings = base.readings / result.correlation
@@ -91,6 +106,23 @@ def holm(candidates: Sequence[Candidate], tried: int) -> list[Candidate]:
         floor = max(floor, min(candidate.p_value * (tried - rank), 1.0))
         corrected.append(replace(candidate, p_value=floor))
     return corrected
+
+
+def _contributing(
+    base: Base, fitted: Model, result: _core.FitResult, effect: str, elements: Sequence[str]
+) -> tuple[str, ...]:
+    """Elements whose values stand clear of zero (Wald): more than they cost, and a part of what the best one gives."""
+    parameters = fitted.parameters()
+    weight, cost = {}, {}
+    for element in elements:
+        columns = [index for index, each in enumerate(parameters) if each.effect == effect and each.element == element]
+        spread = result.covariance[np.ix_(columns, columns)]
+        values = fitted.values[columns]
+        weight[element] = float(values @ np.linalg.pinv(spread, hermitian=True) @ values)
+        cost[element] = len(columns) * float(np.log(base.readings)) + CLEARLY
+    part = SMALLEST_PART * max(weight.values())
+    kept = tuple(element for element in elements if weight[element] >= max(cost[element], part))
+    return kept or tuple(elements)
 
 
 def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[FittedParameter, ...]:

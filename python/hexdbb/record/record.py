@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -105,8 +106,10 @@ class Record:
 
     def content_hash(self) -> str:
         """SHA-256 of required columns, gauge, mounts, circles and machine; the same in every form of the record."""
-        if self.whole_hash is not None:
-            return self.whole_hash
+        return self.whole_hash if self.whole_hash is not None else self._own_hash
+
+    @cached_property
+    def _own_hash(self) -> str:
         digest = hashlib.sha256()
         for name, kind in REQUIRED_COLUMNS.items():
             digest.update(name.encode())

@@ -1,0 +1,107 @@
+"""`hexdbb discover`: is anything missing from a model, and which effect is it?"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from hexdbb.discovery import Candidate, Discovery, discover
+from hexdbb.model import load_model
+from hexdbb.record import read_record
+
+
+@click.command()
+@click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("-m", "--model", "model_path", required=True, type=click.Path(path_type=Path), help="Model file.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+def command(records: tuple[Path, ...], model_path: Path, as_json: bool) -> None:
+    """Find out which effect a model lacks, from RECORD... (.parquet or .csv). The model file is not changed.
+
+    The verdict is one of: an effect; one of several that these readings cannot tell apart, with the circle that would;
+    nothing missing; something missing that no known effect explains, with the variables that carry it.
+
+    \b
+    Examples:
+      hexdbb discover today.parquet -m model.toml
+      hexdbb discover monday.parquet tuesday.csv -m model.toml --json
+    """
+    messages = Console(stderr=True)
+    with messages.status("reading records") as status:
+        read = [read_record(path) for path in records]
+        model = load_model(model_path)
+        found = discover(read, model, progress=status.update)
+    if as_json:
+        click.echo(json.dumps(found.to_json(), indent=2))
+        return
+    print_discovery(found, Console(), " ".join(map(str, records)), model_path)
+
+
+def print_discovery(found: Discovery, console: Console, records: str, model_path: Path) -> None:
+    """Print a discovery for people: the verdict, what it rests on, what to do next."""
+    console.print(found.sentence, style="bold", highlight=False, soft_wrap=True)
+    lack = found.lack_of_fit
+    console.print(
+        f"residual {lack.rms_um:.2f} um against {lack.noise_um:.2f} um of noise;"
+        f" unexplained {lack.unexplained_um:.2f} um; probability of so smooth a residual by chance {lack.shape_p:.1g}",
+        highlight=False,
+        soft_wrap=True,
+    )
+    if found.best is not None:
+        console.print(f"with it: {found.rms_before_um:.2f} um -> {found.rms_after_um:.2f} um", highlight=False)
+        if found.heldout_before_um is not None and found.heldout_after_um is not None:
+            console.print(
+                f"circles left out of the fit: {found.heldout_before_um:.2f} um -> {found.heldout_after_um:.2f} um",
+                highlight=False,
+            )
+    if found.verdict != "none" and found.candidates:
+        console.print(_candidates(found.candidates))
+    if found.best is not None:
+        console.print(_values(found.best))
+    if found.structure:
+        console.print("What carries the rest (share of what is unexplained, on samples not used to find it):")
+        for each in found.structure:
+            period = f", period {each.period:.3g} {each.unit}" if each.period is not None else ""
+            console.print(f"  {each.share:6.1%}  {each.variable}{period}", highlight=False)
+    _print_next(found, console, records, model_path)
+
+
+def _candidates(candidates: tuple[Candidate, ...]) -> Table:
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for name in ("effect", "RMS after, um", "share", "BIC drop", "p"):
+        table.add_column(name, justify="left" if name == "effect" else "right")
+    for each in candidates:
+        table.add_row(
+            each.choice, f"{each.rms_after_um:.2f}", f"{each.share:.0%}", f"{each.bic_drop:,.0f}", f"{each.p_value:.1g}"
+        )
+    return table
+
+
+def _values(best: Candidate) -> Table:
+    table = Table(box=None, header_style="bold", pad_edge=False)
+    for name in (best.effect, "parameter", "value", "± 1 sigma", "unit"):
+        table.add_column(name, justify="right" if name in ("value", "± 1 sigma") else "left")
+    for each in best.values:
+        sigma = "-" if each.sigma is None else f"{each.sigma:.3g}"
+        table.add_row(each.element, each.name, f"{each.value:.4g}", sigma, each.unit)
+    return table
+
+
+def _print_next(found: Discovery, console: Console, records: str, model_path: Path) -> None:
+    for remark in found.remarks:
+        console.print(remark, highlight=False, soft_wrap=True)
+    if found.next_test is not None:
+        circle = found.next_test.circle
+        console.print(
+            f"next best test: a circle of radius {circle['radius_mm']:.4g} mm, platform"
+            f" {circle['platform_rpy_deg']} deg, plane {circle['plane_rpy_deg']} deg (roll, pitch, yaw), at"
+            f" {found.next_test.feed_mm_min:g} mm/min: it would show {found.next_test.expected_sigmas:.0f} standard"
+            " deviations between them",
+            highlight=False,
+            soft_wrap=True,
+        )
+    if found.verdict == "effect" and found.best is not None:
+        console.print(f"next: hexdbb add {found.best.choice} -m {model_path} {records}", highlight=False, soft_wrap=True)
