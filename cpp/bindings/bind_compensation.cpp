@@ -104,11 +104,9 @@ void bind_compensation(py::module_& module) {
       .def(py::init<const CompensationData&, const std::string&>(), py::arg("data"), py::arg("source"))
       .def("sliders_along", &sliders_along, py::arg("position_mm"), py::arg("rpy_rad"), py::arg("time_s"),
            py::arg("temperature_c"),
-           "Targets (n, 6) and corrections (n, 6) in mm, status (n,) and slider at fault (n,) of poses in order of "
-           "motion; temperature_c: nan where not measured.")
+           "Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.")
       .def("poses_of", &poses_of, py::arg("sliders_mm"),
-           "Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of slider coordinates in order of "
-           "motion.")
+           "Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of rows of slider coordinates.")
       .def("enable", &Compensator::enable, py::arg("on"), "Off or on; it fades over the next 500 poses.")
       .def("reset", &Compensator::reset, "Forget how the machine moved before.");
 }

@@ -1,7 +1,7 @@
 """Compensation for motion controllers: what of a model they can correct, the file they load, slider targets of a path.
 
-The engine does it all (`compensation.hpp`): which effects can be corrected, the format of the file, the targets. This module
-gives it models and tables and turns its refusals into `InputError`.
+The engine does it all (`compensation.hpp`): which effects can be corrected, the format of the file, the targets. This
+module gives it models and tables and turns its refusals into `InputError`.
 """
 
 from __future__ import annotations

@@ -43,6 +43,8 @@ ALLOWED: dict[str, set[str]] = {
     "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
     "diagnosis": {"errors", "frames", "units", "record", "model", "prediction", "redundancy", "_core"},
     "ledger": {"errors", "frames", "units", "record", "model", "prediction", "diagnosis", "_core"},
+    # what a controller does about it
+    "compensation": {"errors", "atomic_file", "machine", "kinematics", "model", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
     "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
     # which circles tell most

@@ -19,6 +19,7 @@ COMMANDS = {
     "add": "one effect more in a model, and how the error falls",
     "undo": "take back what was last done to a model",
     "history": "what was done to a model, step by step",
+    "compensate": "compensation data for motion controllers, or a path corrected",
     "plan": "check a plan: reach, limits",
     "thesis": "the thesis' own way: reference contours, its linear estimator, its tables",
     "convert": "between record (.parquet) and text form (.csv)",

@@ -141,5 +141,7 @@ def _words(summary: dict[str, object]) -> str:
     lines += [f"left out     {each['effect']}: {each['reason']}" for each in left_out]
     lines.append(f"limit        {summary['max_correction_um']:g} um a slider")
     if "poses" in summary:
-        lines.append(f"path         {summary['poses']} poses, corrected by up to {summary['largest_correction_um']:.1f} um")
+        lines.append(
+            f"path         {summary['poses']} poses, corrected by up to {summary['largest_correction_um']:.1f} um"
+        )
     return "\n".join(lines)

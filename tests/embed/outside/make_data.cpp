@@ -5,10 +5,7 @@
 
 int main() {
   hexdbb::Model model{hexdbb::Machine()};
-  for (const char* name : {"leg_length", "guideway_rotation_z", "backlash", "pitch_cyclic"}) {
-    bool is_known = false;
-    for (const std::string& each : hexdbb::effect_names()) is_known = is_known || each == name;
-    if (!is_known) continue;
+  for (const char* name : {"leg_length", "guideway_rotation_xy", "backlash", "pitch_cyclic"}) {
     model.add(hexdbb::find_effect(model.nominal.machine, 1, name));
     hexdbb::Term& term = model.terms.back();
     for (Eigen::Index at = 0; at < term.values.size(); ++at)
