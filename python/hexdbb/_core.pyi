@@ -12,6 +12,9 @@ import numpy
 import numpy.typing
 
 __all__: list[str] = [
+    "CompensationData",
+    "CompensationError",
+    "Compensator",
     "EffectInfo",
     "FitResult",
     "Identifiability",
@@ -23,6 +26,7 @@ __all__: list[str] = [
     "Prediction",
     "Samples",
     "SetUp",
+    "compensation_of",
     "effect_info",
     "effect_names",
     "expected_sizes",
@@ -41,6 +45,8 @@ __all__: list[str] = [
     "port_sensitivity",
     "predict",
     "project_out",
+    "read_compensation",
+    "require_machine",
     "rotation_from_rpy",
     "rpy_from_rotation",
     "rssr_angles",
@@ -300,6 +306,85 @@ class FitResult:
     @property
     def values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
 
+class CompensationError(ValueError):
+    pass
+
+class CompensationData:
+    """
+    What a controller loads; see compensation_file.hpp.
+    """
+    def header(self) -> str:
+        """
+        The same as constants of a C program.
+        """
+    def text(self) -> str:
+        """
+        Content of a compensation file.
+        """
+    @property
+    def effects(self) -> list[str]:
+        """
+        Names of the effects it corrects.
+        """
+    @property
+    def left_out(self) -> list[tuple[str, str]]:
+        """
+        Effects it does not correct, each with the reason.
+        """
+    @property
+    def machine(self) -> Machine: ...
+    @property
+    def max_correction_mm(self) -> float: ...
+    @property
+    def model_sha256(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def reference_temperature_c(self) -> float: ...
+    @property
+    def reversal_travel_mm(self) -> float: ...
+
+class Compensator:
+    """
+    Slider targets under every effect of compensation data.
+    """
+    def __init__(self, data: CompensationData, source: str) -> None: ...
+    def enable(self, on: bool) -> None:
+        """
+        Off or on; it fades over the next 500 poses.
+        """
+    def poses_of(self, sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> tuple:
+        """
+        Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of rows of slider coordinates.
+        """
+    def reset(self) -> None:
+        """
+        Forget how the machine moved before.
+        """
+    def sliders_along(
+        self,
+        position_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
+        rpy_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
+        time_s: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        temperature_c: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    ) -> tuple:
+        """
+        Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.
+        """
+
+def compensation_of(
+    model: Model,
+    *,
+    name: str,
+    model_sha256: str,
+    max_correction_mm: typing.SupportsFloat | typing.SupportsIndex,
+    reversal_travel_mm: typing.SupportsFloat | typing.SupportsIndex,
+    reference_temperature_c: typing.SupportsFloat | typing.SupportsIndex,
+) -> CompensationData:
+    """
+    What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known.
+    """
+
 def effect_info(
     machine: Machine,
     mounts: typing.SupportsInt | typing.SupportsIndex,
@@ -330,6 +415,7 @@ def fit(
     max_iterations: typing.SupportsInt | typing.SupportsIndex = 50,
     robust_mm: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"] = ...,
+    curvature: bool = True,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.
@@ -440,6 +526,16 @@ def project_out(
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
     The part of a Jacobian that nuisance columns cannot explain.
+    """
+
+def read_compensation(path: str) -> CompensationData:
+    """
+    Read a compensation file; CompensationError says why it is refused.
+    """
+
+def require_machine(of_data: Machine, of_controller: Machine, source: str) -> None:
+    """
+    CompensationError naming the first dimension that differs.
     """
 
 def rotation_from_rpy(
