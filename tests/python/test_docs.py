@@ -20,10 +20,14 @@ def test_links_lead_somewhere(page: Path) -> None:
     assert [target for target in local if not (page.parent / target).exists()] == []
 
 
-def test_index_lists_every_page() -> None:
-    index = (ROOT / "docs" / "README.md").read_text(encoding="utf-8")
-    linked = set(re.findall(r"\]\(([^)]+\.md)\)", index))
-    pages = {str(page.relative_to(ROOT / "docs")) for page in PAGES if page.is_relative_to(ROOT / "docs")}
+INDEXES = [page for page in PAGES if page.name == "README.md" and page.is_relative_to(ROOT / "docs")]
+
+
+@pytest.mark.parametrize("index", INDEXES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_index_lists_every_page_of_its_folder_and_the_indexes_below(index: Path) -> None:
+    linked = set(re.findall(r"\]\(([^)]+\.md)\)", index.read_text(encoding="utf-8")))
+    below = {str(page.relative_to(index.parent)) for page in PAGES if page.is_relative_to(index.parent)}
+    pages = {page for page in below if "/" not in page or Path(page).name == "README.md"}
     assert pages - linked == {"README.md"}
 
 
