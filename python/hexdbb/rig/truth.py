@@ -12,7 +12,14 @@ from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, SerializeAsAny, ValidationError, model_validator
+from pydantic import (
+    Field,
+    SerializeAsAny,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    model_serializer,
+    model_validator,
+)
 
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array, GeometryErrors, true_geometry
@@ -115,6 +122,11 @@ class TruthFile(FileModel):
             self.setup.errors(),
             [table.start(machine) for table in self.mechanism],
         )
+
+    @model_serializer(mode="wrap")
+    def _without_empty_list(self, to_dict: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Leave out an empty list: `[[mechanism]]` can then be appended to the file."""
+        return {key: value for key, value in to_dict(self).items() if key != "mechanism" or value}
 
     @model_validator(mode="before")
     @classmethod

@@ -57,6 +57,14 @@ def test_mechanisms_survive_the_file(tmp_path, truth_file):
     assert load_toml(again, TruthFile) == truth
 
 
+def test_mechanism_can_be_appended_to_a_written_truth(truth_file):
+    written = dump_toml(random_truth(3)).removeprefix('schema = "hexdbb.truth/1"\n')
+    path = truth_file(written + '\n[[mechanism]]\nkind = "backlash"\nslider = 4\nwidth_um = 15.0\n')
+    truth = load_toml(path, TruthFile)
+    assert [table.kind for table in truth.mechanism] == ["backlash"]
+    assert truth.geometry == random_truth(3).geometry
+
+
 @pytest.mark.parametrize(
     ("content", "says"),
     [
