@@ -95,7 +95,8 @@ def predict_reading_mm(record: Record, model: Model) -> Floats:
     InputError
         Naming the first sample the model's machine cannot reach, or a machine that differs.
     """
-    prediction = _core.predict(model.engine(), samples_of([record], model))
+    samples = samples_of([record], model)
+    prediction = _core.predict(model.engine(samples), samples)
     row = prediction.first_failure
     if row >= 0:
         reason = status_name(int(prediction.status[row]))

@@ -12,8 +12,10 @@ from rich.table import Table
 
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
+from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.diagnosis import Diagnosis
+from hexdbb.discovery import failing_effects
 from hexdbb.ledger import add_effect
 from hexdbb.ledger.history import step_json
 from hexdbb.ledger.words import PLACES, arrow
@@ -33,9 +35,17 @@ from hexdbb.record import read_record
     type=click.Path(path_type=Path),
     help="Model file, as diagnose makes; it gains the effect.",
 )
+@effects_option
 @click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
-def command(effect: str, records: tuple[Path, ...], model_path: Path, robust: bool, as_json: bool) -> None:
+def command(
+    effect: str,
+    records: tuple[Path, ...],
+    model_path: Path,
+    effects_path: Path | None,
+    robust: bool,
+    as_json: bool,
+) -> None:
     """Add EFFECT, or some ELEMENTs of it, to a model, fit everything that is free to RECORD..., show the fall.
 
     The error before is that of the model without the effect, fitted to the same readings. Held-out circles are
@@ -46,13 +56,17 @@ def command(effect: str, records: tuple[Path, ...], model_path: Path, robust: bo
       hexdbb add backlash:4 -m model.toml today.parquet
       hexdbb add backlash:2:4 -m model.toml today.parquet yesterday.csv
       hexdbb add pitch_cyclic -m model.toml today.parquet --json
+      hexdbb add my_dent -m model.toml today.parquet --effects mine.py
     """
     refuse_existing(model_path, overwrite=True)
-    model = existing_model(model_path)
-    model.info(split_choice(effect)[0])  # a name that is not known is said before records are read
+    model = existing_model(model_path, effects_path)
+    name = split_choice(effect)[0]
+    model.info(name)  # a name that is not known is said before records are read
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
         read = [read_record(path) for path in records]
+    for error in failing_effects(read, model, [name]).values():
+        raise error
     with messages.status(f"adding {effect}: fitting with and without it, and to all circles but some"):
         changed, found = add_effect(read, model, effect, robust=robust)
     save_model(changed, model_path)

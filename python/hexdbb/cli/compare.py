@@ -11,11 +11,13 @@ from rich.progress import Progress
 
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
+from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.tables import comparison_text
 from hexdbb.diagnosis import fit_mounts
 from hexdbb.errors import InputError
+from hexdbb.model import Model
 from hexdbb.prediction import predict_reading_mm, samples_of
 from hexdbb.record import read_record
 
@@ -31,6 +33,7 @@ from hexdbb.record import read_record
     type=click.Path(path_type=Path),
     help="Model file, as diagnose makes.",
 )
+@effects_option
 @click.option(
     "--plot",
     "prefix",
@@ -41,7 +44,14 @@ from hexdbb.record import read_record
 )
 @click.option("--no-plot", is_flag=True, help="Write no pictures.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object instead of the tables.")
-def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no_plot: bool, as_json: bool) -> None:
+def command(
+    records: tuple[Path, ...],
+    model_path: Path,
+    effects_path: Path | None,
+    prefix: Path | None,
+    no_plot: bool,
+    as_json: bool,
+) -> None:
     """Compare measured readings with those a model predicts.
 
     Prints the residual (measured - predicted) and the quantities of ISO 230-4 for every circle, feed and direction;
@@ -62,7 +72,7 @@ def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no
         refuse_existing(stem.with_name(f"{stem.name}.png"), overwrite=True)
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
-        comparison, fitted = _comparison(records, model_path, progress)
+        comparison, fitted = _comparison(records, existing_model(model_path, effects_path), progress)
         written = [] if no_plot else _draw(comparison, stem, progress)
     for sentence in fitted:
         messages.print(sentence, markup=False)
@@ -74,9 +84,8 @@ def command(records: tuple[Path, ...], model_path: Path, prefix: Path | None, no
         messages.print(f"pictures: {', '.join(str(path) for path in written)}", markup=False)
 
 
-def _comparison(paths: tuple[Path, ...], model_path: Path, progress: Progress) -> tuple[Comparison, list[str]]:
+def _comparison(paths: tuple[Path, ...], model: Model, progress: Progress) -> tuple[Comparison, list[str]]:
     """Compare, and say in sentences which set-ups had to be fitted first."""
-    model = existing_model(model_path)
     task = progress.add_task("predicting", total=len(paths))
     records, predicted_mm, states, sentences = [], [], [], []
     for path in paths:

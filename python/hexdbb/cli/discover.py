@@ -1,4 +1,4 @@
-"""`hexdbb discover`: is anything missing from a model, and which effect is it?"""
+"""`hexdbb discover`: whether anything is missing from a model, and which effect it is."""
 
 from __future__ import annotations
 
@@ -9,35 +9,74 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.discovery import Candidate, Discovery, discover
-from hexdbb.model import load_model
-from hexdbb.record import read_record
+from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.add import added_json, print_added
+from hexdbb.cli.consoles import output_console
+from hexdbb.cli.effects_option import effects_option
+from hexdbb.cli.existing_model import existing_model
+from hexdbb.discovery import AutoStep, Candidate, Discovery, discover, discover_all
+from hexdbb.discovery.discover import Progress
+from hexdbb.model import Model, save_model
+from hexdbb.record import Record, read_record
 
 
 @click.command()
 @click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option("-m", "--model", "model_path", required=True, type=click.Path(path_type=Path), help="Model file.")
+@effects_option
+@click.option("--auto", is_flag=True, help="Add what is missing to the model file, effect after effect.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
-def command(records: tuple[Path, ...], model_path: Path, as_json: bool) -> None:
-    """Find out which effect a model lacks, from RECORD... (.parquet or .csv). The model file is not changed.
+def command(records: tuple[Path, ...], model_path: Path, effects_path: Path | None, auto: bool, as_json: bool) -> None:
+    """Find out which effect a model lacks, from RECORD... (.parquet or .csv).
 
     The verdict is one of: an effect; one of several that these readings cannot tell apart, with the circle that would;
     nothing missing; something missing that no known effect explains, with the variables that carry it.
+
+    The model file is not changed, unless by --auto: it adds what is found and looks again, until nothing is missing or
+    it cannot be told what. An effect added earlier is taken out again where a later one makes it needless.
 
     \b
     Examples:
       hexdbb discover today.parquet -m model.toml
       hexdbb discover monday.parquet tuesday.csv -m model.toml --json
+      hexdbb discover today.parquet -m model.toml --effects mine.py
+      hexdbb discover today.parquet -m model.toml --auto
     """
+    if auto:
+        refuse_existing(model_path, overwrite=True)
+    model = existing_model(model_path, effects_path)
     messages = Console(stderr=True)
     with messages.status("reading records") as status:
         read = [read_record(path) for path in records]
-        model = load_model(model_path)
-        found = discover(read, model, progress=status.update)
+        if auto:
+            steps, found = _automatic(read, model, model_path, None if as_json else output_console(), status.update)
+        else:
+            steps, found = [], discover(read, model, progress=status.update)
     if as_json:
-        click.echo(json.dumps(found.to_json(), indent=2))
+        shown = (
+            {**found.to_json(), "steps": [added_json(each.diagnosis) for each in steps]} if auto else found.to_json()
+        )
+        click.echo(json.dumps(shown, indent=2, allow_nan=False))
         return
-    print_discovery(found, Console(), " ".join(map(str, records)), model_path)
+    print_discovery(found, output_console(), " ".join(map(str, records)), model_path)
+
+
+def _automatic(
+    records: list[Record], model: Model, model_path: Path, console: Console | None, progress: Progress
+) -> tuple[list[AutoStep], Discovery]:
+    """Add effects, the model file written and the step printed after each; give the steps and the last look."""
+    steps: list[AutoStep] = []
+    for each in discover_all(records, model, progress=progress):
+        if isinstance(each, Discovery):
+            return steps, each
+        save_model(each.diagnosis.model, model_path)
+        steps.append(each)
+        if console is not None:
+            removed = f"{each.choice} taken out again: what was added since explains the same"
+            console.print(removed if each.what == "remove" else f"{each.choice} added", style="bold")
+            print_added(each.diagnosis, console)
+            console.print()
+    raise AssertionError("the last look is always there")
 
 
 def print_discovery(found: Discovery, console: Console, records: str, model_path: Path) -> None:
@@ -104,4 +143,6 @@ def _print_next(found: Discovery, console: Console, records: str, model_path: Pa
             soft_wrap=True,
         )
     if found.verdict == "effect" and found.best is not None:
-        console.print(f"next: hexdbb add {found.best.choice} -m {model_path} {records}", highlight=False, soft_wrap=True)
+        console.print(
+            f"next: hexdbb add {found.best.choice} -m {model_path} {records}", highlight=False, soft_wrap=True
+        )

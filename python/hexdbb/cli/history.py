@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.ledger import history
 
@@ -21,8 +22,9 @@ from hexdbb.ledger import history
     type=click.Path(path_type=Path),
     help="Model file.",
 )
+@effects_option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
-def command(model_path: Path, as_json: bool) -> None:
+def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
     """Read out a model's ledger: each step, the effect, its size, and the error before and after.
 
     \b
@@ -30,5 +32,5 @@ def command(model_path: Path, as_json: bool) -> None:
       hexdbb history -m model.toml
       hexdbb history -m model.toml --json
     """
-    found = history(existing_model(model_path))
+    found = history(existing_model(model_path, effects_path))
     click.echo(json.dumps(found.to_json(), indent=2, allow_nan=False) if as_json else found.text)

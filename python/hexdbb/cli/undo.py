@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.ledger import undo
 from hexdbb.ledger.history import step_json
@@ -25,8 +26,9 @@ from hexdbb.model import save_model
     type=click.Path(path_type=Path),
     help="Model file; its last step is taken back.",
 )
+@effects_option
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
-def command(model_path: Path, as_json: bool) -> None:
+def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
     """Give a model back as it was before the last step: a diagnosis, an effect added.
 
     The model's file keeps every earlier state, so undo can be repeated down to the first step.
@@ -37,7 +39,7 @@ def command(model_path: Path, as_json: bool) -> None:
       hexdbb history -m model.toml
     """
     refuse_existing(model_path, overwrite=True)
-    model = existing_model(model_path)
+    model = existing_model(model_path, effects_path)
     earlier = undo(model)
     save_model(earlier, model_path)
     last = model.ledger[-1]

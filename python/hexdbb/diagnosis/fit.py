@@ -59,10 +59,12 @@ def evaluate_fit(
         Where the fit did not end in a usable solution.
     """
     names = ", ".join(record.name for record in records)
+    samples = samples_of(records, model)
+    engine = model.engine(samples)
     try:
         result = _core.fit(
-            model.engine(),
-            samples_of(records, model),
+            engine,
+            samples,
             np.concatenate([record.reading_mm for record in records]),
             noise_mm=noise.sigma_mm,
             free=[bool(each) for each in free],

@@ -103,9 +103,8 @@ def _folds(records: Sequence[Record], by: str, most: int) -> list[list[Mask]]:
 
 
 def _residual(record: Record, model: Model) -> NDArray[np.float64]:
-    residual: NDArray[np.float64] = (
-        record.reading_mm - _core.predict(model.engine(), samples_of([record], model)).reading_mm
-    )
+    samples = samples_of([record], model)
+    residual: NDArray[np.float64] = record.reading_mm - _core.predict(model.engine(samples), samples).reading_mm
     return residual
 
 

@@ -1,10 +1,13 @@
 """Discovery: whether anything is missing from a model, and which effect it is."""
 
+from hexdbb.discovery.auto import AutoStep, discover_all, is_needed
 from hexdbb.discovery.discover import absent_effects, discover
 from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
+from hexdbb.discovery.own_effects import failing_effects
 from hexdbb.discovery.result import Candidate, Discovery, NextTest, Structure
 
 __all__ = [
+    "AutoStep",
     "Candidate",
     "Discovery",
     "FitTest",
@@ -13,4 +16,7 @@ __all__ = [
     "Structure",
     "absent_effects",
     "discover",
+    "discover_all",
+    "failing_effects",
+    "is_needed",
 ]

@@ -17,6 +17,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import HeldOut, Noise, held_out, noise_of, refitter, stated_noise
 from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
 from hexdbb.discovery.next_test import next_test
+from hexdbb.discovery.own_effects import failing_effects
 from hexdbb.discovery.result import Candidate, Discovery, Verdict
 from hexdbb.discovery.screen import Screened, screen
 from hexdbb.discovery.trial import Base, fitted_base, holm, try_effect
@@ -95,7 +96,9 @@ def discover(
     test = FitTest(records, noise)
     lack = test.of(base.residual_mm, adjusted)
     progress("screening all effects")
-    names = list(candidates) if candidates is not None else absent_effects(base.model)
+    asked = list(candidates) if candidates is not None else absent_effects(base.model)
+    failed = failing_effects(records, base.model, asked)
+    names = [name for name in asked if name not in failed]
     screened = screen(records, base.model, names, noise, 1.0)
     ranked = sorted(
         (screened.best_elements(name) for name in screened.effects()),
@@ -104,7 +107,8 @@ def discover(
     trials = _try(base, [each for each in ranked if each.gain > 0.0][:MOST_TRIED], test, adjusted, progress)
     tried = sum(1 + len(screened.elements(name)) for name in screened.effects())
     trials = _sorted_trials(trials, tried)
-    found = _judge(base, test, lack, trials, progress)
+    found = _judge(base, test, lack, trials, names, progress)
+    found = replace(found, remarks=(*found.remarks, *(f"left out: {error}" for error in failed.values())))
     return _with_unsteadiness(found, base, unsteady) if unsteady is not None else found
 
 
@@ -124,6 +128,11 @@ def _noise(records: Sequence[Record]) -> tuple[Noise, str | None]:
     )
 
 
+def judging_noise(records: Sequence[Record]) -> Noise:
+    """Give the noise of one reading that a model of some records is judged by."""
+    return _noise(records)[0]
+
+
 def _with_unsteadiness(found: Discovery, base: Base, unsteady: str) -> Discovery:
     if found.verdict != "none":
         return replace(found, remarks=(*found.remarks, unsteady))
@@ -135,7 +144,7 @@ def absent_effects(model: Model) -> list[str]:
     """Name the effects that could be missing: known ones that the model lacks, or holds in part."""
     partly = {term.effect for term in model.terms if not term.free.all() and not np.any(term.values[~term.free])}
     wholly = {term.effect for term in model.terms} - partly
-    return [name for name in _core.effect_names("catalogue") if name not in wholly]
+    return [name for name in (*_core.effect_names("catalogue"), *model.own_effects) if name not in wholly]
 
 
 def _try(base: Base, chosen: Sequence[Screened], test: FitTest, adjusted: int, progress: Progress) -> list[_Trial]:
@@ -154,7 +163,9 @@ def _sorted_trials(trials: Sequence[_Trial], tried: int) -> list[_Trial]:
     return sorted(with_p, key=lambda trial: -trial.candidate.bic_drop)
 
 
-def _judge(base: Base, test: FitTest, lack: LackOfFit, trials: list[_Trial], progress: Progress) -> Discovery:
+def _judge(
+    base: Base, test: FitTest, lack: LackOfFit, trials: list[_Trial], names: Sequence[str], progress: Progress
+) -> Discovery:
     best = trials[0] if trials and _is_evident(trials[0].candidate) else None
     if best is None or (not lack.is_significant and best.candidate.bic_drop < 3.0 * STRONG):
         verdict: Verdict = "unknown" if lack.is_significant else "none"
@@ -163,7 +174,7 @@ def _judge(base: Base, test: FitTest, lack: LackOfFit, trials: list[_Trial], pro
     checked = _confirm(base, best.candidate)
     convincing = best.candidate.share >= _substantial(best.candidate) or not best.lack.is_significant
     holds = checked is None or checked.share(lack.noise_um) >= SUBSTANTIAL_LEFT_OUT * best.candidate.share
-    if not (convincing and holds) and not (holds and _completes(base, best, test, progress)):
+    if not (convincing and holds) and not (holds and _completes(base, best, test, names, progress)):
         return _outcome("unknown" if lack.is_significant else "none", base, lack, trials, checked)
     alike = [
         trial.candidate
@@ -189,11 +200,12 @@ def _is_evident(candidate: Candidate) -> bool:
     return candidate.bic_drop > STRONG and candidate.p_value < SIGNIFICANT_P
 
 
-def _completes(base: Base, best: _Trial, test: FitTest, progress: Progress) -> bool:
+def _completes(base: Base, best: _Trial, test: FitTest, names: Sequence[str], progress: Progress) -> bool:
     """Whether a second effect beside the best one leaves only noise: two faults of one size each explain half."""
     progress("looking for a second effect beside it")
     wider = replace(base, model=best.candidate.model)
-    again = screen(base.records, wider.model, absent_effects(wider.model), base.noise, 1.0)
+    left = [name for name in absent_effects(wider.model) if name in names]
+    again = screen(base.records, wider.model, left, base.noise, 1.0)
     ranked = sorted(
         (again.best_elements(name) for name in again.effects()), key=lambda each: -each.bic_drop(again.readings)
     )
@@ -202,9 +214,9 @@ def _completes(base: Base, best: _Trial, test: FitTest, progress: Progress) -> b
     second = fitted_base(base.records, best.candidate.model, base.noise)
     candidate, result = try_effect(second, ranked[0].effect, ranked[0].elements)
     adjusted = _adjusted(base.model) + len(best.candidate.values) + len(candidate.values)
-    left = test.of(result.residual_mm, adjusted)
+    after = test.of(result.residual_mm, adjusted)
     together = (base.squared - float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2) / base.excess
-    return _is_evident(candidate) and (not left.is_significant or together > COMPLETE)
+    return _is_evident(candidate) and (not after.is_significant or together > COMPLETE)
 
 
 def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:

@@ -104,8 +104,9 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
     """Distance of two models' readings in sigmas; `information` is what the records tell of the first's values."""
     first, second = models
     try:
-        one = _core.predict(first.engine(), samples_of([record], first), want_jacobian=True)
-        other = _core.predict(second.engine(), samples_of([record], second))
+        samples, alike = samples_of([record], first), samples_of([record], second)
+        one = _core.predict(first.engine(samples), samples, want_jacobian=True)
+        other = _core.predict(second.engine(alike), alike)
     except ValueError:
         return 0.0
     if one.first_failure >= 0 or other.first_failure >= 0:
@@ -120,11 +121,9 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
 
 
 def _information(base: Base, model: Model) -> Floats:
-    equations = _core.normal_equations(
-        model.engine(),
-        samples_of(base.records, model),
-        np.concatenate([record.reading_mm for record in base.records]),
-    )
+    samples = samples_of(base.records, model)
+    measured_mm = np.concatenate([record.reading_mm for record in base.records])
+    equations = _core.normal_equations(model.engine(samples), samples, measured_mm)
     information: Floats = equations.information / base.noise.sigma_mm**2
     return information
 

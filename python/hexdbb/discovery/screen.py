@@ -110,7 +110,8 @@ def screen(
     """
     full, tried = _with_candidates(model, candidates)
     measured = np.concatenate([record.reading_mm for record in records])
-    equations = _core.normal_equations(full.engine(), samples_of(records, full), measured)
+    samples = samples_of(records, full)
+    equations = _core.normal_equations(full.engine(samples), samples, measured)
     weight = 1.0 / (noise.sigma_mm**2 * correlation)
     information, gradient = equations.information * weight, equations.gradient * weight
     parameters = full.parameters()

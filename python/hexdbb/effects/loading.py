@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import importlib.util
-import traceback
 from pathlib import Path
 
+from hexdbb.effects.traces import line_of
 from hexdbb.effects.user import UserEffect
 from hexdbb.errors import InputError
 
@@ -47,8 +47,3 @@ def _line_in(path: Path, error: Exception) -> int:
     if isinstance(error, SyntaxError):
         return error.lineno or 0
     return line_of(str(path), error)
-
-
-def line_of(path: str, error: Exception) -> int:
-    """Last line of a file that an exception passed through; 0 where it did not."""
-    return next((f.lineno or 0 for f in reversed(traceback.extract_tb(error.__traceback__)) if f.filename == path), 0)

@@ -8,15 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.effects.loading import line_of
-from hexdbb.effects.sample_state import SampleState
-from hexdbb.effects.user import SHAPES, UserEffect
+from hexdbb.effects.sample_state import SampleState, sample_state
+from hexdbb.effects.shapes import SHAPES
+from hexdbb.effects.traces import line_of
 from hexdbb.errors import InputError
+from hexdbb.machine import MachineFile
+
+if TYPE_CHECKING:
+    from hexdbb.effects.user import UserEffect
 
 Floats = NDArray[np.float64]
 
@@ -41,6 +46,19 @@ class Tabulated:
         engine.add_tabulated(self.effect.info(), values=values, ports=ports, per_unit=self.per_unit)
 
 
+def add_own(effect: UserEffect, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
+    """Append a user's effect, values zero, to a model that is to predict samples, or a part of them.
+
+    In a part of a record an effect may well be the same everywhere: that is asked of whole records only (`tabulate`).
+
+    Raises
+    ------
+    UserEffectError
+        Its function raises, or gives a wrong shape or a value that is not finite.
+    """
+    _tabulated(effect, sample_state(samples, machine), must_vary=False).add_to(engine)
+
+
 def tabulate(effects: Sequence[UserEffect], state: SampleState) -> tuple[list[Tabulated], list[UserEffectError]]:
     """Evaluate users' effects; one that fails does not hold up the others.
 
@@ -53,14 +71,17 @@ def tabulate(effects: Sequence[UserEffect], state: SampleState) -> tuple[list[Ta
     tabulated, failed = [], []
     for each in effects:
         try:
-            tabulated.append(_tabulated(each, state))
+            tabulated.append(_tabulated(each, state, must_vary=True))
         except UserEffectError as error:
             failed.append(error)
     return tabulated, failed
 
 
-def _tabulated(effect: UserEffect, state: SampleState) -> Tabulated:
+def _tabulated(effect: UserEffect, state: SampleState, *, must_vary: bool) -> Tabulated:
     columns = [_columns(effect, name, basis, len(state)) for name, basis in _bases(effect, state)]
+    if must_vary:
+        for name, table in zip(effect.parameters, columns, strict=True):
+            _require_variation(f"{effect.where}: {name}", table)
     first_port = _core.PORTS[effect.port][0]
     values, ports, tables = [], [], []
     for parameter, table in enumerate(columns):
@@ -108,11 +129,14 @@ def _columns(effect: UserEffect, parameter: str, basis: object, count: int) -> F
         raise UserEffectError(
             f"{of}: {table[row][~np.isfinite(table[row])][0]} in sample {row + 1} (expected a number)"
         )
+    return table
+
+
+def _require_variation(of: str, table: Floats) -> None:
     if not table.any():
         raise UserEffectError(f"{of}: zero in every sample (expected a push that depends on the state)")
-    if count > 1 and (table == table[0]).all():
+    if len(table) > 1 and (table == table[0]).all():
         raise UserEffectError(f"{of}: the same in every sample (expected a push that depends on the state)")
-    return table
 
 
 def _kind(value: object) -> str:

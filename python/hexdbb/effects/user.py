@@ -14,20 +14,13 @@ from typing import Any
 
 from hexdbb import _core
 from hexdbb.effects.sample_state import SampleState
+from hexdbb.effects.shapes import SHAPES
+from hexdbb.effects.tabulate import add_own
 from hexdbb.errors import InputError
+from hexdbb.machine import MachineFile
 
 Basis = Callable[[SampleState], Any]
 
-SHAPES: dict[str, tuple[int, ...]] = {
-    "slider": (6,),
-    "leg": (6,),
-    "slider_joint": (6, 3),
-    "platform_joint": (6, 3),
-    "ball": (3,),
-    "cup": (3,),
-    "reading": (),
-}
-"""Shape of one sample's push, by port."""
 KINDS = {1: "machine", 3: "guideway", 6: "slider"}
 """What an element is, by their number."""
 LIMIT_OF_SIGMA = 100.0
@@ -70,6 +63,16 @@ class UserEffect:
             ],
             ports=[self.port],
         )
+
+    def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
+        """Append it, values zero, to a model that is to predict these samples, or a part of them.
+
+        Raises
+        ------
+        UserEffectError
+            Its function raises, or gives a wrong shape or a value that is not finite.
+        """
+        add_own(self, engine, samples, machine)
 
 
 def effect(

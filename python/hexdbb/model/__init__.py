@@ -3,6 +3,7 @@
 from hexdbb.model.file import load_model, save_model
 from hexdbb.model.ledger import LedgerStep, Size, State
 from hexdbb.model.model import Model, default_effects, effect_info, new_model
+from hexdbb.model.own import OwnEffect, OwnEffects
 from hexdbb.model.selection import parse_selection, split_choice
 from hexdbb.model.terms import MountKey, Parameter, Term, new_term
 
@@ -10,6 +11,8 @@ __all__ = [
     "LedgerStep",
     "Model",
     "MountKey",
+    "OwnEffect",
+    "OwnEffects",
     "Parameter",
     "Size",
     "State",

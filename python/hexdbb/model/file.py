@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shutil
+from collections.abc import Iterable
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -16,14 +17,15 @@ from hexdbb.model.earlier import Describe, earlier_entry, earlier_state
 from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
 from hexdbb.model.ledger import LedgerStep, Size
 from hexdbb.model.model import Model, effect_info
+from hexdbb.model.own import OwnEffect, OwnEffects
 from hexdbb.model.shown import shown_value
 from hexdbb.model.terms import MountKey, Parameter, Term
 from hexdbb.units import shown_factor, shown_unit
 from hexdbb.validation import dump_toml, load_toml
 
 
-def load_model(path: Path | str) -> Model:
-    """Read a model file.
+def load_model(path: Path | str, effects: Iterable[OwnEffect] = ()) -> Model:
+    """Read a model file; `effects` are those of the user's own that may stand in it.
 
     Raises
     ------
@@ -32,12 +34,12 @@ def load_model(path: Path | str) -> Model:
     """
     file = load_toml(path, ModelFile)
     mounts = tuple(MountKey(entry.record_sha256, entry.id) for entry in file.mounts)
-    model = Model(file.machine, (), mounts, circles=file.circles)
+    model = Model(file.machine, (), mounts, circles=file.circles).knowing_effects(effects)
     terms = tuple(_term(model, entry, f"{path}: effect[{index}]") for index, entry in enumerate(file.effects))
     names = [term.effect for term in terms]
     if len(set(names)) != len(names):
         raise InputError(f"{path}: effect: {', '.join(names)} (expected each effect once)")
-    return replace(model, terms=terms, ledger=_ledger(file, mounts, str(path)), path=Path(path))
+    return replace(model, terms=terms, ledger=_ledger(file, mounts, model.own_effects, str(path)), path=Path(path))
 
 
 def save_model(model: Model, path: Path | str) -> None:
@@ -50,7 +52,7 @@ def save_model(model: Model, path: Path | str) -> None:
     """
     place = Path(path)
     parameters = iter(model.parameters())
-    describe = _describe(model.machine)
+    describe = _describe(model.machine, model.own_effects)
     file = ModelFile(
         machine=model.machine,
         circles=model.circles,
@@ -67,12 +69,12 @@ def save_model(model: Model, path: Path | str) -> None:
             shutil.copy2(place, place.with_suffix(".previous" + place.suffix))
 
 
-def _describe(machine: MachineFile) -> Describe:
-    return lambda mounts, circles, effect: effect_info(machine, max(mounts, 1), effect, max(circles, 1))
+def _describe(machine: MachineFile, own: OwnEffects) -> Describe:
+    return lambda mounts, circles, effect: effect_info(machine, max(mounts, 1), effect, max(circles, 1), own)
 
 
-def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], path: str) -> tuple[LedgerStep, ...]:
-    describe = _describe(file.machine)
+def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], own: OwnEffects, path: str) -> tuple[LedgerStep, ...]:
+    describe = _describe(file.machine, own)
     states = {
         entry.before_step: earlier_state(entry, mounts, file.circles, describe, f"{path}: earlier[{index}]")
         for index, entry in enumerate(file.earlier)
@@ -112,7 +114,7 @@ def _term(model: Model, entry: EffectEntry, where: str) -> Term:
     try:
         info = model.info(entry.name)
     except InputError as error:
-        raise InputError(f"{where}.name: {error}") from None
+        raise InputError(f"{where}.name: {error}; an effect of your own: --effects FILE.py declares it") from None
     expected = [(element, each.name, each.unit) for element in info.elements for each in info.parameters]
     if len(entry.parameters) != len(expected):
         raise InputError(f"{where}.parameter: {len(entry.parameters)} entries (expected {len(expected)})")

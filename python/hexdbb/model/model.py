@@ -7,7 +7,7 @@ stands beside.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine
 from hexdbb.machine import MachineFile
 from hexdbb.model.ledger import LedgerStep, State
+from hexdbb.model.own import OwnEffect, OwnEffects
 from hexdbb.model.terms import Floats, MountKey, Parameter, Term, new_term
 
 
@@ -34,6 +35,8 @@ class Model:
     """The file it was read from."""
     circles: tuple[int, ...] = ()
     """Circles whose set-up of the ball it knows, by id: the elements of `ball_eccentricity`."""
+    own_effects: OwnEffects = field(default_factory=dict, compare=False, repr=False)
+    """Effects of the user's own that may stand in it, by name; the file does not keep what they do."""
 
     @property
     def name(self) -> str:
@@ -42,7 +45,7 @@ class Model:
 
     def info(self, effect: str) -> _core.EffectInfo:
         """Describe one effect as it stands in this model."""
-        return effect_info(self.machine, max(len(self.mounts), 1), effect, max(len(self.circles), 1))
+        return effect_info(self.machine, max(len(self.mounts), 1), effect, max(len(self.circles), 1), self.own_effects)
 
     def parameters(self) -> list[Parameter]:
         """Name every value, in the order of `values`."""
@@ -99,23 +102,48 @@ class Model:
         """Give the same model with a place for every value that its mounts and circles make."""
         return replace(self, terms=tuple(_extended(term, self.info(term.effect).size) for term in self.terms))
 
-    def engine(self) -> _core.Model:
-        """Give the engine's form of the model."""
+    def knowing_effects(self, effects: Iterable[OwnEffect]) -> Model:
+        """Give the same model, in which effects of the user's own may stand too."""
+        return replace(self, own_effects={**self.own_effects, **{each.name: each for each in effects}})
+
+    def engine(self, samples: _core.Samples | None = None) -> _core.Model:
+        """Give the engine's form of the model.
+
+        Parameters
+        ----------
+        samples : Samples, optional
+            What it is to predict; a model with an effect of the user's own predicts these and parts of them only.
+
+        Raises
+        ------
+        InputError
+            An effect of the user's own without samples, or one that fails, with its file and line.
+        """
         engine = _core.Model(engine_machine(self.machine))
         for term in self.terms:
-            engine.add(term.effect, max(len(self.mounts), 1), max(len(self.circles), 1))
+            own = self.own_effects.get(term.effect)
+            if own is None:
+                engine.add(term.effect, max(len(self.mounts), 1), max(len(self.circles), 1))
+            elif samples is None:
+                raise InputError(f"{term.effect}: an effect of your own is known in measured samples only, not here")
+            else:
+                own.add_to(engine, samples, self.machine)
         engine.values = self.values
         return engine
 
 
-def effect_info(machine: MachineFile, mounts: int, effect: str, circles: int = 1) -> _core.EffectInfo:
-    """Describe an effect.
+def effect_info(
+    machine: MachineFile, mounts: int, effect: str, circles: int = 1, own: OwnEffects | None = None
+) -> _core.EffectInfo:
+    """Describe an effect; `own` are the user's.
 
     Raises
     ------
     InputError
         Where no effect has that name, with the names there are.
     """
+    if own and effect in own:
+        return own[effect].info()
     try:
         return _core.effect_info(engine_machine(machine), mounts, effect, circles)
     except ValueError as error:

@@ -1,0 +1,107 @@
+"""Effect after effect until nothing is missing: look, add what is found, ask again of what was added before.
+
+Effects come in the order of their evidence, the largest first. An early choice may have stood in for what a later one
+explains better; after every addition each earlier one is therefore taken out on trial, and for good where BIC prefers
+the model without it. An effect that the readings cannot tell from another is never added.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from hexdbb.diagnosis import Diagnosis, Noise, evaluate_fit
+from hexdbb.discovery.discover import Progress, discover, judging_noise
+from hexdbb.discovery.result import Discovery
+from hexdbb.ledger import add_effect, held_at_zero, remove_effect
+from hexdbb.model import Model
+from hexdbb.prediction import knowing
+from hexdbb.record import Record
+
+MOST_STEPS = 20
+"""Effects added and removed at most, lest two take turns."""
+
+
+@dataclass(frozen=True)
+class AutoStep:
+    """One thing done to the model; `diagnosis.model` is the model after it."""
+
+    what: Literal["add", "remove"]
+    choice: str
+    diagnosis: Diagnosis
+
+
+def discover_all(
+    records: Sequence[Record],
+    model: Model,
+    candidates: Sequence[str] | None = None,
+    progress: Progress = lambda _: None,
+) -> Iterator[AutoStep | Discovery]:
+    """Add missing effects one after another.
+
+    Parameters
+    ----------
+    records : sequence of Record
+    model : Model
+    candidates : sequence of str, optional
+        As for `discover`.
+    progress : callable
+        Is told what is being done.
+
+    Yields
+    ------
+    AutoStep or Discovery
+        Every step as soon as it is done; last of all the look after which nothing was added: nothing is missing, it is
+        not known what, or several effects explain it alike.
+
+    Raises
+    ------
+    InputError, RunError
+        What `discover` and `hexdbb.ledger.add_effect` raise.
+    """
+    added: list[str] = []
+    steps = 0
+    while True:
+        found = discover(records, model, candidates, progress)
+        if found.verdict != "effect" or found.best is None or steps >= MOST_STEPS:
+            yield found
+            return
+        progress(f"adding {found.best.choice}")
+        model, diagnosis = add_effect(records, model, found.best.choice)
+        steps += 1
+        yield AutoStep("add", found.best.choice, diagnosis)
+        for choice in added.copy():
+            progress(f"asking whether {choice} is still needed")
+            if is_needed(records, model, choice):
+                continue
+            model, diagnosis = remove_effect(records, model, choice)
+            added.remove(choice)
+            steps += 1
+            yield AutoStep("remove", choice, diagnosis)
+        added.append(found.best.choice)
+
+
+def is_needed(records: Sequence[Record], model: Model, choice: str) -> bool:
+    """Whether a model explains records better, by BIC, with an effect (or some elements of it) than without.
+
+    Raises
+    ------
+    InputError
+        An effect or element that the model does not have.
+    """
+    known, noise = knowing(model, records), judging_noise(records)
+    without = held_at_zero(known, choice)
+    values = int(known.free.sum()) - int(without.free.sum())
+    more, correlation, readings = _squared(records, without, noise)
+    less, correlation, readings = _squared(records, known, noise)
+    return (more - less) / correlation > values * float(np.log(readings / correlation))
+
+
+def _squared(records: Sequence[Record], model: Model, noise: Noise) -> tuple[float, float, int]:
+    """Squared residuals over the noise's variance, how many neighbours tell as much as one, and number of readings."""
+    result = evaluate_fit(records, model, model.free, noise, curvature=False)[1]
+    squared = float(result.residual_mm @ result.residual_mm) / noise.sigma_mm**2
+    return squared, result.correlation, len(result.residual_mm)
