@@ -141,8 +141,14 @@ def expected_uncertainties(sensitivity: Sensitivity, noise_mm: float) -> list[Ex
     ]
 
 
-def minimal_set(sensitivity: Sensitivity) -> tuple[list[Parameter], list[Parameter]]:
+def minimal_set(sensitivity: Sensitivity, relative: float = RELATIVE_RANK) -> tuple[list[Parameter], list[Parameter]]:
     """Choose as many of the machine's free values as the readings can tell, so that the rest can be held at zero.
+
+    Parameters
+    ----------
+    sensitivity : Sensitivity
+    relative : float
+        Pivots below this part of the first count as rounding, or as told by so little that it does not matter.
 
     Returns
     -------
@@ -150,7 +156,7 @@ def minimal_set(sensitivity: Sensitivity) -> tuple[list[Parameter], list[Paramet
         As many kept as the rank, in the order of the model.
     """
     parameters = sensitivity.where(sensitivity.free & ~sensitivity.is_set_up)
-    kept = set(pivots(_machine_part(sensitivity)))
+    kept = set(pivots(_machine_part(sensitivity), relative))
     return (
         [each for place, each in enumerate(parameters) if place in kept],
         [each for place, each in enumerate(parameters) if place not in kept],

@@ -162,14 +162,17 @@ TEST_F(Catalogue, ThermalGrowthTakesTemperatureWhereThereIsOneElseTime) {
   const Eigen::Index measured = samples.size() - 5;
   for (const Eigen::Index row : {kRow, measured}) {
     const bool is_measured = row == measured;
-    const double grown = is_measured ? state().temperature_c[row] - 20.0 : state().time_s[row];
+    const auto grown = [&](double log_time) {
+      const double tau = 1800.0 * std::exp(log_time);
+      return is_measured ? state().temperature_c[row] - 20.0 : tau * (1.0 - std::exp(-state().time_s[row] / tau));
+    };
     ASSERT_EQ(std::isfinite(state().temperature_c[row]), is_measured);
     Ports legs, screws;
-    legs.leg().setConstant((is_measured ? 2e-3 : 3e-6) * grown);
+    legs.leg().setConstant((is_measured ? 2e-3 : 3e-6) * grown(-0.5));
     for (int k = 0; k < kLegs; ++k) {
-      screws.slider()[k] = values[2 * k + (is_measured ? 0 : 1)] * grown * (slider(k, row) - 433.0);
+      screws.slider()[k] = values[3 * k + (is_measured ? 0 : 1)] * grown(values[3 * k + 2]) * (slider(k, row) - 433.0);
     }
-    expect_same(pushed("leg_thermal", Eigen::Vector2d(2e-3, 3e-6), row), legs);
+    expect_same(pushed("leg_thermal", Eigen::Vector3d(2e-3, 3e-6, -0.5), row), legs);
     expect_same(pushed("screw_thermal", values, row), screws);
   }
 }

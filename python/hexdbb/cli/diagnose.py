@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -14,9 +15,16 @@ from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.errors import InputError
+from hexdbb.identifiability import minimal_set
 from hexdbb.model import Model, load_model, new_model, parse_selection, save_model
+from hexdbb.place_uncertainty import place_uncertainty
+from hexdbb.prediction import knowing
 from hexdbb.record import Record, read_record
+from hexdbb.sensitivity import record_sensitivity
 from hexdbb.units import shown_factor, shown_unit
+
+TOLD = 1e-4
+"""A record's path leaves its circles by what the servos lag: what only that tells is not worth a value."""
 
 
 @click.command()
@@ -31,10 +39,17 @@ from hexdbb.units import shown_factor, shown_unit
 )
 @click.option("--free", "free", help="Effects to fit, as leg_length,slider_offset:2; the machine's others are held.")
 @click.option("--fix", "fix", help="Effects or elements to hold, as guideway_translation:3,bar_length.")
+@click.option("--minimal", is_flag=True, help="Fit as many errors as the readings tell (pivoted QR), hold the rest.")
 @click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
 def command(
-    records: tuple[Path, ...], model_path: Path, free: str | None, fix: str | None, robust: bool, as_json: bool
+    records: tuple[Path, ...],
+    model_path: Path,
+    free: str | None,
+    fix: str | None,
+    minimal: bool,
+    robust: bool,
+    as_json: bool,
 ) -> None:
     """Fit the free effects of a model to RECORD... (.parquet or .csv) and write the values into the model file.
 
@@ -42,6 +57,7 @@ def command(
     Examples:
       hexdbb diagnose demo.parquet -m demo-model.toml
       hexdbb diagnose monday.parquet tuesday.csv -m model.toml --json
+      hexdbb diagnose monday.parquet -m model.toml --minimal
       hexdbb diagnose monday.parquet -m model.toml --free leg_length,slider_offset --fix leg_length:6 --robust
     """
     refuse_existing(model_path, overwrite=True)
@@ -49,14 +65,26 @@ def command(
     with messages.status("reading records"):
         read = [read_record(path) for path in records]
     model = load_model(model_path) if model_path.exists() else _model_of(read[0], model_path, messages)
+    usual = knowing(model, read).free
     model = choose_free(model, free, fix)
+    if minimal:
+        model = hold_redundant(read, model)
     with messages.status(f"fitting {int(model.free.sum())} values to {sum(map(_rows, read)):,} readings"):
         found = diagnose(read, model, robust=robust)
-    save_model(found.model, model_path)
+        circle = read[0].circles[0]
+        places = place_uncertainty(found, circle, read[0].mount(circle.mount).cup_mm)
+    save_model(found.model.with_free(usual), model_path)
     if as_json:
-        click.echo(json.dumps(found.to_json(), indent=2))
+        place = {"place_sigma_um": {"median": places.median_um, "worst": places.worst_um}}
+        click.echo(json.dumps({**found.to_json(), **place}, indent=2))
     else:
-        print_diagnosis(found, output_console())
+        console = output_console()
+        print_diagnosis(found, console)
+        console.print(
+            f"the ball's place over the workspace is known to {places.median_um:.2f} um (median),"
+            f" {places.worst_um:.2f} um (worst) at one sigma, a rigid shift of the base aside",
+            soft_wrap=True,
+        )
     messages.print(f"{model_path}: values written")
 
 
@@ -80,6 +108,17 @@ def choose_free(model: Model, free: str | None, fix: str | None) -> Model:
             raise InputError(f'--free "{free}" and --fix "{fix}" leave nothing to fit (expected one value at least)')
         chosen = chosen & ~held
     return model.with_free(chosen)
+
+
+def hold_redundant(records: Sequence[Record], model: Model) -> Model:
+    """Hold at zero what the readings cannot tell from the rest, so that the fitted values are known on their own."""
+    known = knowing(model, records)
+    _, held = minimal_set(record_sensitivity(records, known), TOLD)
+    names = {each.label for each in held}
+    redundant = np.array([each.label in names for each in known.parameters()])
+    values = np.where(redundant, 0.0, known.values)
+    told = np.concatenate([term.identifiable for term in known.terms]) & ~redundant
+    return known.with_values(values, np.where(redundant, np.nan, known.sigma), told).with_free(known.free & ~redundant)
 
 
 def print_diagnosis(found: Diagnosis, console: Console) -> None:

@@ -23,6 +23,8 @@ from hexdbb.redundancy import sentences
 
 Floats = NDArray[np.float64]
 
+NOWHERE = 1e-9
+"""An effect whose values keep their expected sizes to this part acts on no reading."""
 GLITCH_SIGMAS = 3.0
 """With a robust loss, residuals beyond this many standard deviations of the noise count linearly."""
 
@@ -157,9 +159,14 @@ def refitter(noise: Noise, robust: bool = False) -> Refit:
 
 
 def _require_told(model: Model, result: _core.FitResult, records: Sequence[Record]) -> None:
-    spread = np.sqrt(np.diag(result.covariance))[result.free_columns]
-    if (spread > 0.99 * prior_sigmas(model)[result.free_columns]).all():
-        names = ", ".join(record.name for record in records)
+    spread, sizes = np.sqrt(np.diag(result.covariance)), prior_sigmas(model)
+    names = ", ".join(record.name for record in records)
+    parameters = model.parameters()
+    for effect in dict.fromkeys(parameters[column].effect for column in result.free_columns):
+        own = [column for column in result.free_columns if parameters[column].effect == effect]
+        if (spread[own] > (1.0 - NOWHERE) * sizes[own]).all():
+            raise InputError(f"{names}: {effect} acts nowhere in these readings (expected to hold it: --fix {effect})")
+    if (spread > 0.99 * sizes)[result.free_columns].all():
         raise InputError(f"{names}: rank 0: the readings say nothing about any free value (expected one at least)")
 
 
