@@ -183,7 +183,7 @@ def _sliders_mm(run: CircleRun, angle_rad: NDArray[np.floating], model: Model, o
 def _jacobian(model: Model, samples: _core.Samples, origin: str) -> Floats:
     size = len(model.values)
     nominal = model.with_values(np.zeros(size), np.full(size, np.nan), np.zeros(size, bool))
-    predicted = _core.predict(nominal.engine(), samples, True)
+    predicted = _core.predict(nominal.engine(samples), samples, True)
     row = predicted.first_failure
     if row >= 0:
         reason = status_name(int(predicted.status[row]))
