@@ -1,6 +1,6 @@
-// Time of one call of the compensator along a circle at 3000 mm/min, 1 kHz: median and tail over single calls, each timed
-// with the processor's counter; cost of reading the counter taken off. The tail is the machine's as much as ours: a busy
-// system interrupts.
+// Time of one call of the compensator along a circle at 3000 mm/min, 1 kHz: median and tail over single calls, each
+// timed with the processor's counter; cost of reading the counter taken off. The tail is the machine's as much as ours:
+// a busy system interrupts.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -110,8 +110,8 @@ std::vector<std::string> geometry_and(const std::vector<std::string>& more) {
 }
 
 const std::vector<std::string> kUsual = {"backlash", "pitch_cyclic", "gravity_sag"};
-const std::vector<std::string> kAll = {"backlash",    "pitch_cyclic", "gravity_sag",   "lead_error",  "straightness",
-                                       "joint_offset", "servo_lag",    "leg_thermal",   "screw_thermal"};
+const std::vector<std::string> kAll = {"backlash",     "pitch_cyclic", "gravity_sag", "lead_error",   "straightness",
+                                       "joint_offset", "servo_lag",    "leg_thermal", "screw_thermal"};
 
 BENCHMARK_CAPTURE(sliders, geometry, geometry_and({}))->UseManualTime();
 BENCHMARK_CAPTURE(sliders, backlash, geometry_and({"backlash"}))->UseManualTime();

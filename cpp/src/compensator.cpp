@@ -12,25 +12,15 @@ namespace {
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 // Slider coordinates answer to a push on their leg by at most this factor, wherever a machine is any use.
 constexpr double kLever = 2.5;
-// An effect whose push changes by less than this per mm of slider travel need not be asked again within a call, in
-// which a place changes by um.
-constexpr double kGentle = 5e-4;
 // Curvature of what is pushed, as 2 pi / the shortest period, per mm.
 constexpr double kCurvature_mm = 6.3;
 // What four iterations must reach at least.
 constexpr double kGoodEnough_mm = 1e-5;
 
-/// One row with every column of the state a controller can fill; what it cannot stays empty.
 Samples one_row() {
   Samples out;
   out.sliders_mm.setZero(1, int{kLegs});
-  out.state.time_s.setZero(1);  // the time at which nothing has drifted yet
-  out.state.temperature_c.setConstant(1, kNowhere);
-  out.state.warming_k.setConstant(1, kNowhere);
-  out.state.velocity_mm_s.setZero(1, int{kLegs});
-  out.state.side.setZero(1, int{kLegs});
-  out.state.since_reversal_mm.setConstant(1, int{kLegs}, kLongAgo);  // any play is crossed
-  out.state.leg_force.setZero(1, int{kLegs});
+  out.state = state_of({InstantState()});
   return out;
 }
 
@@ -69,13 +59,9 @@ void Compensator::prepare() {
   const std::vector<Term> all = std::move(model_.terms);
   model_.terms.clear();
   for (const Term& term : all) {
-    const EffectInfo& info = term.effect->info();
-    const double steepness_here = steepness(term, machine());
-    contraction_ += kLever * steepness_here;
-    if (info.needs.empty() && polynomials_.fold(term)) continue;
+    contraction_ += kLever * steepness(term, machine());
     needs_leg_force_ = needs_leg_force_ || needs(*term.effect, "leg_force");
-    const bool is_gentle = steepness_here <= kGentle;
-    (is_gentle ? settled_ : model_.terms).push_back(term);
+    if (needs(*term.effect, "temperature_c") || !polynomials_.fold(term)) model_.terms.push_back(term);
   }
   reset();
 }
@@ -113,17 +99,21 @@ bool Compensator::follow(const Vector6& nominal_mm, const Vector6& velocity_mm_s
   return true;
 }
 
-void Compensator::set_state(const Direction& direction, const Vector6& side) noexcept {
+void Compensator::set_state(const Direction& direction, const Vector6& side, const Vector6& leg_force) noexcept {
+  const double warming_k = direction.temperature_c - reference_temperature_c_;
+  polynomials_.settle({direction.velocity_mm_s, side, leg_force, std::isfinite(warming_k) ? warming_k : 0.0});
+  if (model_.terms.empty()) return;
   State& state = now_.state;
   state.velocity_mm_s.row(0) = direction.velocity_mm_s.transpose();
   state.side.row(0) = side.transpose();
+  state.leg_force.row(0) = leg_force.transpose();
   state.temperature_c[0] = direction.temperature_c;
-  state.warming_k[0] = direction.temperature_c - reference_temperature_c_;
+  state.warming_k[0] = warming_k;
 }
 
 /// Static equilibrium of the nominal machine: forces in the legs that carry a newton at the reference point, tension
 /// positive.
-void Compensator::set_leg_force(const Pose& pose, const Vector6& nominal_mm) noexcept {
+Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept {
   const NominalGeometry& nominal = model_.nominal;
   rssr::Joints<double> joints;
   rssr::TriangleFrame<double> frame;
@@ -140,31 +130,18 @@ void Compensator::set_leg_force(const Pose& pose, const Vector6& nominal_mm) noe
   const rssr::LegForces<double> carried =
       rssr::leg_forces(joints, frame, platform, vec(Vector3::Zero()), vec(Vector3::UnitZ()));
   const bool is_held = carried.determinant * carried.determinant > 1e-18 * carried.scale;
-  for (int k = 0; k < kLegs; ++k) {
-    now_.state.leg_force(0, k) = is_held ? -carried.share[k] * nominal.machine.leg_length_mm : 0.0;
-  }
-}
-
-void Compensator::add_pushes(const std::vector<Term>& terms, Ports& push) noexcept {
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>> row(
-      push.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
-  for (const Term& term : terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
-}
-
-/// What hardly depends on the sliders' places, or not at all, once the state is set.
-void Compensator::settle(const Vector6& sliders_mm) noexcept {
-  if (settled_.empty()) return;
-  now_.sliders_mm.row(0) = sliders_mm.transpose();
-  settled_push_.value.setZero();
-  add_pushes(settled_, settled_push_);
+  Vector6 out;
+  for (int k = 0; k < kLegs; ++k) out[k] = is_held ? -carried.share[k] * nominal.machine.leg_length_mm : 0.0;
+  return out;
 }
 
 const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
   polynomials_.evaluate(sliders_mm, push_);
-  if (!settled_.empty()) push_.value += settled_push_.value;
   if (!model_.terms.empty()) {
     now_.sliders_mm.row(0) = sliders_mm.transpose();
-    add_pushes(model_.terms, push_);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>> row(
+        push_.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
+    for (const Term& term : model_.terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
   }
   if (part_ != 1.0) push_.value *= part_;
   return push_;
@@ -219,9 +196,7 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   out.slider = nominal.leg;
   if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
   const bool is_followed = follow(nominal.sliders_mm, direction.velocity_mm_s);
-  set_state(direction, side_);
-  if (needs_leg_force_) set_leg_force(pose, nominal.sliders_mm);
-  settle(nominal.sliders_mm + last_correction_mm_);
+  set_state(direction, side_, needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero());
   if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
@@ -244,13 +219,13 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
   for (int k = 0; k < kLegs; ++k) {
     if (direction.velocity_mm_s[k] != 0.0) side[k] = std::copysign(1.0, direction.velocity_mm_s[k]);
   }
-  set_state(direction, side);
+  Vector6 force = Vector6::Zero();
   if (needs_leg_force_) {
     const Mechanism nominal = assemble(model_.nominal, sliders_mm, Ports());
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
-    if (standing.status == Status::kOk) set_leg_force(standing.pose, sliders_mm);
+    if (standing.status == Status::kOk) force = leg_force(standing.pose, sliders_mm);
   }
-  settle(sliders_mm);
+  set_state(direction, side, force);
   const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(sliders_mm));
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);

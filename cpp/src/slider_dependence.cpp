@@ -7,19 +7,12 @@ namespace hexdbb {
 
 namespace {
 
-constexpr Eigen::Index kTrials = 24;
+constexpr int kTrials = 24;
 
-/// Something in every column, alike in all rows.
-State generic_state(Eigen::Index rows) {
-  State out;
-  out.time_s.setZero(rows);
-  out.temperature_c.setConstant(rows, 30.0);
-  out.warming_k.setConstant(rows, 10.0);
-  out.velocity_mm_s.setConstant(rows, int{kLegs}, 30.0);
-  out.side.setConstant(rows, int{kLegs}, 0.7);
-  out.since_reversal_mm.setConstant(rows, int{kLegs}, kLongAgo);
-  out.leg_force.setConstant(rows, int{kLegs}, -0.3);
-  return out;
+/// Numbers in -1 .. 1 that no period divides: multiples of the golden ratio, another phase a column.
+double spread(int row, int column) {
+  const double turns = 0.6180339887498949 * (row + 1) + 0.7548776662466927 * (column + 1);
+  return 2.0 * (turns - std::floor(turns)) - 1.0;
 }
 
 /// Sum of magnitudes over the ports of leg k.
@@ -31,23 +24,54 @@ double on_leg(const Eigen::Matrix<double, 1, port::kCount>& push, int k) {
 
 }  // namespace
 
-// Places that no period divides: multiples of the golden ratio, another phase a slider.
 SliderTable trial_places(const Machine& machine) {
-  SliderTable out(kTrials, int{kLegs});
-  for (Eigen::Index row = 0; row < kTrials; ++row) {
-    for (int k = 0; k < kLegs; ++k) {
-      const double turns = 0.6180339887498949 * double(row + 1) + 0.7548776662466927 * (k + 1);
-      const double part = turns - std::floor(turns);
-      out(row, k) = machine.travel_min_mm + part * (machine.travel_max_mm - machine.travel_min_mm);
-    }
+  const double middle_mm = 0.5 * (machine.travel_min_mm + machine.travel_max_mm);
+  const double half_mm = 0.5 * (machine.travel_max_mm - machine.travel_min_mm);
+  SliderTable out(int{kTrials}, int{kLegs});
+  for (int row = 0; row < kTrials; ++row) {
+    for (int k = 0; k < kLegs; ++k) out(row, k) = middle_mm + half_mm * spread(row, k);
   }
   return out;
 }
 
-Pushes ask(const Term& term, const SliderTable& sliders_mm) {
+std::vector<InstantState> trial_instants() {
+  std::vector<InstantState> out(kTrials);
+  for (int row = 0; row < kTrials; ++row) {
+    InstantState& instant = out[static_cast<std::size_t>(row)];
+    for (int k = 0; k < kLegs; ++k) {
+      instant.velocity_mm_s[k] = 30.0 * spread(row, 6 + k);
+      instant.side[k] = spread(row, 12 + k);
+      instant.leg_force[k] = spread(row, 18 + k);
+    }
+    instant.warming_k = row % 2 == 0 ? 0.0 : 10.0 * spread(row, 24);
+  }
+  return out;
+}
+
+State state_of(const std::vector<InstantState>& instants) {
+  const auto rows = static_cast<Eigen::Index>(instants.size());
+  State out;
+  out.time_s.setZero(rows);
+  out.temperature_c.setConstant(rows, std::numeric_limits<double>::quiet_NaN());
+  out.warming_k.setZero(rows);
+  out.since_reversal_mm.setConstant(rows, int{kLegs}, kLongAgo);
+  out.velocity_mm_s.resize(rows, int{kLegs});
+  out.side.resize(rows, int{kLegs});
+  out.leg_force.resize(rows, int{kLegs});
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const InstantState& instant = instants[static_cast<std::size_t>(row)];
+    out.velocity_mm_s.row(row) = instant.velocity_mm_s.transpose();
+    out.side.row(row) = instant.side.transpose();
+    out.leg_force.row(row) = instant.leg_force.transpose();
+    out.warming_k[row] = instant.warming_k;
+  }
+  return out;
+}
+
+Pushes ask(const Term& term, const SliderTable& sliders_mm, const State& state) {
   Samples samples;
   samples.sliders_mm = sliders_mm;
-  samples.state = generic_state(sliders_mm.rows());
+  samples.state = state;
   Pushes out = Pushes::Zero(sliders_mm.rows(), int{port::kCount});
   term.effect->push(SampleBlock{samples, 0, samples.size()}, term.values, out);
   return out;
@@ -55,8 +79,9 @@ Pushes ask(const Term& term, const SliderTable& sliders_mm) {
 
 double steepness(const Term& term, const Machine& machine) {
   constexpr double kStep_mm = 0.01;
-  const SliderTable places = trial_places(machine);
-  const Pushes change = ask(term, (places.array() + kStep_mm).matrix()) - ask(term, places);
+  const SliderTable places = trial_places(machine), beside = (places.array() + kStep_mm).matrix();
+  const State state = state_of(trial_instants());
+  const Pushes change = ask(term, beside, state) - ask(term, places, state);
   double out = 0.0;
   for (Eigen::Index row = 0; row < change.rows(); ++row) {
     for (int k = 0; k < kLegs; ++k) out = std::max(out, on_leg(change.row(row), k) / kStep_mm);

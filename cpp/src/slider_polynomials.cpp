@@ -11,7 +11,7 @@ using PortVector = Eigen::Matrix<double, SliderPolynomials::kPorts, 1>;
 
 constexpr double kSame_mm = 1e-11;
 
-/// The slider to which a port belongs, for the whole row of ports.
+/// The slider's number to every port that belongs to it.
 PortVector of_ports(const Vector6& of_sliders) {
   PortVector out;
   for (int k = 0; k < kLegs; ++k) {
@@ -23,43 +23,96 @@ PortVector of_ports(const Vector6& of_sliders) {
   return out;
 }
 
+/// A state with one factor at one and the others at zero.
+State unit_state(int factor, Eigen::Index rows) {
+  InstantState instant;
+  if (factor == 1) instant.velocity_mm_s.setOnes();
+  if (factor == 2) instant.side.setOnes();
+  if (factor == 3) instant.leg_force.setOnes();
+  if (factor == 4) instant.warming_k = 1.0;
+  return state_of(std::vector<InstantState>(static_cast<std::size_t>(rows), instant));
+}
+
 }  // namespace
 
 SliderPolynomials::SliderPolynomials(const Machine& machine)
     : machine_(machine),
       middle_mm_(0.5 * (machine.travel_min_mm + machine.travel_max_mm)),
       half_mm_(0.5 * (machine.travel_max_mm - machine.travel_min_mm)) {
-  coefficient_.setZero();
+  for (Coefficients& each : of_factor_) each.setZero();
+  settled_.setZero();
+}
+
+SliderPolynomials::Coefficients SliderPolynomials::asked(const Term& term, int factor) const {
+  SliderTable places(3, int{kLegs});
+  for (int row = 0; row < 3; ++row) places.row(row).setConstant(middle_mm_ + (row - 1) * half_mm_);
+  const Pushes known = ask(term, places, unit_state(factor, 3));
+  Coefficients out;
+  out.col(0) = known.row(1).head<kPorts>();
+  out.col(1) = 0.5 * (known.row(2) - known.row(0)).head<kPorts>();
+  out.col(2) = 0.5 * (known.row(2) + known.row(0)).head<kPorts>() - known.row(1).head<kPorts>();
+  return out;
 }
 
 bool SliderPolynomials::fold(const Term& term) {
-  SliderTable three(3, int{kLegs});
-  for (int row = 0; row < 3; ++row) three.row(row).setConstant(middle_mm_ + (row - 1) * half_mm_);
-  const Pushes known = ask(term, three);
-  Eigen::Matrix<double, kPorts, 3> found;
-  found.col(0) = known.row(1).head<kPorts>();
-  found.col(1) = 0.5 * (known.row(2) - known.row(0)).head<kPorts>();
-  found.col(2) = 0.5 * (known.row(2) + known.row(0)).head<kPorts>() - known.row(1).head<kPorts>();
-
-  const SliderTable trials = trial_places(machine_);
-  const Pushes asked = ask(term, trials);
-  SliderPolynomials alone = *this;
-  alone.coefficient_ = found;
-  for (Eigen::Index row = 0; row < trials.rows(); ++row) {
-    Ports expected;
-    alone.evaluate(trials.row(row).transpose(), expected);
-    if (!((asked.row(row).transpose() - expected.value).cwiseAbs().maxCoeff() <= kSame_mm)) return false;
+  SliderPolynomials alone(machine_);
+  for (int factor = 0; factor < kFactors; ++factor) {
+    Coefficients& found = alone.of_factor_[factor];
+    found = asked(term, factor);
+    if (factor > 0) found -= alone.of_factor_[0];
+    for (int power = 0; power < 3; ++power) alone.is_used_[factor][power] = !found.col(power).isZero(0.0);
   }
-  coefficient_ += found;
+  alone.varies_ = {true, true, true};
+  const SliderTable places = trial_places(machine_);
+  const std::vector<InstantState> instants = trial_instants();
+  const Pushes pushed = ask(term, places, state_of(instants));
+  for (std::size_t row = 0; row < instants.size(); ++row) {
+    Ports expected;
+    alone.settle(instants[row]);
+    alone.evaluate(places.row(static_cast<Eigen::Index>(row)).transpose(), expected);
+    const auto given = pushed.row(static_cast<Eigen::Index>(row)).transpose();
+    if (!((given - expected.value).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kSame_mm)) return false;
+  }
+  for (int factor = 0; factor < kFactors; ++factor) {
+    of_factor_[factor] += alone.of_factor_[factor];
+    for (int power = 0; power < 3; ++power) {
+      is_used_[factor][power] |= alone.is_used_[factor][power];
+      varies_[power] |= factor > 0 && alone.is_used_[factor][power];
+    }
+  }
+  settled_ = of_factor_[0];
   return true;
+}
+
+// Plain loops: they become vector instructions of whichever processor the function is compiled for.
+HEXDBB_MULTIVERSION
+void SliderPolynomials::settle(const InstantState& state) noexcept {
+  const Vector6 warming = Vector6::Constant(state.warming_k);
+  const Vector6* const factors[] = {nullptr, &state.velocity_mm_s, &state.side, &state.leg_force, &warming};
+  for (int power = 0; power < 3; ++power) {
+    if (varies_[power]) settled_.col(power) = of_factor_[0].col(power);
+  }
+  for (int factor = 1; factor < kFactors; ++factor) {
+    const auto& used = is_used_[factor];
+    if (!used[0] && !used[1] && !used[2]) continue;
+    const PortVector times = of_ports(*factors[factor]);
+    const double* x = times.data();
+    for (int power = 0; power < 3; ++power) {
+      if (!used[power]) continue;
+      const double* c = of_factor_[factor].col(power).data();
+      double* out = settled_.col(power).data();
+      for (int p = 0; p < kPorts; ++p) out[p] += x[p] * c[p];
+    }
+  }
 }
 
 HEXDBB_MULTIVERSION
 void SliderPolynomials::evaluate(const Vector6& sliders_mm, Ports& push) const noexcept {
-  const PortVector u = of_ports((sliders_mm.array() - middle_mm_) / half_mm_);
-  push.value.head<kPorts>() =
-      coefficient_.col(0).array() + u.array() * (coefficient_.col(1).array() + u.array() * coefficient_.col(2).array());
-  push.value.tail<port::kCount - kPorts>().setZero();
+  const PortVector place = of_ports((sliders_mm.array() - middle_mm_) * (1.0 / half_mm_));
+  const double *u = place.data(), *c = settled_.data();
+  double* out = push.value.data();
+  for (int p = 0; p < kPorts; ++p) out[p] = c[p] + u[p] * (c[kPorts + p] + u[p] * c[2 * kPorts + p]);
+  for (int p = kPorts; p < port::kCount; ++p) out[p] = 0.0;
 }
 
 }  // namespace hexdbb

@@ -82,15 +82,12 @@ class Compensator {
  private:
   void prepare();
   bool follow(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept;
-  void set_state(const Direction& direction, const Vector6& side) noexcept;
-  void set_leg_force(const Pose& pose, const Vector6& nominal_mm) noexcept;
-  void settle(const Vector6& sliders_mm) noexcept;
-  void add_pushes(const std::vector<Term>& terms, Ports& push) noexcept;
+  void set_state(const Direction& direction, const Vector6& side, const Vector6& leg_force) noexcept;
+  Vector6 leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept;
   const Ports& push_at(const Vector6& sliders_mm) noexcept;
   bool solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept;
 
   Model model_;                    // effects to be asked in every iteration
-  std::vector<Term> settled_;      // in every call: they do not depend on where the sliders are
   SliderPolynomials polynomials_;  // all others, folded
   CompensationLimits limits_;
   double reference_temperature_c_ = std::numeric_limits<double>::quiet_NaN();
@@ -100,7 +97,7 @@ class Compensator {
   PlatformTriangle nominal_triangle_;
 
   Samples now_;  // one row: what the effects are asked about
-  Ports settled_push_, push_;
+  Ports push_;
   Vector6 side_ = Vector6::Zero();    // -1 .. 1
   Vector6 followed_mm_, visited_mm_;  // nominal places; NaN where there is none
   Vector6 last_targets_mm_ = Vector6::Zero(), last_correction_mm_ = Vector6::Zero();
