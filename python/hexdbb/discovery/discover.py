@@ -19,7 +19,7 @@ from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.own_effects import failing_effects
 from hexdbb.discovery.result import Candidate, Discovery, Verdict
-from hexdbb.discovery.screen import Screened, screen
+from hexdbb.discovery.screen import Screen, Screened, screen
 from hexdbb.discovery.trial import Base, fitted_base, holm, try_effect
 from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.errors import InputError
@@ -27,10 +27,13 @@ from hexdbb.model import Model
 from hexdbb.prediction import knowing
 from hexdbb.record import Record
 
+SHAPES = (-2.0, 2.0)
+"""Shaping values are screened at these expected sizes besides zero."""
 MOST_TRIED = 6
 """So many effects get a fit of their own."""
 SUBSTANTIAL = 0.5
 """Share of the unexplained that an effect must explain, where structure stays beside it."""
+FEW_VALUES = 3
 PER_VALUE = 0.03
 MOST_ASKED = 0.95
 SUBSTANTIAL_LEFT_OUT = 0.3
@@ -100,16 +103,24 @@ def discover(
     failed = failing_effects(records, base.model, asked)
     names = [name for name in asked if name not in failed]
     screened = screen(records, base.model, names, noise, 1.0)
-    ranked = sorted(
-        (screened.best_elements(name) for name in screened.effects()),
-        key=lambda each: -each.bic_drop(screened.readings),
-    )
+    ranked = _ranked(base, screened, names)
     trials = _try(base, [each for each in ranked if each.gain > 0.0][:MOST_TRIED], test, adjusted, progress)
     tried = sum(1 + len(screened.elements(name)) for name in screened.effects())
     trials = _sorted_trials(trials, tried)
     found = _judge(base, test, lack, trials, names, progress)
     found = replace(found, remarks=(*found.remarks, *(f"left out: {error}" for error in failed.values())))
     return _with_unsteadiness(found, base, unsteady) if unsteady is not None else found
+
+
+def _ranked(base: Base, screened: Screen, names: Sequence[str]) -> list[Screened]:
+    """Rank candidates by the evidence they offer, those with a shape of their own (a time constant) at several."""
+    best = {name: screened.best_elements(name) for name in screened.effects()}
+    shaping = [name for name in names if any(each.is_shape for each in base.model.info(name).parameters)]
+    for shape in SHAPES if shaping else ():
+        again = screen(base.records, base.model, shaping, base.noise, 1.0, shape)
+        for name in again.effects():
+            best[name] = max(best[name], again.best_elements(name), key=lambda each: each.bic_drop(again.readings))
+    return sorted(best.values(), key=lambda each: -each.bic_drop(screened.readings))
 
 
 def _noise(records: Sequence[Record]) -> tuple[Noise, str | None]:
@@ -151,7 +162,7 @@ def _try(base: Base, chosen: Sequence[Screened], test: FitTest, adjusted: int, p
     trials = []
     for each in chosen:
         progress(f"trying {each.effect}")
-        candidate, result = try_effect(base, each.effect, each.elements)
+        candidate, result = try_effect(base, each.effect, each.elements, each.shape)
         lack = test.of(result.residual_mm, adjusted + len(candidate.values))
         trials.append(_Trial(candidate, result, lack))
     return trials
@@ -193,7 +204,7 @@ def _judge(
 
 def _substantial(candidate: Candidate) -> float:
     """Share an effect must explain where structure stays: the more values it brings, the more it could anyway."""
-    return min(SUBSTANTIAL + PER_VALUE * len(candidate.values), MOST_ASKED)
+    return min(SUBSTANTIAL + PER_VALUE * max(len(candidate.values) - FEW_VALUES, 0), MOST_ASKED)
 
 
 def _is_evident(candidate: Candidate) -> bool:

@@ -21,6 +21,7 @@ from hexdbb import _core
 from hexdbb.circle import Circle
 from hexdbb.discovery.result import Candidate, NextTest
 from hexdbb.discovery.trial import Base
+from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import Model
 from hexdbb.prediction import samples_of
@@ -107,7 +108,7 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
         samples, alike = samples_of([record], first), samples_of([record], second)
         one = _core.predict(first.engine(samples), samples, want_jacobian=True)
         other = _core.predict(second.engine(alike), alike)
-    except ValueError:
+    except (ValueError, InputError):  # a state that an effect needs, or a user's effect that fails there
         return 0.0
     if one.first_failure >= 0 or other.first_failure >= 0:
         return 0.0

@@ -39,6 +39,8 @@ class Screened:
     elements: tuple[str, ...]
     gain: float
     parameters: int
+    shape: float = 0.0
+    """Where the values that shape the others stand, in expected sizes."""
 
     def bic_drop(self, readings: float) -> float:
         """Fall of the Bayesian information criterion (Schwarz 1978)."""
@@ -56,6 +58,7 @@ class Screen:
     parameters: tuple[Parameter, ...]
     readings: float
     """Number of independent readings."""
+    shape: float = 0.0
 
     def effects(self) -> list[str]:
         """Names of the candidates."""
@@ -73,7 +76,9 @@ class Screen:
         values, vectors = np.linalg.eigh(self.projected[np.ix_(chosen, chosen)])
         visible = values > INVISIBLE * max(float(self.scale[chosen].max()), 1e-300)
         along = (vectors.T @ self.gradient[chosen])[visible]
-        return Screened(effect, tuple(elements), float(np.sum(along**2 / values[visible])), int(visible.sum()))
+        return Screened(
+            effect, tuple(elements), float(np.sum(along**2 / values[visible])), int(visible.sum()), self.shape
+        )
 
     def best_elements(self, effect: str) -> Screened:
         """Gather an effect's elements, best first, while each pays for itself."""
@@ -93,7 +98,12 @@ class Screen:
 
 
 def screen(
-    records: Sequence[Record], model: Model, candidates: Sequence[str], noise: Noise, correlation: float
+    records: Sequence[Record],
+    model: Model,
+    candidates: Sequence[str],
+    noise: Noise,
+    correlation: float,
+    shape: float = 0.0,
 ) -> Screen:
     """Project every candidate onto what a fitted model cannot explain.
 
@@ -107,8 +117,10 @@ def screen(
     noise : Noise
     correlation : float
         So many neighbouring readings tell as much as one.
+    shape : float
+        Where the candidates' shaping values (a time constant) stand, in expected sizes: first order cannot move them.
     """
-    full, tried = _with_candidates(model, candidates)
+    full, tried = _with_candidates(model, candidates, shape)
     measured = np.concatenate([record.reading_mm for record in records])
     samples = samples_of(records, full)
     equations = _core.normal_equations(full.engine(samples), samples, measured)
@@ -126,17 +138,30 @@ def screen(
         scale=np.diag(information)[tried],
         parameters=tuple(parameters[column] for column in tried),
         readings=len(measured) / correlation,
+        shape=shape,
     )
 
 
-def _with_candidates(model: Model, candidates: Sequence[str]) -> tuple[Model, NDArray[np.intp]]:
+def shaped(model: Model, chosen: NDArray[np.bool_], shape: float) -> Model:
+    """Give the model with the shaping values among the chosen at `shape` expected sizes."""
+    values = model.values.copy()
+    known = np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)])
+    for index, (each, is_chosen) in enumerate(zip(model.parameters(), chosen, strict=True)):
+        if is_chosen and each.is_shape:
+            values[index] = shape * each.prior_sigma
+    return model.with_values(values, model.sigma, known)
+
+
+def _with_candidates(model: Model, candidates: Sequence[str], shape: float) -> tuple[Model, NDArray[np.intp]]:
     """Give the model with all candidates held at zero, and the places of the values to try."""
     present = {term.effect for term in model.terms}
     terms = [new_term(name, model.info(name).size, free=False) for name in candidates if name not in present]
     full = replace(model, terms=(*model.terms, *terms))
-    tried = [
-        index
-        for index, (parameter, free, value) in enumerate(zip(full.parameters(), full.free, full.values, strict=True))
-        if parameter.effect in candidates and not free and value == 0.0
-    ]
-    return full, np.array(tried, dtype=np.intp)
+    tried = np.array(
+        [
+            parameter.effect in candidates and not free and value == 0.0
+            for parameter, free, value in zip(full.parameters(), full.free, full.values, strict=True)
+        ]
+    )
+    acting = tried & np.array([not parameter.is_shape for parameter in full.parameters()])
+    return shaped(full, tried, shape), np.flatnonzero(acting)

@@ -16,6 +16,7 @@ from scipy import stats
 from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.discovery.result import Candidate, FittedParameter
+from hexdbb.discovery.screen import shaped
 from hexdbb.model import Model, new_term
 from hexdbb.record import Record
 from hexdbb.units import shown_factor, shown_unit
@@ -58,27 +59,32 @@ def fitted_base(records: Sequence[Record], model: Model, noise: Noise) -> Base:
     return Base(tuple(records), fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
 
 
-def with_effect(model: Model, effect: str, elements: Sequence[str]) -> Model:
-    """Give the model with an effect's elements free as well, at zero; its other elements are held."""
+def with_effect(model: Model, effect: str, elements: Sequence[str], shape: float = 0.0) -> Model:
+    """Give the model with an effect's elements free as well, at zero; its other elements are held.
+
+    Values that only shape the others start at `shape` expected sizes.
+    """
     present = {term.effect for term in model.terms}
     if effect not in present:
         model = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
     freed = np.array([each.effect == effect and each.element in elements for each in model.parameters()])
-    return model.with_free(model.free | freed)
+    return shaped(model, freed & ~model.free, shape).with_free(model.free | freed)
 
 
-def try_effect(base: Base, effect: str, elements: Sequence[str]) -> tuple[Candidate, _core.FitResult]:
+def try_effect(
+    base: Base, effect: str, elements: Sequence[str], shape: float = 0.0
+) -> tuple[Candidate, _core.FitResult]:
     """Fit the base's model with an effect; the p-value is not corrected for other candidates yet.
 
     Elements that to first order seemed to pay but hardly contribute once the effect has its true size are left out, and
     the rest is fitted again.
     """
-    wider = with_effect(base.model, effect, elements)
+    wider = with_effect(base.model, effect, elements, shape)
     fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, curvature=False)
     kept = _contributing(base, fitted, result, effect, elements)
     if kept != tuple(elements):
         elements = kept
-        wider = with_effect(base.model, effect, elements)
+        wider = with_effect(base.model, effect, elements, shape)
         fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, curvature=False)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
     count = int((wider.free & ~with_effect(base.model, effect, ()).free).sum())

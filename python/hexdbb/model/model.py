@@ -188,7 +188,7 @@ def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Mod
 
 def _parameters(info: _core.EffectInfo) -> list[Parameter]:
     return [
-        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up)
+        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)
         for element in info.elements
         for each in info.parameters
     ]

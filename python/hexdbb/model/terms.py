@@ -30,6 +30,8 @@ class Parameter:
     prior_sigma: float
     limit: float
     is_set_up: bool
+    is_shape: bool = False
+    """Pushes nothing by itself: it shapes what the effect's other values push."""
 
     @property
     def label(self) -> str:
