@@ -20,7 +20,8 @@ from hexdbb.record import Record
 
 Floats = NDArray[np.float64]
 
-BINS = 36
+BINS, FINE_BINS = 36, 180
+"""Fine ones for slider positions, where a fault may sit at one place of a few millimetres."""
 STRETCH = 4
 """So many neighbouring samples go to the same half."""
 LEAST_SHARE = 0.02
@@ -39,6 +40,7 @@ class _Variable:
     group: NDArray[np.intp] | None = None
     """Bins are kept apart by this number (circle, direction)."""
     may_repeat: bool = False
+    is_fine: bool = False
 
 
 def unexplained_structure(records: Sequence[Record], residual_mm: Floats, noise: Noise) -> tuple[Structure, ...]:
@@ -86,8 +88,8 @@ def _variables(records: Sequence[Record]) -> Iterator[_Variable]:
     yield _Variable("time", column("t_s"), "s", None, True)
     for k in range(1, 7):
         place = column(f"s{k}_mm")
-        yield _Variable(f"slider {k} position", place, "mm", None, True)
-        yield _Variable(f"slider {k} position by direction of motion", place, "mm", _moving(records, k))
+        yield _Variable(f"slider {k} position", place, "mm", None, may_repeat=True, is_fine=True)
+        yield _Variable(f"slider {k} position by direction of motion", place, "mm", _moving(records, k), is_fine=True)
     if all("temperature_c" in record.columns for record in records):
         yield _Variable("temperature", column("temperature_c"), "degC")
 
@@ -105,13 +107,14 @@ def _moving(records: Sequence[Record], k: int) -> NDArray[np.intp]:
 
 def _bins(variable: _Variable) -> NDArray[np.intp]:
     distinct = np.unique(variable.values)
-    if len(distinct) <= BINS:
+    count = FINE_BINS if variable.is_fine else BINS
+    if len(distinct) <= count:
         own = np.searchsorted(distinct, variable.values)
     else:
-        edges = np.quantile(variable.values, np.linspace(0.0, 1.0, BINS + 1)[1:-1])
+        edges = np.quantile(variable.values, np.linspace(0.0, 1.0, count + 1)[1:-1])
         own = np.searchsorted(edges, variable.values)
     if variable.group is not None:
-        own = own + (BINS + 1) * variable.group
+        own = own + (count + 1) * variable.group
     return own.astype(np.intp)
 
 

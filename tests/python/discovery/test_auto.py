@@ -1,0 +1,48 @@
+"""Several missing effects, one after another; an earlier choice that has become needless is taken out again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tests.truth.cases import case
+
+from hexdbb.discovery import AutoStep, Discovery, discover_all, is_needed
+from hexdbb.ledger import add_effect
+from hexdbb.model import new_model
+from hexdbb.record import Record
+
+PAIR = "lead_error+pitch_cyclic-x3-s5"
+ASKED = ["backlash", "lead_error", "pitch_cyclic", "servo_lag", "gravity_sag"]
+"""Of the catalogue, for the sake of time."""
+
+
+def test_a_pair_is_found_one_after_the_other(measured: Callable[[str], Record]) -> None:
+    record = measured(PAIR)
+    *steps, last = discover_all([record], new_model(record.machine), ASKED)
+    assert all(isinstance(each, AutoStep) and each.what == "add" for each in steps)
+    effects = {each.choice.partition(":")[0] for each in steps if isinstance(each, AutoStep)}
+    assert effects == {hidden.kind for hidden in case(PAIR).hidden}
+    assert isinstance(last, Discovery) and last.verdict == "none"
+    assert last.rms_before_um < 0.7
+    falls = [each.diagnosis.model.ledger[-1] for each in steps if isinstance(each, AutoStep)]
+    assert falls[0].rms_before_um > falls[1].rms_before_um > falls[1].rms_after_um
+
+
+def test_a_machine_that_lacks_nothing_gets_nothing(measured: Callable[[str], Record]) -> None:
+    record = measured("none-s2")
+    (last,) = discover_all([record], new_model(record.machine))
+    assert isinstance(last, Discovery) and last.verdict == "none"
+
+
+def test_what_nobody_knows_is_not_added(measured: Callable[[str], Record]) -> None:
+    record = measured("mains_pickup-x10-s1")
+    (last,) = discover_all([record], new_model(record.machine), ["backlash", "pitch_cyclic", "servo_lag"])
+    assert isinstance(last, Discovery) and last.verdict == "unknown"
+
+
+def test_what_is_needless_is_seen_and_what_is_needed(measured: Callable[[str], Record]) -> None:
+    record = measured("backlash-x3-s1")
+    model, _ = add_effect([record], new_model(record.machine), "reversal_spike:2")
+    model, _ = add_effect([record], model, "backlash:4")
+    assert not is_needed([record], model, "reversal_spike:2")
+    assert is_needed([record], model, "backlash:4")

@@ -1,0 +1,67 @@
+"""Whether a residual is noise: white ones pass as often as they should, smooth ones and loud ones do not."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from hexdbb.diagnosis import Noise
+from hexdbb.discovery import FitTest
+from hexdbb.record import Record
+
+NOISE = Noise(0.5e-3, "stated")
+
+
+@pytest.fixture(scope="module")
+def test_of_fit(measured: Callable[[str], Record]) -> tuple[FitTest, Record]:
+    record = measured("none-s3")
+    return FitTest([record], NOISE), record
+
+
+def white(record: Record, seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).normal(0.0, NOISE.sigma_mm, len(record))
+
+
+def test_white_residuals_are_noise_as_often_as_stated(test_of_fit: tuple[FitTest, Record]) -> None:
+    test, record = test_of_fit
+    found = [test.of(white(record, seed), 0) for seed in range(200)]
+    assert sum(each.is_significant for each in found) <= 2  # 0.2 are expected
+    below = np.mean([each.shape_p < 0.1 for each in found])
+    assert 0.04 < below < 0.17  # 0.1 with a standard error of 0.021
+    assert all(abs(each.level) < 3.0 for each in found)
+
+
+def test_a_smooth_residual_well_below_the_noise_is_seen(test_of_fit: tuple[FitTest, Record]) -> None:
+    test, record = test_of_fit
+    smooth = 0.25 * NOISE.sigma_mm * np.cos(2.0 * np.radians(record.columns["angle_deg"]))
+    found = test.of(white(record, 1) + smooth, 0)
+    assert found.shape_p < 1e-6
+    assert found.level < 4.0  # the level alone would have let it pass
+    assert found.is_significant
+
+
+def test_a_fast_residual_shows_in_the_level_alone(test_of_fit: tuple[FitTest, Record]) -> None:
+    test, record = test_of_fit
+    fast = NOISE.sigma_mm * np.where(np.arange(len(record)) % 2, 1.0, -1.0)
+    found = test.of(white(record, 2) + fast, 0)
+    assert found.level > 4.0 and found.shape_p > 1e-3
+    assert found.is_significant
+    assert found.unexplained_um == pytest.approx(0.5, rel=0.1)
+
+
+def test_what_a_fit_has_adjusted_counts(test_of_fit: tuple[FitTest, Record]) -> None:
+    test, record = test_of_fit
+    found = [test.of(white(record, 3), fitted) for fitted in (0, 40)]
+    assert found[1].rms_um > found[0].rms_um
+    assert found[1].shape_p < found[0].shape_p
+
+
+def test_a_gauge_noisier_than_stated_deceives_the_level_and_not_the_shape(
+    test_of_fit: tuple[FitTest, Record],
+) -> None:
+    test, record = test_of_fit
+    found = test.of(2.0 * white(record, 4), 0)
+    assert found.level > 4.0
+    assert found.shape_p > 1e-3

@@ -1,0 +1,64 @@
+"""What is hidden is named with its element, a clean machine is left alone, what nobody knows is called unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from tests.truth.cases import case
+
+from hexdbb.discovery import discover
+from hexdbb.errors import InputError
+from hexdbb.model import new_model
+from hexdbb.record import Record
+
+
+@pytest.mark.parametrize("name", ["backlash-x3-s1", "pitch_cyclic-x3-s3", "gravity_sag-x3-s2"])
+def test_the_hidden_effect_is_found(measured: Callable[[str], Record], name: str) -> None:
+    (hidden,) = case(name).hidden
+    record = measured(name)
+    found = discover([record], new_model(record.machine))
+    assert found.verdict == "effect"
+    assert found.best is not None
+    assert found.best.effect == hidden.kind
+    assert found.best.elements == (str(hidden.element or 1),)
+    assert found.rms_before_um > 1.0 > 0.7 > found.rms_after_um
+    assert found.heldout_before_um is not None and found.heldout_after_um is not None
+    assert found.heldout_after_um < 1.2 * record.gauge.noise_um < found.heldout_before_um
+
+
+@pytest.mark.parametrize("name", ["none-s1", "none-s2", "none-s3"])
+def test_a_clean_machine_lacks_nothing(measured: Callable[[str], Record], name: str) -> None:
+    record = measured(name)
+    found = discover([record], new_model(record.machine))
+    assert found.verdict == "none"
+    assert (found.best, found.next_test, found.structure, found.remarks) == (None, None, (), ())
+
+
+@pytest.mark.parametrize(
+    ("name", "carrier"),
+    [("dent-x3-s1", "angle on each circle"), ("mains_pickup-x10-s1", "time, repeating")],
+    ids=["dent", "mains"],
+)
+def test_a_fault_outside_the_catalogue_is_unknown(measured: Callable[[str], Record], name: str, carrier: str) -> None:
+    record = measured(name)
+    found = discover([record], new_model(record.machine))
+    assert found.verdict == "unknown"
+    assert found.best is None
+    assert carrier in [each.variable for each in found.structure[:2]]
+    shares = [each.share for each in found.structure]
+    assert all(0.0 < share <= 1.0 for share in shares) and shares == sorted(shares, reverse=True)
+
+
+def test_too_few_to_judge_is_said(measured: Callable[[str], Record]) -> None:
+    record = measured("none-s3")
+    model = new_model(record.machine)
+    one_sweep = np.isin(np.arange(len(record)), max(record.sweeps(), key=len))
+    repeated = record.part(one_sweep)
+    with pytest.raises(InputError, match=r"100 readings are too few to judge \(expected 200 at least\)"):
+        discover([record.part(np.arange(len(record)) < 100)], model)
+    with pytest.raises(InputError, match=r"1 sweep is too few to judge \(expected 2 at least"):
+        discover([repeated], model)
+    with pytest.raises(InputError, match=r"no record to judge by \(expected at least one\)"):
+        discover([], model)
