@@ -84,7 +84,7 @@ sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSan
 # --- use ------------------------------------------------------------------------------------------------------------
 
 .PHONY: demo
-demo: setup  ## a circular test on the simulated rig, diagnosed and compared
+demo: setup  ## circular tests on the simulated rig: diagnosed, compared, a hidden fault found and added
 	@PATH="$(CURDIR)/$(BIN):$$PATH" .ci/scripts/demo.sh
 
 .PHONY: bench

@@ -1,27 +1,69 @@
 #!/usr/bin/env bash
-# The main job of hexdbb, from an empty folder: measure on the simulated rig, diagnose, compare.
+# The main jobs of hexdbb, from an empty folder, on the simulated rig: the thesis' circle measured, diagnosed, compared;
+# then a machine with a fault that is hidden from the model: seen, named, added, gone. Ends at the first step that fails.
 # Expects the commands of the virtual environment on the PATH (`make demo` sees to it).
 set -euo pipefail
 
 rm -rf demo
 mkdir demo
 
+say() {
+  printf '\n== %s\n' "$*"
+}
+
 run() {
   printf '\n$ %s\n' "$*"
   "$@"
 }
 
+# A machine with random errors of geometry, written by a rig that is ended again, and one fault that no model knows yet.
+hidden_machine() {
+  local pid
+  printf '\n$ hexdbb rig --seed 11 --write-truth demo/hidden.toml\n'
+  coproc RIG { exec hexdbb rig --seed 11 --write-truth demo/hidden.toml --exit-with-parent; }
+  pid=$RIG_PID
+  read -r _ <&"${RIG[0]}" # the one line that says the rig is ready, and the file written
+  kill "$pid"
+  wait "$pid"
+  printf '$ cat >> demo/hidden.toml\n'
+  tee -a demo/hidden.toml <<'TOML'
+
+[[mechanism]]
+kind = "backlash"
+slider = 4
+width_um = 15.0
+TOML
+}
+
+say "One level circle: measure, diagnose, compare"
 run hexdbb-run --plan thesis -o demo/demo.parquet
 run hexdbb diagnose demo/demo.parquet -m demo/demo-model.toml
 run hexdbb compare demo/demo.parquet -m demo/demo-model.toml
 
-echo
-echo "Results are in demo/:"
+say "A machine with a hidden fault: slider 4 has 15 um of play between drive and slider"
+hidden_machine
+run hexdbb-run --plan standard --rate 20 --truth demo/hidden.toml -o demo/today.parquet
+
+say "Geometry alone does not explain the readings"
+run hexdbb diagnose demo/today.parquet -m demo/model.toml
+run hexdbb compare demo/today.parquet -m demo/model.toml --plot demo/before
+
+say "What is missing?"
+run hexdbb discover demo/today.parquet -m demo/model.toml
+run hexdbb add backlash:4 -m demo/model.toml demo/today.parquet
+
+say "Is anything missing still?"
+run hexdbb discover demo/today.parquet -m demo/model.toml
+run hexdbb compare demo/today.parquet -m demo/model.toml --plot demo/after
+run hexdbb history -m demo/model.toml
+
+printf '\nResults are in demo/:\n'
 ls -1 demo | sed 's/^/  /'
 cat <<'TEXT'
 By hand, into files of your own:
   . .venv/bin/activate
-  hexdbb-run --plan thesis -o my.parquet
+  hexdbb-run --plan standard --rate 20 --truth demo/hidden.toml -o my.parquet
   hexdbb diagnose my.parquet -m my-model.toml
   hexdbb compare my.parquet -m my-model.toml
+  hexdbb discover my.parquet -m my-model.toml
 TEXT

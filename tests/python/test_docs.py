@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from hexdbb.cli import cli
+from hexdbb.effects import load_effects
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "firmware_interfaces" / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -46,3 +47,10 @@ def test_architecture_names_every_part_of_the_package() -> None:
     modules = {path.stem for path in package.glob("*.py") if path.stem != "__init__"}
     packages = {path.parent.name for path in package.glob("*/__init__.py")}
     assert (modules | packages) - named == set()
+
+
+def test_discovery_page_shows_a_whole_file_of_effects(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "discovery.md").read_text(encoding="utf-8")
+    (shown,) = re.findall(r"^```python\n(.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
+    (tmp_path / "mine.py").write_text(shown, encoding="utf-8")
+    assert [each.name for each in load_effects(tmp_path / "mine.py")] == ["dent"]

@@ -1,4 +1,4 @@
-"""Examples run as they stand, and the README shows the first of them and what it prints."""
+"""Examples run as they stand, and the README shows two of them and what the first prints."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tests.truth.cases import case
 
 from hexdbb.model import load_model
 from hexdbb.record import read_record, write_record
@@ -36,12 +37,14 @@ def test_every_example_is_run_here() -> None:
     assert {path.name for path in EXAMPLES.iterdir() if path.suffix == ".py"} == {
         "01_circular_test.py",
         "02_own_record.py",
+        "03_discover.py",
     }
 
 
-def test_readme_shows_the_first_example_word_for_word() -> None:
-    (shown,) = re.findall(r"^```python\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL)
-    assert shown == (EXAMPLES / "01_circular_test.py").read_text(encoding="utf-8")
+def test_readme_shows_examples_word_for_word() -> None:
+    shown = re.findall(r"^```python\n(.*?)^```$", README, flags=re.MULTILINE | re.DOTALL)
+    named = ("01_circular_test.py", "03_discover.py")
+    assert shown == [(EXAMPLES / name).read_text(encoding="utf-8") for name in named]
 
 
 def test_circular_test_prints_what_the_readme_says(measured: tuple[Path, str]) -> None:
@@ -59,3 +62,11 @@ def test_own_record_in_text_form(measured: tuple[Path, str], tmp_path: Path) -> 
     assert printed[0].startswith("own.csv: 25002 samples")
     assert re.fullmatch(r"reading error 159\.\d\d um -> 0\.5\d um", printed[1])
     assert len(printed) > 2, "one level circle cannot tell everything: sentences must say so"
+
+
+def test_discover_names_a_hidden_fault_adds_it_and_finds_nothing_more(tmp_path: Path) -> None:
+    write_record(case("backlash-x3-s1").record(), tmp_path / "hidden.parquet")
+    missing, nothing, *steps = run(tmp_path, "03_discover.py", "hidden.parquet").splitlines()
+    assert re.fullmatch(r"an effect is missing, and it is known which: backlash:[1-6]", missing)
+    assert nothing == "nothing is missing: what is left is noise"
+    assert [step.split(":")[0] for step in steps] == ["step 1", "step 2"]
