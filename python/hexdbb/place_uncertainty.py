@@ -92,7 +92,10 @@ def _grid(circle: Circle, cup_mm: tuple[float, float, float]) -> tuple[Floats, F
 def _rates(model: Model, sliders: Floats, ball: Floats) -> tuple[Floats, NDArray[np.intp]]:
     """Derivatives of the ball's place, rows x, y, z of pose after pose, and the model's values they belong to."""
     infos = [model.info(term.effect) for term in model.terms]
-    of_place = [not info.needs and not set(info.ports) <= NOT_OF_PLACE for info in infos]
+    # An effect of the user's own is known in measured samples only: it counts as one that needs a state.
+    of_place = [
+        not info.needs and info.name not in model.own_effects and not set(info.ports) <= NOT_OF_PLACE for info in infos
+    ]
     terms = [term for term, counts in zip(model.terms, of_place, strict=True) if counts]
     engine = replace(model, terms=tuple(terms)).engine()
     counts = np.concatenate(

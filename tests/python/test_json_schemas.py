@@ -76,7 +76,6 @@ def test_what_is_printed_is_what_the_schemas_say(printed: Callable[[str], Any]) 
     for command, line in (
         ("diagnose", f"diagnose run.parquet {model} --json"),
         ("compare", f"compare run.parquet {model} --json --no-plot"),
-        ("discover", f"discover run.parquet {model} --json"),
         ("add", f"add bar_length run.parquet {model} --json"),
         ("history", f"history {model} --json"),
         ("undo", f"undo {model} --json"),

@@ -43,6 +43,7 @@ ALLOWED: dict[str, set[str]] = {
     "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
     "diagnosis": {"errors", "frames", "units", "record", "model", "prediction", "redundancy", "_core"},
     "ledger": {"errors", "frames", "units", "record", "model", "prediction", "diagnosis", "_core"},
+    "place_uncertainty": {"circle", "kinematics", "model", "diagnosis", "_core"},
     "discovery": {
         "errors",
         "units",

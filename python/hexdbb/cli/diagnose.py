@@ -13,6 +13,7 @@ from rich.table import Table
 
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
+from hexdbb.cli.effects_option import effects_option, own_effects
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.errors import InputError
 from hexdbb.identifiability import minimal_set
@@ -37,6 +38,7 @@ TOLD = 1e-4
     type=click.Path(path_type=Path),
     help="Model file; made from the record's machine and the thesis' geometric errors where there is none yet.",
 )
+@effects_option
 @click.option("--free", "free", help="Effects to fit, as leg_length,slider_offset:2; the machine's others are held.")
 @click.option("--fix", "fix", help="Effects or elements to hold, as guideway_translation:3,bar_length.")
 @click.option("--minimal", is_flag=True, help="Fit as many errors as the readings tell (pivoted QR), hold the rest.")
@@ -45,6 +47,7 @@ TOLD = 1e-4
 def command(
     records: tuple[Path, ...],
     model_path: Path,
+    effects_path: Path | None,
     free: str | None,
     fix: str | None,
     minimal: bool,
@@ -58,13 +61,15 @@ def command(
       hexdbb diagnose demo.parquet -m demo-model.toml
       hexdbb diagnose monday.parquet tuesday.csv -m model.toml --json
       hexdbb diagnose monday.parquet -m model.toml --minimal
+      hexdbb diagnose monday.parquet -m model.toml --effects mine.py
       hexdbb diagnose monday.parquet -m model.toml --free leg_length,slider_offset --fix leg_length:6 --robust
     """
     refuse_existing(model_path, overwrite=True)
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
         read = [read_record(path) for path in records]
-    model = load_model(model_path) if model_path.exists() else _model_of(read[0], model_path, messages)
+    own = own_effects(effects_path)
+    model = load_model(model_path, own) if model_path.exists() else _model_of(read[0], model_path, messages)
     usual = knowing(model, read).free
     model = choose_free(model, free, fix)
     if minimal:

@@ -61,7 +61,7 @@ def test_what_is_missing_in_json_and_in_words(folder: Path) -> None:
     best = found["candidates"][0]
     assert (best["effect"], best["elements"]) == ("backlash", [4])
     assert [each["name"] for each in best["parameters"]] == ["play"]
-    assert "steps" not in found
+    assert found.keys() == json_schema("discover")["properties"].keys() - {"steps"}
     assert (folder / "model.toml").read_bytes() == before
 
 
@@ -83,13 +83,16 @@ def test_auto_adds_until_nothing_is_missing(folder: Path) -> None:
 def test_an_own_effect_in_every_command(folder: Path) -> None:
     added = printed(run(folder, "add my_play:4 run.parquet -m model.toml --effects mine.py --json"))
     assert added["rms_after_um"] < 0.6 < 1.2 < added["rms_before_um"]
+    fitted = printed(run(folder, "diagnose run.parquet -m model.toml --effects mine.py --json"))
+    assert fitted["rms_after_um"] == pytest.approx(added["rms_after_um"], rel=0.01)
     compared = printed(run(folder, "compare run.parquet -m model.toml --effects mine.py --json --no-plot"))
     assert compared
     for line in ("discover run.parquet -m model.toml", "history -m model.toml", "undo -m model.toml"):
         said = refusal(run(folder, line))
         assert "my_play" in said and "--effects FILE.py" in said
     assert "added my_play of slider 4" in run(folder, "history -m model.toml --effects mine.py").stdout
-    assert run(folder, "undo -m model.toml --effects mine.py").exit_code == 0
+    for _ in ("diagnose", "add"):
+        assert run(folder, "undo -m model.toml --effects mine.py").exit_code == 0
     assert "my_play" not in (folder / "model.toml").read_text()
 
 
