@@ -192,7 +192,7 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   const double fade = 1.0 / kFadeCalls;
   part_ = part_ < wanted_part_ ? std::min(part_ + fade, wanted_part_) : std::max(part_ - fade, wanted_part_);
 
-  const InverseResult nominal = inverse(model_.nominal, pose);
+  const InverseResult nominal = inverse(model_.nominal, pose, none_);
   out.slider = nominal.leg;
   if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
   const bool is_followed = follow(nominal.sliders_mm, direction.velocity_mm_s);
@@ -221,7 +221,7 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
   }
   Vector6 force = Vector6::Zero();
   if (needs_leg_force_) {
-    const Mechanism nominal = assemble(model_.nominal, sliders_mm, Ports());
+    const Mechanism nominal = assemble(model_.nominal, sliders_mm, none_);
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
     if (standing.status == Status::kOk) force = leg_force(standing.pose, sliders_mm);
   }

@@ -97,7 +97,7 @@ class Compensator {
   PlatformTriangle nominal_triangle_;
 
   Samples now_;  // one row: what the effects are asked about
-  Ports push_;
+  Ports none_, push_;
   Vector6 side_ = Vector6::Zero();    // -1 .. 1
   Vector6 followed_mm_, visited_mm_;  // nominal places; NaN where there is none
   Vector6 last_targets_mm_ = Vector6::Zero(), last_correction_mm_ = Vector6::Zero();
