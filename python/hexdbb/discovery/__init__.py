@@ -1,6 +1,6 @@
 """Discovery: whether anything is missing from a model, and which effect it is."""
 
-from hexdbb.discovery.auto import AutoStep, discover_all, is_needed
+from hexdbb.discovery.auto import AutoStep, discover_all, is_needed, without_needless
 from hexdbb.discovery.discover import absent_effects, discover
 from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
 from hexdbb.discovery.own_effects import failing_effects
@@ -19,4 +19,5 @@ __all__ = [
     "discover_all",
     "failing_effects",
     "is_needed",
+    "without_needless",
 ]

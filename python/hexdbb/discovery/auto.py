@@ -69,19 +69,39 @@ def discover_all(
         if found.verdict != "effect" or found.best is None or steps >= MOST_STEPS:
             yield found
             return
-        progress(f"adding {found.best.choice}")
-        model, diagnosis = add_effect(records, model, found.best.choice)
+        choice = found.best.choice
+        progress(f"adding {choice}")
+        model, diagnosis = add_effect(records, model, choice)
         steps += 1
-        yield AutoStep("add", found.best.choice, diagnosis)
-        for choice in added.copy():
-            progress(f"asking whether {choice} is still needed")
-            if is_needed(records, model, choice):
-                continue
-            model, diagnosis = remove_effect(records, model, choice)
-            added.remove(choice)
+        yield AutoStep("add", choice, diagnosis)
+        for step in without_needless(records, model, added, progress):
+            model = step.diagnosis.model
+            added.remove(step.choice)
             steps += 1
+            yield step
+        added.append(choice)
+
+
+def without_needless(
+    records: Sequence[Record], model: Model, choices: Sequence[str], progress: Progress = lambda _: None
+) -> Iterator[AutoStep]:
+    """Take those of some effects (or elements of them) out of a model that it does as well without.
+
+    Yields
+    ------
+    AutoStep
+        For each effect taken out, as soon as it is.
+
+    Raises
+    ------
+    InputError, RunError
+        What `is_needed` and `hexdbb.ledger.remove_effect` raise.
+    """
+    for choice in tuple(choices):
+        progress(f"asking whether {choice} is still needed")
+        if not is_needed(records, model, choice):
+            model, diagnosis = remove_effect(records, model, choice)
             yield AutoStep("remove", choice, diagnosis)
-        added.append(found.best.choice)
 
 
 def is_needed(records: Sequence[Record], model: Model, choice: str) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from tests.truth.cases import case
 
-from hexdbb.discovery import AutoStep, Discovery, discover_all, is_needed
+from hexdbb.discovery import AutoStep, Discovery, discover_all, is_needed, without_needless
 from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
 from hexdbb.record import Record
@@ -40,9 +40,14 @@ def test_what_nobody_knows_is_not_added(measured: Callable[[str], Record]) -> No
     assert isinstance(last, Discovery) and last.verdict == "unknown"
 
 
-def test_what_is_needless_is_seen_and_what_is_needed(measured: Callable[[str], Record]) -> None:
+def test_what_is_needless_is_taken_out_and_what_is_needed_stays(measured: Callable[[str], Record]) -> None:
     record = measured("backlash-x3-s1")
     model, _ = add_effect([record], new_model(record.machine), "reversal_spike:2")
     model, _ = add_effect([record], model, "backlash:4")
     assert not is_needed([record], model, "reversal_spike:2")
     assert is_needed([record], model, "backlash:4")
+    (step,) = without_needless([record], model, ["reversal_spike:2", "backlash:4"])
+    assert (step.what, step.choice) == ("remove", "reversal_spike:2")
+    left = step.diagnosis.model
+    assert [each.what for each in left.ledger] == ["add", "add", "remove"]
+    assert [term.effect for term in left.terms if term.effect in ("backlash", "reversal_spike")] == ["backlash"]
