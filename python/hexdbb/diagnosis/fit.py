@@ -164,7 +164,9 @@ def _require_told(model: Model, result: _core.FitResult, records: Sequence[Recor
     parameters = model.parameters()
     for effect in dict.fromkeys(parameters[column].effect for column in result.free_columns):
         own = [column for column in result.free_columns if parameters[column].effect == effect]
-        if (spread[own] > (1.0 - NOWHERE) * sizes[own]).all():
+        # Curvature can widen a value that the readings hardly tell beyond its expected size; one that acts nowhere
+        # keeps it.
+        if (np.abs(spread[own] - sizes[own]) < NOWHERE * sizes[own]).all():
             raise InputError(f"{names}: {effect} acts nowhere in these readings (expected to hold it: --fix {effect})")
     if (spread > 0.99 * sizes)[result.free_columns].all():
         raise InputError(f"{names}: rank 0: the readings say nothing about any free value (expected one at least)")
