@@ -105,3 +105,18 @@ def test_place_is_known_as_well_as_it_is_said(found):
     _, error_um = place_errors_um(random_truth(SEED), plan, found)
     assert 0.3 < error_um / places.median_um < 2.5
     assert places.median_um < places.worst_um < 5.0 * places.median_um
+
+
+def test_a_record_counts_once(record):
+    with pytest.raises(InputError, match="the same readings as"):
+        diagnose([record, record], new_model(record.machine), check_held_out=False)
+
+
+def test_two_records_tell_more_than_one(record, found):
+    other = simulate(random_truth(SEED), study_plan(), SEED + 1, PACE)
+    both = diagnose([record, other], new_model(record.machine), check_held_out=False)
+    assert both.rank == found.rank
+    assert len(both.model.mounts) == 2
+    assert both.rms_after_um == pytest.approx(0.5, rel=0.03)
+    legs = [each.effect == "leg_length" for each in both.model.parameters() if each.effect == "leg_length"]
+    assert (both.model.sigma[: len(legs)] < found.model.sigma[: len(legs)]).all()

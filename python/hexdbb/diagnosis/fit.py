@@ -117,6 +117,7 @@ def diagnose(
         raise InputError("no record to diagnose (expected at least one)")
     if not model.free.any():
         raise InputError("the model has no free value (expected at least one to fit)")
+    _require_distinct(records)
     known = knowing(model, records)
     noise = noise_of(records)
     first = evaluate_fit(records, known, known.free, noise, robust=robust)
@@ -147,6 +148,15 @@ def diagnose(
         unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
         warnings=(*either_sign, *warnings_of(fitted, result, noise, checked)),
     )
+
+
+def _require_distinct(records: Sequence[Record]) -> None:
+    seen: dict[str, str] = {}
+    for record in records:
+        content = record.content_hash()
+        if content in seen:
+            raise InputError(f"{record.name}: the same readings as {seen[content]} (expected each record once)")
+        seen[content] = record.name
 
 
 def refitter(noise: Noise, robust: bool = False) -> Refit:
