@@ -238,6 +238,7 @@ Vector3 RssrAngles::angle_rad() const {
   return {std::atan2(sine[0], cosine[0]), std::atan2(sine[1], cosine[1]), std::atan2(sine[2], cosine[2])};
 }
 
+HEXDBB_MULTIVERSION_WIDE
 ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triangle, RssrAngles& angles) noexcept {
   ForwardResult out;
   LoopProblem problem;
