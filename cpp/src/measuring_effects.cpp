@@ -49,8 +49,8 @@ EffectPtr bar_gain() {
 
 namespace {
 
-/// While the gauge is read later, the sliders move on, by delay x velocity + delay^2 / 2 x acceleration: a tangent
-/// alone would leave the circle by v^2 delay^2 / (2 R), 17 um at 50 mm/s and 37 ms.
+/// While the gauge is read later, the sliders move on, by delay x velocity + delay^2 / 2 x acceleration + delay^3 / 6 x
+/// jerk: a tangent alone would leave the circle by v^2 delay^2 / (2 R), 17 um at 50 mm/s and 37 ms.
 class SampleDelay : public Effect {
  public:
   const EffectInfo& info() const override { return info_; }
@@ -59,19 +59,24 @@ class SampleDelay : public Effect {
     const double delay = values[0];
     const State& state = block.samples.state;
     for (int k = 0; k < kLegs; ++k) {
-      ports.col(port::kSlider + k).array() += delay * block.of(state.velocity_mm_s, k).array() +
-                                              0.5 * delay * delay * block.of(state.acceleration_mm_s2, k).array();
+      ports.col(port::kSlider + k).array() +=
+          delay *
+          (block.of(state.velocity_mm_s, k).array() +
+           delay / 2.0 *
+               (block.of(state.acceleration_mm_s2, k).array() + delay / 3.0 * block.of(state.jerk_mm_s3, k).array()));
     }
   }
 
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
              JacobianBlock jacobian) const override {
+    const double delay = values[0];
     const State& state = block.samples.state;
     jacobian.setZero();
     for (int k = 0; k < kLegs; ++k) {
       jacobian.col(0).array() +=
           sensitivity.col(port::kSlider + k).array() *
-          (block.of(state.velocity_mm_s, k).array() + values[0] * block.of(state.acceleration_mm_s2, k).array());
+          (block.of(state.velocity_mm_s, k).array() + delay * (block.of(state.acceleration_mm_s2, k).array() +
+                                                               delay / 2.0 * block.of(state.jerk_mm_s3, k).array()));
     }
   }
 
@@ -86,7 +91,7 @@ class SampleDelay : public Effect {
                    {"slider"},
                    true,
                    group::kCatalogue,
-                   {"velocity_mm_s", "acceleration_mm_s2"}};
+                   {"velocity_mm_s", "acceleration_mm_s2", "jerk_mm_s3"}};
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Velocity by local least squares; reversals by a dead band on smoothed positions.
+// Velocity by local polynomials; reversals by a dead band on smoothed positions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +18,7 @@ using Track = Eigen::Matrix<double, Eigen::Dynamic, kLegs, Eigen::RowMajor>;  //
 
 constexpr double kHalfWindow_s = 0.05;
 constexpr Eigen::Index kFewest = 2, kMost = 64;  // neighbours on either side
+constexpr Eigen::Index kFewestRows = 2 * kFewest + 1;
 
 /// Rows of each sweep, in order.
 std::vector<Rows> rows_by_sweep(const Eigen::VectorXi& sweep) {
@@ -33,17 +34,37 @@ std::vector<Rows> rows_by_sweep(const Eigen::VectorXi& sweep) {
 
 struct Smooth {
   Eigen::VectorXd time_s;
-  Track place_mm, velocity_mm_s;
+  Track place_mm, velocity_mm_s, acceleration_mm_s2, jerk_mm_s3;
 };
 
-/// First and last row of the window about `row`.
+/// First and last row of the window about `row`; at a sweep's ends it reaches further to the other side.
 std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eigen::Index row) {
   const Eigen::Index end = time_s.size() - 1;
   const auto reaches = [&](Eigen::Index other) { return std::abs(time_s[other] - time_s[row]) <= kHalfWindow_s; };
   Eigen::Index first = std::max<Eigen::Index>(row - kFewest, 0), last = std::min(row + kFewest, end);
   while (first > 0 && row - first < kMost && reaches(first - 1)) --first;
   while (last < end && last - row < kMost && reaches(last + 1)) ++last;
+  while (first > 0 && last - first + 1 < kFewestRows) --first;
+  while (last < end && last - first + 1 < kFewestRows) ++last;
   return {first, last};
+}
+
+/// Weights of the values in rows [first, last] for the slope in `row` of the polynomial through all of them.
+Eigen::Array<double, kFewestRows, 1> slope_through_all(const Eigen::VectorXd& time_s, Eigen::Index first,
+                                                       Eigen::Index row) {
+  Eigen::Array<double, kFewestRows, 1> out = Eigen::Array<double, kFewestRows, 1>::Zero();
+  const Eigen::Index here = row - first;
+  for (Eigen::Index at = 0; at < kFewestRows; ++at) {
+    if (at == here) continue;
+    double weight = 1.0 / (time_s[first + at] - time_s[row]);
+    out[here] -= weight;
+    for (Eigen::Index other = 0; other < kFewestRows; ++other) {
+      if (other == here || other == at) continue;
+      weight *= (time_s[row] - time_s[first + other]) / (time_s[first + at] - time_s[first + other]);
+    }
+    out[at] = weight;
+  }
+  return out;
 }
 
 /// Rows of the inverse normal matrix for value and slope at u = 0 of the polynomial of degree `degree` in u.
@@ -64,29 +85,50 @@ std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int 
   return out;
 }
 
-Smooth smooth(Eigen::VectorXd time_s, const Track& raw_mm) {
-  Smooth out{std::move(time_s), Track::Zero(raw_mm.rows(), kLegs), Track::Zero(raw_mm.rows(), kLegs)};
-  for (Eigen::Index row = 0; row < raw_mm.rows(); ++row) {
-    const auto [first, last] = window(out.time_s, row);
-    const double half_s = std::max(out.time_s[last] - out.time_s[row], out.time_s[row] - out.time_s[first]);
-    const double per_s = half_s > 0.0 ? 1.0 / half_s : 1.0;
-    std::array<double, 5> moment{};
-    for (Eigen::Index at = first; at <= last; ++at) {
-      double power = 1.0;
-      const double u = (out.time_s[at] - out.time_s[row]) * per_s;
-      for (double& each : moment) {
-        each += power;
-        power *= u;
-      }
-    }
-    const auto [value, slope] = value_and_slope(moment, static_cast<int>(std::min<Eigen::Index>(last - first, 2)));
-    for (Eigen::Index at = first; at <= last; ++at) {
-      const double u = (out.time_s[at] - out.time_s[row]) * per_s;
-      out.place_mm.row(row) += (value[0] + u * (value[1] + u * value[2])) * raw_mm.row(at);
-      out.velocity_mm_s.row(row) += per_s * (slope[0] + u * (slope[1] + u * slope[2])) * raw_mm.row(at);
-    }
+/// Weights of the rows from `first` on for the value and the slope in one row.
+struct Stencil {
+  Eigen::Index first;
+  Eigen::VectorXd value, slope;
+};
+
+/// Of the parabola through a window by least squares. Where sampling is so slow that a window holds the fewest rows, a
+/// parabola would cut the corners of the motion (by 0.1 % of the velocity at 8 Hz on a circle of 20 s), while noise
+/// tells little: the slope is then that of the polynomial through all of them.
+Stencil stencil(const Eigen::VectorXd& time_s, Eigen::Index row) {
+  const auto [first, last] = window(time_s, row);
+  const Eigen::Index count = last - first + 1;
+  const double half_s = std::max(time_s[last] - time_s[row], time_s[row] - time_s[first]);
+  const double per_s = half_s > 0.0 ? 1.0 / half_s : 1.0;
+  const Eigen::ArrayXd u = (time_s.segment(first, count).array() - time_s[row]) * per_s;
+  const std::array<double, 5> moment = {static_cast<double>(count), u.sum(), u.square().sum(), u.cube().sum(),
+                                        u.square().square().sum()};
+  const auto [value, slope] = value_and_slope(moment, static_cast<int>(std::min<Eigen::Index>(last - first, 2)));
+  Stencil out{first, value[0] + u * (value[1] + u * value[2]), per_s * (slope[0] + u * (slope[1] + u * slope[2]))};
+  if (count == kFewestRows) out.slope = slope_through_all(time_s, first, row);
+  return out;
+}
+
+Track slopes(const std::vector<Stencil>& stencils, const Track& of) {
+  Track out(of.rows(), kLegs);
+  for (Eigen::Index row = 0; row < of.rows(); ++row) {
+    const Stencil& each = stencils[static_cast<std::size_t>(row)];
+    out.row(row) = each.slope.transpose() * of.middleRows(each.first, each.slope.size());
   }
   return out;
+}
+
+Smooth smooth(Eigen::VectorXd time_s, const Track& raw_mm) {
+  std::vector<Stencil> stencils;
+  Track place_mm(raw_mm.rows(), kLegs);
+  for (Eigen::Index row = 0; row < raw_mm.rows(); ++row) {
+    const Stencil& each = stencils.emplace_back(stencil(time_s, row));
+    place_mm.row(row) = each.value.transpose() * raw_mm.middleRows(each.first, each.value.size());
+  }
+  Track velocity_mm_s = slopes(stencils, raw_mm);
+  Track acceleration_mm_s2 = slopes(stencils, velocity_mm_s);
+  Track jerk_mm_s3 = slopes(stencils, acceleration_mm_s2);
+  return {std::move(time_s), std::move(place_mm), std::move(velocity_mm_s), std::move(acceleration_mm_s2),
+          std::move(jerk_mm_s3)};
 }
 
 /// Where a slider turned back.
@@ -149,9 +191,8 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
       ++passed;
     }
     out.velocity_mm_s(row, k) = track.velocity_mm_s(at, k);
-    const auto [first, last] = window(track.time_s, at);
-    out.acceleration_mm_s2(row, k) =
-        (track.velocity_mm_s(last, k) - track.velocity_mm_s(first, k)) / (track.time_s[last] - track.time_s[first]);
+    out.acceleration_mm_s2(row, k) = track.acceleration_mm_s2(at, k);
+    out.jerk_mm_s3(row, k) = track.jerk_mm_s3(at, k);
     out.side(row, k) = side;
     if (passed > 0) {
       const Turn& last = turns.at[passed - 1];
@@ -165,8 +206,12 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
 
 Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
   const Eigen::Index count = sliders_mm.rows();
-  Motion out{SliderTable(count, kLegs), SliderTable(count, kLegs), SliderTable(count, kLegs),
-             SliderTable::Constant(count, kLegs, kLongAgo), SliderTable::Constant(count, kLegs, kLongAgo)};
+  Motion out{SliderTable(count, kLegs),
+             SliderTable(count, kLegs),
+             SliderTable(count, kLegs),
+             SliderTable(count, kLegs),
+             SliderTable::Constant(count, kLegs, kLongAgo),
+             SliderTable::Constant(count, kLegs, kLongAgo)};
   for (const Rows& rows : rows_by_sweep(sweep)) {
     for (std::size_t at = 1; at < rows.size(); ++at) {
       if (!(time_s[rows[at]] > time_s[rows[at - 1]])) {

@@ -46,7 +46,12 @@ class Backlash : public Effect {
   EffectInfo info_;
 };
 
-/// Stiction: after a reversal the slider hangs back by `height` and recovers as exp(-t / tau), t the time since, with
+/// Stiction: from a reversal on the slider sticks while the drive winds up whatever is elastic between the two; at the
+/// windup `height` it breaks away, and the windup decays as exp(-(t - t_b) / tau). With d the travel and t the time
+/// since the reversal,
+///   push = -side d                            while d < height,
+///   push = -side height exp(-(t - t_b)/tau)   from then on,
+/// where t_b = t sqrt(height / d): near a reversal a slider starts with constant acceleration, d = a t^2 / 2.
 /// tau = 50 ms exp(log_time), which is positive whatever the value and the expected one at zero.
 class ReversalSpike : public Effect {
  public:
@@ -56,32 +61,47 @@ class ReversalSpike : public Effect {
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
     for (int k = 0; k < kLegs; ++k) {
-      if (values[2 * k] == 0.0) continue;
-      ports.col(port::kSlider + k).array() += -values[2 * k] * unit_spike(block, values, k);
+      const double height = values[2 * k];
+      if (height == 0.0) continue;
+      const Decay decay(block, values, k);
+      const auto windup = decay.sticks.select(decay.travelled_mm, std::abs(height) * decay.left);
+      ports.col(port::kSlider + k).array() -= std::copysign(1.0, height) * decay.side * windup;
     }
   }
 
-  // d/d height = -side e, e = exp(-t/tau); d/d log_time = -side height e t/tau.
+  // Sliding, with e = exp(-(t - t_b)/tau): d/d height = -side e (1 + t_b / 2 tau); d/d log_time = push (t - t_b)/tau.
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
              JacobianBlock jacobian) const override {
     for (int k = 0; k < kLegs; ++k) {
-      const auto slope = sensitivity.col(port::kSlider + k).array();
-      jacobian.col(2 * k).array() = -slope * unit_spike(block, values, k);
-      jacobian.col(2 * k + 1).array() =
-          values[2 * k] * jacobian.col(2 * k).array() * since_s(block, k) / time_constant_s(values, k);
+      const Decay decay(block, values, k);
+      const BlockColumn slope =
+          -decay.side * decay.sticks.select(0.0, decay.left) * sensitivity.col(port::kSlider + k).array();
+      jacobian.col(2 * k).array() = slope * (1.0 + 0.5 * decay.stuck);
+      jacobian.col(2 * k + 1).array() = values[2 * k] * slope * decay.slid;
     }
   }
 
  private:
   static constexpr double kExpectedTime_s = 0.05;
+  static constexpr double kNoWay_mm = 1e-9;  // at the turning point itself
 
-  static double time_constant_s(Values values, int k) { return kExpectedTime_s * std::exp(values[2 * k + 1]); }
-  static BlockColumn since_s(const SampleBlock& block, int k) {
-    return block.of(block.samples.state.since_reversal_s, k).array();
-  }
-  static BlockColumn unit_spike(const SampleBlock& block, Values values, int k) {
-    return block.of(block.samples.state.side, k).array() * (-since_s(block, k) / time_constant_s(values, k)).exp();
-  }
+  /// How the samples of a block stand to slider k's last reversal; times in time constants.
+  struct Decay {
+    Decay(const SampleBlock& block, Values values, int k)
+        : side(block.of(block.samples.state.side, k).array()),
+          travelled_mm(block.of(block.samples.state.since_reversal_mm, k).array()),
+          sticks(travelled_mm < std::abs(values[2 * k])) {
+      const BlockColumn since =
+          block.of(block.samples.state.since_reversal_s, k).array() / (kExpectedTime_s * std::exp(values[2 * k + 1]));
+      stuck = since * (std::abs(values[2 * k]) / travelled_mm.max(kNoWay_mm)).sqrt();
+      slid = since - stuck;
+      left = (-slid).exp();
+    }
+
+    BlockColumn side, travelled_mm;
+    Eigen::Array<bool, Eigen::Dynamic, 1, 0, Block::kRows, 1> sticks;
+    BlockColumn stuck, slid, left;
+  };
 
   EffectInfo info_;
 };
@@ -109,8 +129,9 @@ EffectPtr reversal_spike() {
   // Spikes of 5 to 20 um, of some tens of ms, are what uncompensated quadrant glitches look like on machine tools.
   return std::make_shared<ReversalSpike>(EffectInfo{
       "reversal_spike",
-      "Stiction: after a reversal a slider hangs back and recovers exponentially, with a time constant of 50 "
-      "ms times e to the log_time; unlike backlash it is gone after a few time constants.",
+      "Stiction: after a reversal a slider sticks until its drive has moved on by the height, then catches up "
+      "exponentially, with a time constant of 50 ms times e to the log_time; unlike backlash it is gone after a few "
+      "time constants.",
       "friction at velocity reversal (quadrant glitch), ISO 230-4 Annex",
       "slider",
       kSixElements,
@@ -118,7 +139,7 @@ EffectPtr reversal_spike() {
       {"slider"},
       false,
       group::kCatalogue,
-      {"side", "since_reversal_s"}});
+      {"side", "since_reversal_s", "since_reversal_mm"}});
 }
 
 }  // namespace hexdbb

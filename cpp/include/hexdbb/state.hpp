@@ -40,6 +40,7 @@ struct State {
   Eigen::VectorXd nominal_reading_mm;  // of the nominal machine: what the programme asks of the bar
   SliderTable velocity_mm_s;
   SliderTable acceleration_mm_s2;
+  SliderTable jerk_mm_s3;
   SliderTable side;               // +1 or -1: where the slider last moved to; 0 where it never moved
   SliderTable since_reversal_s;   // kLongAgo where there was none in the sweep
   SliderTable since_reversal_mm;  // travel from the turning point, likewise
@@ -65,6 +66,7 @@ void for_each_column(StateType& state, Visit visit) {
   visit("nominal_reading_mm", state.nominal_reading_mm);
   visit("velocity_mm_s", state.velocity_mm_s);
   visit("acceleration_mm_s2", state.acceleration_mm_s2);
+  visit("jerk_mm_s3", state.jerk_mm_s3);
   visit("side", state.side);
   visit("since_reversal_s", state.since_reversal_s);
   visit("since_reversal_mm", state.since_reversal_mm);
@@ -78,7 +80,8 @@ void require_column(const State& state, const std::string& column, const std::st
 /// What follows from the sliders' places over time, sweep by sweep.
 struct Motion {
   SliderTable velocity_mm_s;       // NaN in a sweep of one sample
-  SliderTable acceleration_mm_s2;  // change of the velocity over the same window; NaN likewise
+  SliderTable acceleration_mm_s2;  // NaN likewise
+  SliderTable jerk_mm_s3;          // NaN likewise
   SliderTable side;
   SliderTable since_reversal_s;
   SliderTable since_reversal_mm;
