@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "bindings.hpp"
@@ -17,27 +18,34 @@ Pose pose_of(const Rows3& position_mm, const Rows3& rpy_rad, Eigen::Index row) {
   return {position_mm.row(row).transpose(), rotation_from_rpy(rpy_rad(row, 0), rpy_rad(row, 1), rpy_rad(row, 2))};
 }
 
-/// Targets along a path. Velocities are those of the nominal sliders between the neighbours of each row.
+/// Targets along a path. Velocities are those of the nominal sliders between the neighbours of each row; sides follow
+/// from the motion where none are given.
 py::tuple sliders_along(Compensator& compensator, const Rows3& position_mm, const Rows3& rpy_rad,
-                        const Eigen::VectorXd& time_s, const Eigen::VectorXd& temperature_c) {
+                        const Eigen::VectorXd& time_s, const Eigen::VectorXd& temperature_c,
+                        const std::optional<Rows6>& side) {
   const Eigen::Index count = position_mm.rows();
+  if (side && side->rows() != count) throw std::invalid_argument("side and position_mm differ in length");
   if (rpy_rad.rows() != count || time_s.size() != count || temperature_c.size() != count) {
     throw std::invalid_argument("position_mm, rpy_rad, time_s and temperature_c differ in length");
   }
   const NominalGeometry nominal(compensator.machine());
   Rows6 sliders(count, int{kLegs}), correction(count, int{kLegs});
   Eigen::VectorXi status(count), slider(count);
+  std::optional<py::gil_scoped_release> others_may_run(std::in_place);  // a cyclic loop may be one of them
   for (Eigen::Index row = 0; row < count; ++row) {
     const Eigen::Index before = std::max<Eigen::Index>(row - 1, 0), after = std::min(row + 1, count - 1);
     Direction direction = direction_between(nominal, pose_of(position_mm, rpy_rad, before),
                                             pose_of(position_mm, rpy_rad, after), time_s[after] - time_s[before]);
     direction.temperature_c = temperature_c[row];
+    if (side) direction.side = side->row(row).transpose();
     const SliderTargets targets = compensator.sliders(pose_of(position_mm, rpy_rad, row), direction);
     sliders.row(row) = targets.sliders_mm.transpose();
     correction.row(row) = targets.correction_mm.transpose();
+    if (targets.status == Status::kCorrectionLimit) correction(row, targets.slider) = targets.largest_correction_mm;
     status[row] = static_cast<int>(targets.status);
     slider[row] = targets.slider;
   }
+  others_may_run.reset();
   return py::make_tuple(sliders, correction, status, slider);
 }
 
@@ -100,11 +108,15 @@ void bind_compensation(py::module_& module) {
   module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),
              "CompensationError naming the first dimension that differs.");
 
+  module.attr("CORRECTION_LIMIT") = static_cast<int>(Status::kCorrectionLimit);
   py::class_<Compensator>(module, "Compensator", "Slider targets under every effect of compensation data.")
       .def(py::init<const CompensationData&, const std::string&>(), py::arg("data"), py::arg("source"))
       .def("sliders_along", &sliders_along, py::arg("position_mm"), py::arg("rpy_rad"), py::arg("time_s"),
-           py::arg("temperature_c"),
-           "Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.")
+           py::arg("temperature_c"), py::arg("side") = py::none(),
+           "Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion. A row refused "
+           "has "
+           "the last targets, and where a correction is too large, its size. side (n, 6), "
+           "-1 .. 1: of each slider, where the motion to come is known; without it they follow from the motion so far.")
       .def("poses_of", &poses_of, py::arg("sliders_mm"),
            "Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of rows of slider coordinates.")
       .def("enable", &Compensator::enable, py::arg("on"), "Off or on; it fades over the next 500 poses.")

@@ -76,7 +76,8 @@ void Compensator::reset() noexcept {
 }
 
 /// Play operator of the commanded travel; see the header. False, and nothing changed, for a pose that is only visited.
-bool Compensator::follow(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept {
+bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) noexcept {
+  const Vector6& velocity_mm_s = direction.velocity_mm_s;
   if (velocity_mm_s.isZero(0.0) && largest(nominal_mm - followed_mm_) > kFollow_mm) {
     const bool is_near_visited = largest(nominal_mm - visited_mm_) <= kFollow_mm;
     if (!is_near_visited) {
@@ -95,6 +96,7 @@ bool Compensator::follow(const Vector6& nominal_mm, const Vector6& velocity_mm_s
       side_[k] = std::clamp(side_[k] + side_per_mm_ * towards, -1.0, 1.0);
     }
   }
+  side_ = direction.side.array().isNaN().select(side_, direction.side);
   followed_mm_ = nominal_mm;
   return true;
 }
@@ -195,7 +197,7 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   const InverseResult nominal = inverse(model_.nominal, pose, none_);
   out.slider = nominal.leg;
   if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
-  const bool is_followed = follow(nominal.sliders_mm, direction.velocity_mm_s);
+  const bool is_followed = follow(nominal.sliders_mm, direction);
   set_state(direction, side_, needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero());
   if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);

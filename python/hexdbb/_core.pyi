@@ -12,6 +12,7 @@ import numpy
 import numpy.typing
 
 __all__: list[str] = [
+    "CORRECTION_LIMIT",
     "CompensationData",
     "CompensationError",
     "Compensator",
@@ -367,9 +368,10 @@ class Compensator:
         rpy_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
         time_s: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
         temperature_c: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        side: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"] | None = None,
     ) -> tuple:
         """
-        Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.
+        Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion. A row refused has the last targets, and where a correction is too large, its size. side (n, 6), -1 .. 1: of each slider, where the motion to come is known; without it they follow from the motion so far.
         """
 
 def compensation_of(
@@ -566,6 +568,7 @@ def status_name(code: typing.SupportsInt | typing.SupportsIndex) -> str:
     What a status code of the kinematics means.
     """
 
+CORRECTION_LIMIT: int = 6
 PORTS: dict = {
     "slider": (0, 6),
     "leg": (6, 6),

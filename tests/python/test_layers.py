@@ -59,6 +59,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     # what a controller does about it
     "compensation": {"errors", "atomic_file", "machine", "kinematics", "model", "_core"},
+    "compensated_targets": {"can_setup", "kinematics", "trajectory", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
     "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
     # which circles tell most

@@ -29,6 +29,8 @@ struct Direction {
   /// of the slider at the call before.
   Vector6 velocity_mm_s = Vector6::Zero();
   double temperature_c = std::numeric_limits<double>::quiet_NaN();  // NaN: not measured, no growth corrected
+  /// -1 .. 1, said by a controller that looks ahead and changes sides as fast as its drives may; NaN: see above.
+  Vector6 side = Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 struct SliderTargets {
@@ -81,7 +83,7 @@ class Compensator {
 
  private:
   void prepare();
-  bool follow(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept;
+  bool follow(const Vector6& nominal_mm, const Direction& direction) noexcept;
   void set_state(const Direction& direction, const Vector6& side, const Vector6& leg_force) noexcept;
   Vector6 leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept;
   const Ports& push_at(const Vector6& sliders_mm) noexcept;

@@ -11,7 +11,7 @@ from hexdbb.capture.setup import Confirm
 from hexdbb.capture.supervision import SILENT_AFTER
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
-from hexdbb.trajectory import Programme, plan_programme
+from hexdbb.trajectory import Programme, Targets, plan_programme
 
 
 @dataclass
@@ -52,6 +52,7 @@ class Request:
     confirm : asks the operator to mount the bar; None where nobody has to
     silent_after : SYNCs in a row a node may leave unanswered before all axes stop
     metadata : what else to keep in the record
+    targets : what gives the sliders' targets; the nominal machine's where None
     """
 
     plan: Plan
@@ -63,6 +64,7 @@ class Request:
     confirm: Confirm | None = None
     silent_after: int = SILENT_AFTER
     metadata: dict[str, object] = field(default_factory=dict)
+    targets: Targets | None = None
 
 
 def prepare(request: Request) -> Programme:
@@ -77,4 +79,4 @@ def prepare(request: Request) -> Programme:
     check_load(1.0 / request.cycle_s, can_setup.bitrate_bit_s, len(can_setup.drive_nodes))
     interpolation_period(request.cycle_s)
     check_counts(request.machine)
-    return plan_programme(request.plan, request.machine, request.cycle_s, request.origin)
+    return plan_programme(request.plan, request.machine, request.cycle_s, request.origin, request.targets)

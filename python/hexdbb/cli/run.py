@@ -25,6 +25,7 @@ from hexdbb.capture.setup import Confirm
 from hexdbb.capture.simulated import simulated_rig
 from hexdbb.capture.transport import open_bus
 from hexdbb.cli.exits import reports_errors
+from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
 from hexdbb.plan import load_plan
 from hexdbb.record import Record
@@ -45,6 +46,7 @@ Examples:
   hexdbb-run --plan thesis -o demo.parquet
   hexdbb-run --plan my-plan.toml --bus socketcan:can0 -o monday.parquet
   hexdbb-run --plan standard --truth truth.toml --seed 3 -o simulated.parquet
+  hexdbb-run --plan standard --compensation sp120.hexcomp -o after.parquet
   hexdbb-run --plan thesis --fault drive-fault:3@20 -o fault.parquet
 
 \b
@@ -68,6 +70,13 @@ Buses (any interface of python-can):
 @click.option(
     "--rate", "rate_hz", type=click.FloatRange(min=1.0), help="Cycles per second; default: the machine file's."
 )
+@click.option(
+    "--compensation",
+    "compensation_path",
+    type=click.Path(path_type=Path),
+    help="Compensation file (hexdbb compensate): slider targets of the machine as diagnosed, not of the nominal one.",
+)
+@click.option("--temperature-c", type=float, help="With --compensation: the machine's temperature, for its growth.")
 @click.option("--truth", type=click.Path(path_type=Path), help="Simulated rig: truth file.")
 @click.option(
     "--seed", type=click.IntRange(min=0), help="Simulated rig: seed of the hidden machine, or of a truth file's noise."
@@ -83,6 +92,8 @@ def command(
     bus_spec: str | None,
     lockstep: bool | None,
     rate_hz: float | None,
+    compensation_path: Path | None,
+    temperature_c: float | None,
     truth: Path | None,
     seed: int | None,
     faults: tuple[str, ...],
@@ -101,6 +112,10 @@ def command(
     refuse_existing(record, overwrite)
     lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), Progress()
+    if compensation_path is not None:
+        request = compensated(request, compensation_path, temperature_c, progress)
+    elif temperature_c is not None:
+        raise InputError("--temperature-c: without --compensation (expected --compensation FILE with it)")
     request.metadata.update(
         bus=bus_spec or "simulated rig",
         pace="lockstep" if lockstep else "real time",
@@ -114,7 +129,7 @@ def command(
         request = replace(request, confirm=_ask(console, progress))
     programme = prepare(request)
     with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
-        console.print(_announcement(programme, lockstep, request.origin), highlight=False, soft_wrap=True)
+        console.print(_announcement(programme, lockstep, request), highlight=False, soft_wrap=True)
         with display(progress, console):
             made = measure(request, programme, bus, clock, progress)
     _say_what_was_recorded(made, programme, progress)
@@ -181,11 +196,13 @@ def _ask(console: Console, progress: Progress) -> Confirm:
     return confirm
 
 
-def _announcement(programme: Programme, lockstep: bool, origin: str) -> str:
+def _announcement(programme: Programme, lockstep: bool, request: Request) -> str:
     captured = int(programme.table.capture.sum())
     pace = "in lockstep" if lockstep else "in real time"
+    driven = request.metadata.get("compensation")
+    pace += f", compensated by {driven['file']}" if isinstance(driven, dict) else ""
     return (
-        f"plan {origin}: {len(programme.runs)} runs, {captured} samples at {1.0 / programme.cycle_s:g} Hz, "
+        f"plan {request.origin}: {len(programme.runs)} runs, {captured} samples at {1.0 / programme.cycle_s:g} Hz, "
         f"{programme.duration_s:.0f} s of machine time, {pace}"
     )
 
@@ -198,4 +215,7 @@ def _say_what_was_recorded(record: Record, programme: Programme, progress: Progr
         f"readings {reading.min():+.1f} to {reading.max():+.1f} µm, {progress.missed} missed cycles"
     )
     name = record.path.with_suffix("") if record.path is not None else Path("record")
-    click.echo(f"next: hexdbb diagnose {record.path} -m {name}-model.toml")
+    if "compensation" in record.metadata:
+        click.echo(f"next: hexdbb compare {record.path} -m MODEL")
+    else:
+        click.echo(f"next: hexdbb diagnose {record.path} -m {name}-model.toml")

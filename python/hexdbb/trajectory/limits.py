@@ -7,7 +7,9 @@ differences.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,11 +25,21 @@ PROBES = 361
 """Points at which a path is probed."""
 PROBE_DEG = 1.0
 """Angle between two probes where the path is one turn."""
-TRAVEL_SHARE = 0.4
-"""Share of the sliders' limits used on the way; the rest is for the corrections of the position loop."""
+TRAVEL_SHARES = (0.4, 0.25, 0.15, 0.1)
+"""Share of the sliders' limits used on the way, the first with which every row keeps them; the rest is for corrections:
+those of the position loop, and of a compensation, which must follow every turn of a screw."""
 
+Made = TypeVar("Made")
 Where = Callable[[int], str]
 """Names a row of a table for an error message."""
+
+
+class TooFastError(InputError):
+    """A slider would exceed a limit; `row` is where."""
+
+    def __init__(self, message: str, row: int) -> None:
+        super().__init__(message)
+        self.row = row
 
 
 def check_reach(status: NDArray[np.integer], where: Where) -> None:
@@ -39,7 +51,7 @@ def check_reach(status: NDArray[np.integer], where: Where) -> None:
 
 
 def check_motion(sliders_mm: Array, cycle_s: float, limits: Limits, where: Where) -> None:
-    """Raise `InputError` where a slider would exceed its velocity, acceleration or jerk; `sliders_mm` is (n, 6)."""
+    """Raise `TooFastError` where a slider would exceed its velocity, acceleration or jerk; `sliders_mm` is (n, 6)."""
     rate = sliders_mm
     bounds = (
         ("velocity", "mm/s", limits.velocity_mm_s),
@@ -52,13 +64,28 @@ def check_motion(sliders_mm: Array, cycle_s: float, limits: Limits, where: Where
         if over.any():
             row, slider = (int(i) for i in np.argwhere(over)[0])
             value = abs(float(rate[row, slider]))
-            raise InputError(
-                f"{where(row)}: {name} of slider {slider + 1}: {value:.4g} {unit} (expected at most {bound:g} {unit})"
+            raise TooFastError(
+                f"{where(row)}: {name} of slider {slider + 1}: {value:.4g} {unit} (expected at most {bound:g} {unit})",
+                row,
             )
 
 
-def path_limits(path: PosePath, machine: MachineFile, where: Where) -> PathLimits:
-    """Limits along a path that keep every slider within `TRAVEL_SHARE` of its own limits.
+def slow_enough(shares: Sequence[float], make: Callable[[float], Made]) -> Made:
+    """Give what `make` makes with the largest of some shares that keeps every limit.
+
+    Raises
+    ------
+    InputError
+        What `make` raises with the smallest one, or whatever has nothing to do with speed.
+    """
+    for share in shares[:-1]:
+        with suppress(TooFastError):
+            return make(share)
+    return make(shares[-1])
+
+
+def path_limits(path: PosePath, machine: MachineFile, share: float, where: Where) -> PathLimits:
+    """Limits along a path that keep every slider within a share of its own limits.
 
     Raises
     ------
@@ -74,11 +101,11 @@ def path_limits(path: PosePath, machine: MachineFile, where: Where) -> PathLimit
     bend = float(np.abs(np.diff(sliders_mm, n=2, axis=0)).max()) / step_mm**2
     tiny = 1e-9
     velocity = min(
-        TRAVEL_SHARE * limits.velocity_mm_s / max(slope, tiny),
-        float(np.sqrt(TRAVEL_SHARE * limits.acceleration_mm_s2 / 2.0 / max(bend, tiny))),
+        share * limits.velocity_mm_s / max(slope, tiny),
+        float(np.sqrt(share * limits.acceleration_mm_s2 / 2.0 / max(bend, tiny))),
     )
     return PathLimits(
         velocity,
-        TRAVEL_SHARE * limits.acceleration_mm_s2 / 2.0 / max(slope, tiny),
-        TRAVEL_SHARE * limits.jerk_mm_s3 / 2.0 / max(slope, tiny),
+        share * limits.acceleration_mm_s2 / 2.0 / max(slope, tiny),
+        share * limits.jerk_mm_s3 / 2.0 / max(slope, tiny),
     )

@@ -1,7 +1,8 @@
 """The cyclic target table: one row per SYNC, computed before anything moves.
 
-Model: a programme is a sequence of stretches (approach, feed-in, arc, ...); the poses of all of them go through the
-inverse kinematics in one call, and every row is checked for reach, velocity, acceleration and jerk of each slider.
+Model: a programme is a sequence of stretches (approach, feed-in, arc, ...); the poses of all of them become slider
+targets in one call (`Targets`: inverse kinematics, nominal or compensated), and every row is checked for reach,
+velocity, acceleration and jerk of each slider.
 """
 
 from __future__ import annotations
@@ -13,11 +14,12 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.kinematics import inverse
+from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import CircleRun
-from hexdbb.trajectory.limits import check_motion, check_reach
-from hexdbb.trajectory.poses import Array
+from hexdbb.trajectory.limits import TooFastError, check_motion
+from hexdbb.trajectory.poses import Array, Poses
+from hexdbb.trajectory.targets import TargetRows, Targets
 
 
 class Phase(enum.IntEnum):
@@ -104,12 +106,26 @@ class Table:
 
 @dataclass(frozen=True)
 class Programme:
-    """Runs in order and the table of targets that makes them."""
+    """Runs in order and the table of targets that makes them.
+
+    Attributes
+    ----------
+    runs : what the table's run indices mean
+    table : begins and ends at rest
+    cycle_s : time between two rows
+    first_pose : pose of the first row
+    first_side : (6,) side from which each slider is taken to come at the first row
+    targets : what the table was computed with
+    share : share of the sliders' limits that the ways use
+    """
 
     runs: tuple[CircleRun, ...]
     table: Table
     cycle_s: float
-    first_pose: tuple[Array, Array]
+    first_pose: Poses
+    first_side: Array
+    targets: Targets
+    share: float
 
     @property
     def duration_s(self) -> float:
@@ -121,40 +137,65 @@ class Programme:
         return replace(self, table=way.then(self.table))
 
 
-def tabulate(
-    stretches: Sequence[Stretch], runs: Sequence[CircleRun], machine: MachineFile, cycle_s: float, origin: str
-) -> Table:
-    """Turn stretches into slider targets with one inverse-kinematics call, and check every row.
+@dataclass(frozen=True)
+class Tabulator:
+    """Turns stretches into checked rows.
 
-    Parameters
+    Attributes
     ----------
-    stretches : pieces of motion in order, each beginning where the one before ended
     runs : what the stretches' run indices mean
-    machine : nominal machine, its travel and its motion limits
+    machine : its motion limits
     cycle_s : time between two rows
     origin : names the plan in errors
-
-    Raises
-    ------
-    InputError
-        A pose cannot be reached or a slider would be too fast: names origin, circle, angle and the limit.
+    targets : what gives the sliders' targets
     """
-    position_mm = np.concatenate([s.position_mm for s in stretches])
-    rpy_rad = np.concatenate([s.rpy_rad for s in stretches])
-    lengths = [len(s.position_mm) for s in stretches]
-    phase = np.repeat([int(s.phase) for s in stretches], lengths)
-    run = np.repeat([s.run for s in stretches], lengths)
-    angle_deg = np.concatenate([s.angle_deg for s in stretches])
 
-    def where(row: int) -> str:
-        return describe(origin, runs, Phase(int(phase[row])), int(run[row]), float(angle_deg[row]))
+    runs: Sequence[CircleRun]
+    machine: MachineFile
+    cycle_s: float
+    origin: str
+    targets: Targets
 
-    sliders_mm, status = inverse(machine, position_mm, rpy_rad)
-    check_reach(status, where)
-    check_motion(sliders_mm, cycle_s, machine.can_setup.limits, where)
-    lap = np.concatenate([s.lap for s in stretches])
-    capture = np.concatenate([s.capture for s in stretches])
-    return Table(sliders_mm, phase, run, angle_deg, lap, capture)
+    def tabulate(
+        self, stretches: Sequence[Stretch], before: Array | None = None, after: Array | None = None
+    ) -> tuple[Table, TargetRows]:
+        """Compute the targets of all stretches in one call, and check every row.
+
+        Parameters
+        ----------
+        stretches : pieces of motion in order, each beginning where the one before ended
+        before, after : (6,) sides as in `Targets.sliders`
+
+        Raises
+        ------
+        InputError
+            A pose cannot be reached or a slider would be too fast: names origin, circle, angle and the limit.
+        TooFastError
+            A slider would be too fast on a way between captures.
+        """
+        position_mm = np.concatenate([s.position_mm for s in stretches])
+        rpy_rad = np.concatenate([s.rpy_rad for s in stretches])
+        lengths = [len(s.position_mm) for s in stretches]
+        phase = np.repeat([int(s.phase) for s in stretches], lengths)
+        run = np.repeat([s.run for s in stretches], lengths)
+        angle_deg = np.concatenate([s.angle_deg for s in stretches])
+
+        def where(row: int) -> str:
+            return describe(self.origin, self.runs, Phase(int(phase[row])), int(run[row]), float(angle_deg[row]))
+
+        rows = self.targets.sliders(position_mm, rpy_rad, self.cycle_s, before, after)
+        if rows.refused is not None:
+            row, why = rows.refused
+            raise InputError(f"{where(row)}: {why}")
+        lap = np.concatenate([s.lap for s in stretches])
+        capture = np.concatenate([s.capture for s in stretches])
+        try:
+            check_motion(rows.sliders_mm, self.cycle_s, self.machine.can_setup.limits, where)
+        except TooFastError as error:
+            if not capture[error.row]:
+                raise
+            raise InputError(str(error)) from None  # at its feed: slower ways would not help
+        return Table(rows.sliders_mm, phase, run, angle_deg, lap, capture), rows
 
 
 def describe(origin: str, runs: Sequence[CircleRun], phase: Phase, run: int, angle_deg: float) -> str:

@@ -15,9 +15,10 @@ import numpy as np
 
 from hexdbb.machine import MachineFile
 from hexdbb.plan import CircleRun, Plan
-from hexdbb.trajectory.limits import PROBE_DEG, path_limits
+from hexdbb.trajectory.limits import PROBE_DEG, TRAVEL_SHARES, path_limits, slow_enough
 from hexdbb.trajectory.poses import PosePath, along_the_bar, circle_poses, radial, straight
-from hexdbb.trajectory.programme import Phase, Programme, Stretch, describe, tabulate
+from hexdbb.trajectory.programme import Phase, Programme, Stretch, Tabulator, describe
+from hexdbb.trajectory.targets import NominalTargets, Targets
 from hexdbb.trajectory.time_law import feed_law, rest_to_rest
 
 FEED_IN_MM = 0.5
@@ -28,7 +29,9 @@ SAME_POSE_MM = 1e-9
 """Ways shorter than this are no motion."""
 
 
-def plan_programme(plan: Plan, machine: MachineFile, cycle_s: float, origin: str) -> Programme:
+def plan_programme(
+    plan: Plan, machine: MachineFile, cycle_s: float, origin: str, targets: Targets | None = None
+) -> Programme:
     """Compute the whole target table of a plan.
 
     Parameters
@@ -37,6 +40,7 @@ def plan_programme(plan: Plan, machine: MachineFile, cycle_s: float, origin: str
     machine : the machine the plan names
     cycle_s : time between two SYNC frames
     origin : names the plan in errors
+    targets : what gives the sliders' targets; the nominal machine's where None
 
     Returns
     -------
@@ -49,25 +53,41 @@ def plan_programme(plan: Plan, machine: MachineFile, cycle_s: float, origin: str
         The plan is out of reach or too fast: names origin, circle, angle and the limit.
     """
     runs = tuple(plan.runs())
-    maker = _Maker(runs, plan.overshoot_deg, machine, cycle_s, origin)
-    stretches: list[Stretch] = []
-    for index in range(len(runs)):
-        own = list(maker.run(index))
-        if stretches:
-            stretches += maker.transfer(index, stretches[-1], own[0])
-        stretches += own
-    table = tabulate(stretches, runs, machine, cycle_s, origin)
-    return Programme(runs, table, cycle_s, stretches[0].begin)
+    targets = NominalTargets(machine) if targets is None else targets
+    tabulator = Tabulator(runs, machine, cycle_s, origin, targets)
+
+    def made(share: float) -> Programme:
+        stretches = _Maker(runs, plan.overshoot_deg, machine, cycle_s, origin, share).all()
+        table, rows = tabulator.tabulate(stretches)
+        return Programme(runs, table, cycle_s, stretches[0].begin, rows.first_side, targets, share)
+
+    return slow_enough(TRAVEL_SHARES, made)
 
 
 class _Maker:
     """Makes the stretches of runs; holds what all of them need."""
 
     def __init__(
-        self, runs: Sequence[CircleRun], overshoot_deg: float, machine: MachineFile, cycle_s: float, origin: str
+        self,
+        runs: Sequence[CircleRun],
+        overshoot_deg: float,
+        machine: MachineFile,
+        cycle_s: float,
+        origin: str,
+        share: float,
     ) -> None:
         self.runs, self.overshoot_deg, self.machine = runs, overshoot_deg, machine
-        self.cycle_s, self.origin = cycle_s, origin
+        self.cycle_s, self.origin, self.share = cycle_s, origin, share
+
+    def all(self) -> list[Stretch]:
+        """Every run and the ways between them."""
+        stretches: list[Stretch] = []
+        for index in range(len(self.runs)):
+            own = list(self.run(index))
+            if stretches:
+                stretches += self.transfer(index, stretches[-1], own[0])
+            stretches += own
+        return stretches
 
     def run(self, index: int) -> Iterator[Stretch]:
         """Feed in, arc with its capture, retract."""
@@ -89,6 +109,7 @@ class _Maker:
         limits = path_limits(
             one_turn,
             self.machine,
+            self.share,
             lambda row: describe(self.origin, self.runs, Phase.ARC, index, row * PROBE_DEG),
         )
         limits = replace(limits, velocity_mm_s=run.feed_mm_min / 60.0)
@@ -116,7 +137,9 @@ class _Maker:
 
     def move(self, index: int, phase: Phase, path: PosePath) -> Stretch:
         """A path from rest to rest, as fast as the sliders' limits allow."""
-        limits = path_limits(path, self.machine, lambda _: describe(self.origin, self.runs, phase, index, math.nan))
+        limits = path_limits(
+            path, self.machine, self.share, lambda _: describe(self.origin, self.runs, phase, index, math.nan)
+        )
         u_mm = rest_to_rest(path.length_mm, limits, self.cycle_s)
         return Stretch.uncaptured(phase, index, path.poses(u_mm))
 
