@@ -1,0 +1,89 @@
+"""Circular tests as G-code: LinuxCNC's own arcs, in both directions, with the compensation off and then on.
+
+Model: the ball stands at cup + R_platform ball_offset of the pose's position, so that a circle of the ball about the cup
+is a circle of the position about cup - R ball_offset in the same plane. An arc takes one turn and a half from angle pi:
+a quarter turn before the turn that is evaluated and one after it, as a test's overshoot.
+Tags: analogue output 0 has the number of the arc while it is driven, 0 between.
+Units: mm, deg; feed mm/min.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.rig.geometry import rotation_rpy
+
+FEED_MM_MIN = 9000.0
+BALL_OFFSET_MM = (0.0, 0.0, 60.0)
+SETTLE_S = 0.8
+"""Compensation fades in over 500 servo periods of 1 ms."""
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A horizontal circle of the ball about a cup, with the platform held at an orientation."""
+
+    name: str
+    cup_mm: tuple[float, float, float]
+    radius_mm: float
+    platform_rpy_deg: tuple[float, float, float]
+
+    @property
+    def rotation(self) -> NDArray[np.float64]:
+        """Of the platform, shape (3, 3)."""
+        return rotation_rpy(*np.radians(self.platform_rpy_deg))
+
+    @property
+    def centre_mm(self) -> NDArray[np.float64]:
+        """Centre of the circle of the platform's position, shape (3,)."""
+        return np.array(self.cup_mm) - self.rotation @ np.array(BALL_OFFSET_MM)
+
+
+@dataclass(frozen=True)
+class Arc:
+    """One arc of the program. `tag`: see above; `direction`: +1 counter-clockwise."""
+
+    tag: int
+    circle: Circle
+    direction: int
+    is_compensated: bool
+
+
+STANDARD = Circle("standard, level", (0.0, 0.0, 340.0), 100.0, (0.0, 0.0, 0.0))
+UNSEEN = Circle("unseen: lower, smaller, tilted", (5.0, -5.0, 330.0), 90.0, (6.0, -4.0, -8.0))
+CIRCLES = (STANDARD, UNSEEN)
+
+
+def arcs() -> list[Arc]:
+    """Give the arcs in the order in which they are driven."""
+    kinds = [(on, circle, way) for on in (False, True) for circle in CIRCLES for way in (1, -1)]
+    return [Arc(tag, circle, way, on) for tag, (on, circle, way) in enumerate(kinds, start=1)]
+
+
+def program() -> str:
+    """Give the whole program, ended with compensation in force and the platform on the last circle."""
+    lines = ["G21 G90 G17 G94 G61 G40 G49 G80", "M65 P0", "M68 E0 Q0", f"F{FEED_MM_MIN:g}"]
+    is_on = False
+    for arc in arcs():
+        if arc.is_compensated != is_on:
+            is_on = arc.is_compensated
+            lines += ["M64 P0", f"G4 P{SETTLE_S:g}"]
+        lines += _arc_lines(arc)
+    return "\n".join([*lines, "G4 P0.1", "M2", ""])
+
+
+def _arc_lines(arc: Arc) -> Iterator[str]:
+    x, y, z = arc.circle.centre_mm
+    a, b, c = arc.circle.platform_rpy_deg
+    radius = arc.circle.radius_mm
+    yield f"(arc {arc.tag}: {arc.circle.name}, {arc.direction:+d})"
+    yield f"G0 X{x - radius:.9f} Y{y:.9f} Z{z:.9f} A{a:g} B{b:g} C{c:g}"
+    yield "G4 P0.2"
+    yield f"M68 E0 Q{arc.tag}"
+    # P2: the second crossing of the end point, half a turn and one.
+    yield f"{'G3' if arc.direction > 0 else 'G2'} X{x + radius:.9f} Y{y:.9f} I{radius:.9f} J0 P2"
+    yield "M68 E0 Q0"

@@ -1,0 +1,82 @@
+"""LinuxCNC in namespaces of its own: as an ordinary user, beside any other LinuxCNC, and gone when its time is over.
+
+LinuxCNC refuses root, loads modules from one folder of the system only, and keeps its state in System V shared memory,
+in `/tmp` and in processes that outlive their parent. `unshare` (util-linux) gives it a mount, an IPC and a PID namespace:
+the folder of modules shows a copy with ours added, `/tmp` is empty but for the work folder, and when `unshare` ends or is
+killed the kernel ends every process within.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+MODULES = Path("/usr/lib/linuxcnc/modules")
+HEADER = Path("/usr/include/linuxcnc/kinematics.h")
+INSIDE = "/tmp/session"
+"""Where the work folder is, seen from within."""
+
+NOBODY = "65534"
+ENTER = f"""
+set -e
+mount --bind "$1" /mnt
+mount -t tmpfs -o mode=1777 tmpfs /tmp
+mkdir {INSIDE}
+mount --bind /mnt {INSIDE}
+mount --bind {INSIDE}/modules {MODULES}
+cd {INSIDE}
+shift
+exec "$@"
+"""
+ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": INSIDE, "LANG": "C.UTF-8", "USER": "nobody"}
+
+
+@cache
+def why_not() -> str | None:
+    """Say why LinuxCNC cannot be run here; None where it can."""
+    if shutil.which("linuxcnc") is None:
+        return "LinuxCNC is not installed (Debian: linuxcnc-uspace)"
+    if not HEADER.exists():
+        return "LinuxCNC's headers are not installed (Debian: linuxcnc-uspace-dev)"
+    probe = subprocess.run([*_unshare(), "true"], capture_output=True, text=True, timeout=60)
+    if probe.returncode != 0:
+        return f"no namespaces for LinuxCNC: {probe.stderr.strip()} (expected root, or unprivileged user namespaces)"
+    return None
+
+
+def prepare(work: Path, module: Path) -> None:
+    """Make the folder of realtime modules that LinuxCNC will see: the distribution's, and `module`."""
+    shutil.copytree(MODULES, work / "modules")
+    shutil.copy2(module, work / "modules")
+
+
+def run(work: Path, *command: str, timeout_s: float) -> subprocess.CompletedProcess[str]:
+    """Run a command in the work folder, as an ordinary user, until it ends or its time is over.
+
+    Raises
+    ------
+    subprocess.TimeoutExpired
+        With it ends everything that it started.
+    """
+    as_user: list[str] = []
+    if os.geteuid() == 0:
+        as_user = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]
+        for each in (work, *work.rglob("*")):
+            os.chown(each, int(NOBODY), int(NOBODY))
+    inside = ["sh", "-c", ENTER, "sh", str(work), *as_user, *command]
+    return subprocess.run(
+        [*_unshare(), *inside],
+        env=ENVIRONMENT,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=timeout_s,
+    )
+
+
+def _unshare() -> list[str]:
+    unshare = ["unshare", "--mount", "--ipc", "--pid", "--fork", "--kill-child", "--mount-proc"]
+    return unshare if os.geteuid() == 0 else [*unshare, "--user", "--map-current-user"]

@@ -1,0 +1,112 @@
+"""One run of LinuxCNC: the sample configuration, a program, and every servo period's joints.
+
+The configuration is that of `firmware_interfaces/linuxcnc`, but for the user interface, the program and a sampler.
+Units: mm, deg, ns, as in the columns' names.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from tests.linuxcnc.module import SOURCES
+from tests.linuxcnc.sandbox import INSIDE, prepare, run
+
+OPERATOR = Path(__file__).with_name("operator_script.py")
+TIMEOUT_S = 400.0
+PERIOD_S = 0.001
+
+PINS = {
+    **{f"slider_{k + 1}_mm": (f"joint.{k}.pos-cmd", "f") for k in range(6)},
+    **{f"pose_{name}": (f"axis.{name}.pos-cmd", "f") for name in "xyzabc"},
+    "tag": ("motion.analog-out-00", "f"),
+    "active_part": ("hexdbb-kins.active-part", "f"),
+    "largest_correction_mm": ("hexdbb-kins.largest-correction", "f"),
+    "refused": ("hexdbb-kins.refused", "u"),
+    "inverse_ns": ("hexdbb-kins.time", "s"),
+    "iterations": ("hexdbb-kins.iterations", "s"),
+}
+"""What is sampled: column, pin and type of each. Joints in their own coordinates, not from where the motors were."""
+
+
+@dataclass(frozen=True)
+class Session:
+    """What LinuxCNC did.
+
+    Attributes
+    ----------
+    columns : dict
+        By the names of `PINS`, shape (n,), a row a servo period without gaps.
+    commanded, actual : (6,) arrays
+        Pose at the end, mm and deg: as the program has it, as the module finds it from the joints.
+    """
+
+    columns: dict[str, NDArray[np.float64]]
+    commanded: NDArray[np.float64]
+    actual: NDArray[np.float64]
+
+    @property
+    def sliders_mm(self) -> NDArray[np.float64]:
+        """Joint commands, shape (n, 6)."""
+        return np.column_stack([self.columns[f"slider_{k}_mm"] for k in range(1, 7)])
+
+
+def run_linuxcnc(work: Path, module: Path, compensation: Path, program: str) -> Session:
+    """Run a program in a work folder that does not exist yet.
+
+    Raises
+    ------
+    RuntimeError
+        LinuxCNC did not get to the program's end, or the sampler lost periods; with what was printed.
+    """
+    shutil.copytree(SOURCES, work, ignore=shutil.ignore_patterns("*.c", "*.h", "*.md", "CMakeLists.txt"))
+    prepare(work, module)
+    shutil.copyfile(compensation, work / "sp120.hexcomp")
+    shutil.copy2(OPERATOR, work)
+    (work / OPERATOR.name).chmod(0o755)
+    (work / "program.ngc").write_text(program)
+    (work / "record.hal").write_text(_record_hal())
+    (work / "hexglider.ini").write_text(_ini((work / "hexglider.ini").read_text()))
+    done = run(work, "linuxcnc", f"{INSIDE}/hexglider.ini", timeout_s=TIMEOUT_S)
+    outcome, log = work / "operator.json", work / "linuxcnc_debug.txt"
+    if not outcome.is_file():
+        printed = f"{done.stdout}{done.stderr}{log.read_text() if log.is_file() else ''}"
+        raise RuntimeError(f"LinuxCNC ended with {done.returncode} before the program did:\n{printed}")
+    poses = json.loads(outcome.read_text())
+    return Session(_columns(work / "samples.txt"), np.array(poses["commanded"]), np.array(poses["actual"]))
+
+
+def _ini(sample: str) -> str:
+    """The sample with what the user of it has to say as well."""
+    replaced = {
+        "DISPLAY = axis\n": f"DISPLAY = {INSIDE}/{OPERATOR.name}\nOPEN_FILE = {INSIDE}/program.ngc\n",
+        "HALFILE = hexglider.hal\n": "HALFILE = hexglider.hal\nHALFILE = record.hal\n",
+    }
+    for line, instead in replaced.items():
+        if sample.count(line) != 1:
+            raise RuntimeError(f"hexglider.ini: {sample.count(line)} lines {line.strip()!r} (expected one)")
+        sample = sample.replace(line, instead)
+    return sample
+
+
+def _record_hal() -> str:
+    types = "".join(kind for _, kind in PINS.values())
+    lines = [f"loadrt sampler depth=20000 cfg={types}", "addf sampler.0 servo-thread"]
+    lines += [f"net sampled-{k} {pin} => sampler.0.pin.{k}" for k, (pin, _) in enumerate(PINS.values())]
+    return "\n".join([*lines, f"loadusr halsampler -t {INSIDE}/samples.txt", ""])
+
+
+def _columns(samples: Path) -> dict[str, NDArray[np.float64]]:
+    text = samples.read_text()
+    if "overrun" in text:
+        raise RuntimeError("the sampler lost servo periods (overrun)")
+    # LinuxCNC ends while the last line is written.
+    lines = text[: text.rindex("\n")].splitlines()
+    table = np.loadtxt(lines)
+    if np.any(np.diff(table[:, 0]) != 1):
+        raise RuntimeError("the sampler lost servo periods (numbers with gaps)")
+    return dict(zip(PINS, table[:, 1:].T, strict=True))
