@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.truth.timeline import Arc, Timeline
+from tests.truth.timeline import Arc, Drive, Timeline
 
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
@@ -50,6 +50,7 @@ def simulate(
     seed: int | None = None,
     pace: Pace | None = None,
     temperature: bool = False,
+    drive: Drive | None = None,
 ) -> Record:
     """Drive a plan on a true machine.
 
@@ -66,6 +67,8 @@ def simulate(
         nothing.
     temperature : bool
         Whether a thermometer is read.
+    drive : callable, optional
+        Slider targets of poses, where a controller compensates.
 
     Returns
     -------
@@ -83,7 +86,7 @@ def simulate(
     machine = plan.machine_file()
     noise_seed = truth.seed if seed is None else seed
     parts = []
-    for arc, push, reading_mm in _runs(truth, plan, machine, pace):
+    for arc, push, reading_mm in _runs(truth, plan, machine, pace, drive):
         draw = np.random.default_rng([noise_seed, arc.run.sweep])
         columns = _columns(arc, machine)
         noisy_um = reading_mm * 1e3 + draw.normal(0.0, truth.gauge.noise_um, len(reading_mm))
@@ -101,12 +104,14 @@ def true_readings_mm(truth: TruthFile, plan: Plan, pace: Pace | None = None) -> 
     return np.concatenate([reading_mm for _, _, reading_mm in _runs(truth, plan, machine, pace)])
 
 
-def _runs(truth: TruthFile, plan: Plan, machine: MachineFile, pace: Pace) -> Iterator[tuple[Arc, Push, Array]]:
+def _runs(
+    truth: TruthFile, plan: Plan, machine: MachineFile, pace: Pace, drive: Drive | None = None
+) -> Iterator[tuple[Arc, Push, Array]]:
     """Go through the time line; give each run with the displacements at its samples and its true readings (mm)."""
     true_machine = truth.true_machine(machine)
     remembers = any(table.has_memory for table in truth.mechanism)
     instants = pace.instants_per_sample if remembers else 1
-    for stretch in Timeline(plan, machine, pace.rate_hz, instants, pace.travel_s).stretches():
+    for stretch in Timeline(plan, machine, pace.rate_hz, instants, pace.travel_s, drive).stretches():
         if isinstance(stretch, Arc):
             push = true_machine.displaced(stretch.motion)
             yield stretch, push.at(stretch.samples), _read_mm(true_machine, stretch, push)

@@ -3,7 +3,7 @@
 Model: a run is an arc at constant speed, the captured laps with an overshoot before and after, so that play, friction
 and lag are in their steady course when the first sample is taken. Between runs the drives travel to the next beginning
 along a half cosine in a fixed time. Time is counted in samples; an instant is a sample's fraction.
-Assumption: drives follow their targets; what stands between drive and slider is a mechanism.
+Assumption: drives follow their targets, nominal or compensated; what stands between drive and slider is a mechanism.
 Formula: nominal inverse kinematics in closed form, from the rig's geometry without errors.
 Units: mm, s, rad.
 """
@@ -11,7 +11,7 @@ Units: mm, s, rad.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,6 +23,9 @@ from hexdbb.rig.geometry import Array, TrueGeometry, rotation_rpy, true_geometry
 from hexdbb.rig.mechanisms import Motion
 from hexdbb.rig.plant import Mounted
 from hexdbb.rig.pose_solver import Poses
+
+Drive = Callable[[Array, Array, float], Array]
+"""Positions (n, 3) mm, roll, pitch and yaw (n, 3) rad, time between them in s -> drives (n, 6) mm."""
 
 
 @dataclass(frozen=True)
@@ -66,11 +69,21 @@ class Timeline:
         Instants that mechanisms go through from sample to sample.
     travel_s : float
         From the end of a run to the beginning of the next.
+    drive : callable, optional
+        Where the drives are told to go, by a controller that compensates; inverse kinematics of the nominal machine
+        where none is given.
     """
 
     def __init__(
-        self, plan: Plan, machine: MachineFile, rate_hz: float, instants_per_sample: int, travel_s: float
+        self,
+        plan: Plan,
+        machine: MachineFile,
+        rate_hz: float,
+        instants_per_sample: int,
+        travel_s: float,
+        drive: Drive | None = None,
     ) -> None:
+        self._drive = drive
         self._plan, self._nominal = plan, true_geometry(machine)
         self._rate_hz, self._fine = rate_hz, instants_per_sample
         self._travel_samples = max(1, math.ceil(travel_s * rate_hz))
@@ -94,16 +107,23 @@ class Timeline:
         instants = np.arange((2 * overshoot + captured) * self._fine + 1)
         angle = rad_per_sample * (instants / self._fine - overshoot)
         nominal = _nominal_poses(run, angle)
+        dt_s = 1.0 / (self._rate_hz * self._fine)
         motion = Motion(
             (begin + instants / self._fine) / self._rate_hz,
-            1.0 / (self._rate_hz * self._fine),
-            _sliders_mm(self._nominal, nominal),
+            dt_s,
+            self._driven(run, nominal, dt_s),
             run.mount.id,
             circle.id,
         )
         mounted = Mounted(run.mount.id, run.mount.cup_mm, circle.ball_offset_mm, plan.gauge.bar_length_mm)
         samples = (overshoot + np.arange(captured)) * self._fine
         return Arc(run, motion, nominal, angle, samples, mounted)
+
+    def _driven(self, run: CircleRun, nominal: Poses, dt_s: float) -> Array:
+        if self._drive is None:
+            return _sliders_mm(self._nominal, nominal)
+        rpy_rad = np.broadcast_to(np.radians(run.circle.platform_rpy_deg), nominal.position_mm.shape)
+        return self._drive(nominal.position_mm, rpy_rad, dt_s)
 
     def _travel(self, before: Arc, after: Arc) -> Motion:
         start, end = before.motion.drive_mm[-1], after.motion.drive_mm[0]

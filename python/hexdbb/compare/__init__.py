@@ -9,6 +9,7 @@ The core takes arrays and knows nothing of models::
 from hexdbb.compare.circles import CircleComparison, DirectionComparison
 from hexdbb.compare.comparison import Comparison, compare
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
+from hexdbb.compare.radial import RadialError
 from hexdbb.compare.worst import WorstPlace
 
 __all__ = [
@@ -19,6 +20,7 @@ __all__ = [
     "DirectionComparison",
     "Quantities",
     "Quantity",
+    "RadialError",
     "WorstPlace",
     "compare",
 ]

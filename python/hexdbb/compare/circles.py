@@ -5,7 +5,7 @@ Convention: residual = measured - predicted. Radial deviation of a path = readin
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,6 +39,10 @@ class DirectionComparison:
         Commanded polar angle as recorded.
     residual_mm : (n,) array
         Measured minus predicted reading.
+    radial_mm : (n,) array or None
+        Radial error of each sample: its distance from the centre less the commanded radius, the set-up's centre offset
+        removed (least squares over both directions, ISO 230-4). No model is in it: it is what the machine, compensated
+        or not, does to a commanded circle. None where no direction is a full circle.
     measured, predicted : Path
         Mean path over the laps.
     measured_quantities, predicted_quantities : Quantities
@@ -51,6 +55,7 @@ class DirectionComparison:
     rows: IndexArray
     angle_rad: FloatArray
     residual_mm: FloatArray
+    radial_mm: FloatArray | None
     measured: Path
     predicted: Path
     measured_quantities: Quantities
@@ -70,9 +75,13 @@ class DirectionComparison:
 
 @dataclass(frozen=True)
 class CircleComparison:
-    """One circle of one record at one feed: `directions` holds counter-clockwise first, then clockwise."""
+    """One circle of one record at one feed: `directions` holds counter-clockwise first, then clockwise.
+
+    `compensation` names the compensation file the record was driven with, None where it was not.
+    """
 
     record_name: str
+    compensation: str | None
     circle: Circle
     feed_mm_min: float
     directions: tuple[DirectionComparison, ...]
@@ -93,8 +102,13 @@ class CircleComparison:
     @property
     def set_up_centre_mm(self) -> FloatArray | None:
         """Centre offset (2,) of the measured paths, least squares; None where no direction is a full circle."""
-        full = [part.measured for part in self.directions if part.measured.is_full_circle]
-        return iso230.set_up_centre_mm(*full) if full else None
+        return _centre_mm(part.measured for part in self.directions)
+
+    @property
+    def radial_mm(self) -> FloatArray | None:
+        """Radial error of every sample of both directions; see `DirectionComparison.radial_mm`."""
+        parts = [part.radial_mm for part in self.directions if part.radial_mm is not None]
+        return np.concatenate(parts) if parts else None
 
 
 def root_mean_square(values: FloatArray) -> float:
@@ -135,12 +149,14 @@ def _compare_circle(
     measured_quantities, predicted_quantities = evaluate_quantities(measured), evaluate_quantities(predicted)
     angle_rad = np.radians(columns["angle_deg"])
     residual_mm = record.reading_mm - predicted_mm
+    centre_mm = _centre_mm(measured.values())
     directions = tuple(
         DirectionComparison(
             direction=direction,
             rows=found,
             angle_rad=angle_rad[found],
             residual_mm=residual_mm[found],
+            radial_mm=None if centre_mm is None else _radial_mm(record, circle, found, centre_mm),
             measured=measured[direction],
             predicted=predicted[direction],
             measured_quantities=measured_quantities[direction],
@@ -149,7 +165,27 @@ def _compare_circle(
         )
         for direction, found in rows.items()
     )
-    return CircleComparison(name, circle, feed_mm_min, directions)
+    return CircleComparison(name, compensation_of(record), circle, feed_mm_min, directions)
+
+
+def compensation_of(record: Record) -> str | None:
+    """Name of the compensation file a record was driven with; None where it was not."""
+    driven = record.metadata.get("compensation")
+    return str(driven.get("file", "a compensation")) if isinstance(driven, dict) else None
+
+
+def _centre_mm(paths: Iterable[Path]) -> FloatArray | None:
+    full = [path for path in paths if path.is_full_circle]
+    return iso230.set_up_centre_mm(*full) if full else None
+
+
+def _radial_mm(record: Record, circle: Circle, rows: IndexArray, centre_mm: FloatArray) -> FloatArray:
+    """Distance of each sample from the centre less the commanded radius."""
+    distance_mm = record.reading_mm[rows] + record.gauge.bar_length_mm
+    angle_rad = np.radians(record.columns["angle_deg"][rows])
+    points_mm = distance_mm[:, None] * np.column_stack([np.cos(angle_rad), np.sin(angle_rad)])
+    radial_mm: FloatArray = np.hypot(*(points_mm - centre_mm).T) - circle.radius_mm
+    return radial_mm
 
 
 def _mean_path(record: Record, circle: Circle, rows: IndexArray, reading_mm: FloatArray) -> Path:

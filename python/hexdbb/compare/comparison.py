@@ -11,6 +11,7 @@ import numpy as np
 from hexdbb.compare.circles import CircleComparison, compare_circles, root_mean_square
 from hexdbb.compare.failures import Failures, failures
 from hexdbb.compare.json_form import comparison_html, comparison_json
+from hexdbb.compare.radial import RadialError, radial_errors
 from hexdbb.compare.samples import Columns, State, sample_columns
 from hexdbb.compare.variables import Dependence, dependences
 from hexdbb.compare.worst import WorstPlace, worst_places
@@ -32,6 +33,8 @@ class Comparison:
         Of the residual, measured minus predicted, over every sample.
     circles : tuple of CircleComparison
         In the order of the records, then circle, then feed.
+    radial : tuple of RadialError
+        Radial error of the commanded circles, one a record; no model is in it.
     worst : tuple of WorstPlace
         Arcs with the largest residual, largest first.
     failures : Failures
@@ -45,6 +48,7 @@ class Comparison:
     rms_mm: float
     peak_to_valley_mm: float
     circles: tuple[CircleComparison, ...]
+    radial: tuple[RadialError, ...]
     worst: tuple[WorstPlace, ...]
     failures: Failures
     dependences: tuple[Dependence, ...]
@@ -95,6 +99,7 @@ def compare(
         rms_mm=root_mean_square(residual_mm),
         peak_to_valley_mm=float(np.ptp(residual_mm)),
         circles=tuple(circles),
+        radial=radial_errors(circles),
         worst=tuple(worst_places(circles, WORST_COUNT)),
         failures=failures(columns),
         dependences=tuple(dependences(columns)),

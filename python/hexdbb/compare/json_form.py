@@ -11,6 +11,7 @@ from hexdbb import iso230
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
 from hexdbb.compare.failures import Failures
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities
+from hexdbb.compare.radial import RadialError
 from hexdbb.frames import html_table
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
     return {
         "rms_um": UM_PER_MM * comparison.rms_mm,
         "peak_to_valley_um": UM_PER_MM * comparison.peak_to_valley_mm,
+        "radial": [_radial(each) for each in comparison.radial],
         "edition": iso230.EDITION,
         "circles": [_direction(circle, part) for circle in comparison.circles for part in circle.directions],
         "worst": [{"where": place.where, "rms_um": UM_PER_MM * place.rms_mm} for place in comparison.worst],
@@ -32,6 +34,16 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "state": [
             {"variable": each.variable, "unit": each.unit, "share": each.share} for each in comparison.dependences
         ],
+    }
+
+
+def _radial(each: RadialError) -> dict[str, Any]:
+    return {
+        "record": each.record_name,
+        "compensation": each.compensation,
+        "rms_um": None if each.rms_mm is None else UM_PER_MM * each.rms_mm,
+        "peak_to_valley_um": None if each.peak_to_valley_mm is None else UM_PER_MM * each.peak_to_valley_mm,
+        "worst_circle": each.worst_circle,
     }
 
 

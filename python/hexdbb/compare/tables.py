@@ -19,7 +19,9 @@ def comparison_text(comparison: Comparison) -> RenderableType:
     """Lay a comparison out for a terminal, all lengths in micrometres."""
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     parts: list[RenderableType] = [
+        *_radial_lines(comparison),
         f"Residual (measured - predicted): rms {rms_um:.2f} µm, peak to valley {peak_um:.1f} µm",
+        *_compensated_note(comparison),
         "",
         _directions_table(comparison),
         "",
@@ -33,6 +35,26 @@ def comparison_text(comparison: Comparison) -> RenderableType:
         *residual_text(comparison),
     ]
     return Group(*parts)
+
+
+def _radial_lines(comparison: Comparison) -> Iterator[str]:
+    """One line a record: what the machine makes of a commanded circle."""
+    for each in comparison.radial:
+        of = f" of {each.record_name}" if _several_records(comparison) else ""
+        driven = f", compensated by {each.compensation}" if each.compensation else ""
+        if each.rms_mm is None or each.peak_to_valley_mm is None:
+            yield f"Radial error{of}{driven}: - (no full circle)"
+            continue
+        yield (
+            f"Radial error of the commanded circles{of}{driven}: rms {UM_PER_MM * each.rms_mm:.2f} µm,"
+            f" peak to valley {UM_PER_MM * each.peak_to_valley_mm:.1f} µm (circle {each.worst_circle})"
+        )
+
+
+def _compensated_note(comparison: Comparison) -> list[str]:
+    if not any(each.compensation for each in comparison.radial):
+        return []
+    return ["The residual judges the model where the sliders were; the radial error judges machine and compensation."]
 
 
 def _directions_table(comparison: Comparison) -> Table:
@@ -68,6 +90,7 @@ def _both_table(comparison: Comparison) -> Table:
 def _notes(comparison: Comparison) -> Iterator[str]:
     yield f"Quantities of {iso230.EDITION}:"
     yield from (f"  {quantity.symbol}: {quantity.name}" for quantity in QUANTITIES)
+    yield "Radial error: of every sample, centre offset removed (least squares); peak to valley of the worst circle."
     yield "Measured quantities are of the mean of the laps and hold the gauge's noise; predicted ones hold none."
     quantities = (part.measured_quantities for circle in comparison.circles for part in circle.directions)
     if any(None in values.values() for values in quantities):
