@@ -10,14 +10,14 @@ namespace {
 
 FitResult fit_with(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, double noise_mm,
                    std::vector<bool> free, int max_iterations, double robust_mm, const Eigen::VectorXi& sweep,
-                   bool curvature) {
+                   bool judging) {
   FitOptions options;
   options.noise_mm = noise_mm;
   options.free = std::move(free);
   options.max_iterations = max_iterations;
   options.robust_mm = robust_mm;
   options.sweep = sweep;
-  options.curvature = curvature;
+  options.judging = judging;
   return fit(model, samples, measured_mm, options);
 }
 
@@ -53,7 +53,7 @@ void bind_diagnosis(py::module_& module) {
       .def_readonly("termination", &FitResult::termination);
   module.def("fit", &fit_with, py::arg("model"), py::arg("samples"), py::arg("measured_mm"), py::kw_only(),
              py::arg("noise_mm"), py::arg("free") = std::vector<bool>(), py::arg("max_iterations") = 50,
-             py::arg("robust_mm") = 0.0, py::arg("sweep") = Eigen::VectorXi(), py::arg("curvature") = true,
+             py::arg("robust_mm") = 0.0, py::arg("sweep") = Eigen::VectorXi(), py::arg("judging") = false,
              py::call_guard<py::gil_scoped_release>(), "Fit the free values of a model to readings.");
   module.def("expected_sizes", &expected_sizes, py::arg("model"), "Prior sigma of each value of a model.");
   module.def("identifiability", &identifiability, py::arg("scaled_jacobian"), py::kw_only(), py::arg("relative"),

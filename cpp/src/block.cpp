@@ -2,54 +2,23 @@
 
 #include <limits>
 
+#include "block_lanes.hpp"
 #include "multiversion.hpp"
-#include "sample_kernel.hpp"
 
 namespace hexdbb {
 
 namespace {
 
-using rssr::Vec;
-
-constexpr int kMaxSteps = 12;          // lanes that need more are left to the single-pose solver
-constexpr double kLargestTurn = 0.05;  // a longer one means that the start was no neighbour
-
-/// Columns `first`, `first` + 1, `first` + 2 of a table as a vector of lanes.
-template <class Table>
-inline Vec<Lanes> load3(const Table& table, Eigen::Index row, int first) {
-  return {load(&table(row, first)), load(&table(row, first + 1)), load(&table(row, first + 2))};
-}
-
-template <class Table>
-inline void store3(const Vec<Lanes>& v, Table& table, Eigen::Index row, int first) {
-  store(v.x, &table(row, first));
-  store(v.y, &table(row, first + 1));
-  store(v.z, &table(row, first + 2));
-}
-
-inline Vec<Lanes> constant3(const Matrix36& columns, int k) {
-  return {lanes_of(columns(0, k)), lanes_of(columns(1, k)), lanes_of(columns(2, k))};
-}
+constexpr int kMaxSteps = 12;  // lanes that need more are left to the single-pose solver
 
 inline rssr::Joints<Lanes> load_joints(const NominalGeometry& nominal, const Block& block, Eigen::Index row) {
   rssr::Joints<Lanes> out;
   for (int k = 0; k < kLegs; ++k) {
-    const Lanes along = load(&block.sliders_mm(row, k)) + load(&block.ports(row, port::kSlider + k));
-    out.base[k] = constant3(nominal.vertex, k) + along * constant3(nominal.direction, k) +
-                  load3(block.ports, row, port::kSliderJoint + 3 * k);
-    out.length[k] = nominal.machine.leg_length_mm + load(&block.ports(row, port::kLeg + k));
+    out.base[k] = load_base(nominal, block, row, k);
+    out.length[k] = load_length(nominal, block, row, k);
   }
-  for (int i = 0; i < kGuideways; ++i) {
-    out.platform[i] = constant3(nominal.platform_joint, 2 * i) + load3(block.ports, row, port::kPlatformJoint + 6 * i);
-  }
+  for (int i = 0; i < kGuideways; ++i) out.platform[i] = load_platform_joint(nominal, block, row, 2 * i);
   return out;
-}
-
-inline Lanes magnitude(const Lanes& v) { return v < 0.0 ? -v : v; }
-inline bool any_above(const Lanes& v, double limit) {
-  bool above = false;
-  for (int lane = 0; lane < kLanes; ++lane) above |= v[lane] > limit;
-  return above;
 }
 
 /// Newton on all lanes until the worst of them is solved; a solved lane's further steps do not move it. Not a number
@@ -86,32 +55,6 @@ inline rssr::Loops<Lanes> solve_loops(const rssr::Joints<Lanes>& joints, const r
   }
 }
 
-inline void store_sensitivity(const NominalGeometry& nominal, const rssr::LegForces<Lanes>& forces,
-                              const rssr::Joints<Lanes>& joints, const rssr::PlacedPlatform<Lanes>& platform,
-                              const Vec<Lanes>& n, Block& block, Eigen::Index row) {
-  auto& out = block.sensitivity;
-  for (int k = 0; k < kLegs; ++k) {
-    const Vec<Lanes> force = forces.share[k] * forces.leg[k];
-    store(rssr::dot(force, constant3(nominal.direction, k)), &out(row, port::kSlider + k));
-    store(forces.share[k] * joints.length[k], &out(row, port::kLeg + k));
-    store3(force, out, row, port::kSliderJoint + 3 * k);
-    const Vec<Lanes> back = platform.turned_back(force);
-    store3(Vec<Lanes>{-back.x, -back.y, -back.z}, out, row, port::kPlatformJoint + 3 * k);
-  }
-  store3(platform.turned_back(n), out, row, port::kBall);
-  store3(Vec<Lanes>{-n.x, -n.y, -n.z}, out, row, port::kCup);
-  store(lanes_of(1.0), &out(row, port::kReading));
-}
-
-inline void store_pose(const rssr::PlacedPlatform<Lanes>& platform, Block& block, Eigen::Index row) {
-  store3(platform.position, block.pose, row, 0);
-  for (int j = 0; j < 3; ++j) {
-    store(platform.column[j].x, &block.pose(row, 3 + j));
-    store(platform.column[j].y, &block.pose(row, 6 + j));
-    store(platform.column[j].z, &block.pose(row, 9 + j));
-  }
-}
-
 inline void solve_lanes(const NominalGeometry& nominal, Block& block, Eigen::Index row, bool want_sensitivity) {
   const rssr::Joints<Lanes> joints = load_joints(nominal, block, row);
   const rssr::TriangleFrame<Lanes> frame = rssr::triangle_frame(joints.platform);
@@ -128,15 +71,12 @@ inline void solve_lanes(const NominalGeometry& nominal, Block& block, Eigen::Ind
   const rssr::PlacedPlatform<Lanes> platform = rssr::align(loops.q, frame, joints.platform[0]);
   store_pose(platform, block, row);
 
-  const Vec<Lanes> ball = load3(block.ball_mm, row, 0) + load3(block.ports, row, port::kBall);
-  const Vec<Lanes> bar =
-      platform.position + platform.turned(ball) - load3(block.cup_mm, row, 0) - load3(block.ports, row, port::kCup);
-  const Lanes length = root(rssr::dot(bar, bar));
-  store(length - load(&block.bar_length_mm(row)) + load(&block.ports(row, port::kReading)), &block.reading_mm(row));
+  const LanesBar bar = read_bar(platform, block, row);
+  store(bar.reading_mm, &block.reading_mm(row));
   if (want_sensitivity) {
-    const Vec<Lanes> n = (1.0 / length) * bar;
-    const rssr::LegForces<Lanes> forces = rssr::leg_forces(joints, frame, platform, ball, n);
-    store_sensitivity(nominal, forces, joints, platform, n, block, row);
+    const Vec<Lanes> n = bar.direction;
+    const rssr::LegForces<Lanes> forces = rssr::leg_forces(joints, frame, platform, bar.ball, n);
+    store_sensitivity(nominal, forces.leg, forces.share, joints.length, platform, n, block, row);
     // A singular pose or a bar of no length has no sensitivity: its numbers are not finite, and neither is its residual
     // then.
     residual_mm += 0.0 * (forces.share[0] + n.x);

@@ -33,10 +33,14 @@ struct Block {
 enum class Start { kAngles, kNeighbour };
 
 /// Solve rows [0, rows) of a block, eight at a time; rows are rounded up to whole lanes, so the caller repeats its last
-/// row. The platform's joints must be shared. Rows whose residual is not below the tolerance have no solution from
-/// their start.
+/// row. The platform's joints are taken for shared: those of the first leg of each pair count. Rows whose residual is
+/// not below the tolerance have no solution from their start.
 void solve_block(const NominalGeometry& nominal, Block& block, Eigen::Index rows, Start start,
                  bool want_sensitivity) noexcept;
+
+/// The same where legs that end together in the nominal machine have joints of their own. Rows [0, rows) hold what
+/// solve_block found for the first leg's joint of each pair; from there six coordinates of the platform are searched.
+void solve_block_six(const NominalGeometry& nominal, Block& block, Eigen::Index rows, bool want_sensitivity) noexcept;
 
 /// information += J'J (lower triangle), gradient += J'r for `rows` rows of a table of kRows rows and `columns` columns.
 void accumulate(const double* jacobian, const double* residual, Eigen::Index rows, Eigen::Index columns,

@@ -72,18 +72,13 @@ void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fre
   Block& block = *block_;
   load(rows);
   const Start from = start(rows, fresh);
-  if (joints_are_shared(block, rows.count)) {
-    solve_block(model_.nominal, block, rows.count, from, want_sensitivity);
-    for (Eigen::Index row = 0; row < rows.count; ++row) {
-      if (is_solved(block, row)) continue;
-      store_angles(RssrAngles(), block, row);  // what the lanes left there led nowhere
-      solve_row(rows, row, want_sensitivity);
-    }
-  } else {
-    for (Eigen::Index row = 0; row < rows.count; ++row) {
-      if (from == Start::kNeighbour && row > 0) block.angles.row(row) = block.angles.row(row - 1);
-      solve_row(rows, row, want_sensitivity);
-    }
+  const bool shared = joints_are_shared(block, rows.count);
+  solve_block(model_.nominal, block, rows.count, from, want_sensitivity && shared);
+  if (!shared) solve_block_six(model_.nominal, block, rows.count, want_sensitivity);
+  for (Eigen::Index row = 0; row < rows.count; ++row) {
+    if (is_solved(block, row)) continue;
+    store_angles(RssrAngles(), block, row);  // what the lanes left there led nowhere
+    solve_row(rows, row, want_sensitivity);
   }
   last_ = angles_of(block, rows.count - 1);
   if (memory_ != nullptr) memory_->blocks[rows.first / Block::kRows] = block.angles;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "normal_equations.hpp"
+#include "valley.hpp"
 
 namespace hexdbb {
 
@@ -30,24 +30,6 @@ Eigen::VectorXd of_each_value(const Model& model, Number number) {
 
 double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
 
-/// What is estimated: free values in units of their expected sizes.
-struct Unknowns {
-  Eigen::VectorXd start;     // values of the whole model
-  std::vector<int> columns;  // of the free ones
-  Eigen::VectorXd scale;     // expected sizes of the free ones
-  Eigen::VectorXd limit;     // and their physical limits, engine units
-
-  Eigen::Index size() const { return scale.size(); }
-
-  Eigen::VectorXd values(const double* z) const {
-    Eigen::VectorXd out = start;
-    for (Eigen::Index j = 0; j < size(); ++j) out[columns[j]] = z[j] * scale[j];
-    return out;
-  }
-
-  Eigen::VectorXd scaled_start() const { return start(columns).cwiseQuotient(scale); }
-};
-
 /// Residuals and prior, compressed. With r the whitened readings' residuals and J their Jacobian, Ceres sees the n + p
 /// numbers only through |r|^2, J'r and J'J. A triangular factor U of J'J, U^-T J'r and the part of |r| outside J's
 /// range have the same three, so that a problem of 20,000 residuals becomes one of p + 1, and its dense algebra takes
@@ -67,16 +49,12 @@ class CompressedCost : public ceres::CostFunction {
     Model model = model_;
     model.set_values(unknowns_.values(parameters[0]));
     const NormalEquations& now = accumulator_.at(model);
-    if (now.failure >= 0) return false;  // Ceres then takes a shorter step
-    const auto per_noise = unknowns_.scale / noise_mm_;
-    Eigen::MatrixXd information = per_noise.asDiagonal() * now.information * per_noise.asDiagonal();
-    information.diagonal().array() += 1.0;  // the prior's residuals are z themselves
-    const Eigen::LLT<Eigen::MatrixXd> factor(information);
-    const Eigen::VectorXd gradient = z - per_noise.cwiseProduct(now.gradient) / noise_mm_;
-    const Eigen::VectorXd inside = factor.matrixL().solve(gradient);
-    const double squared = now.squared / (noise_mm_ * noise_mm_) + z.squaredNorm();
+    if (now.failure >= 0) return false;                                 // Ceres then takes a shorter step
+    const Posterior here = posterior_of(now, unknowns_, noise_mm_, z);  // the prior's residuals are z themselves
+    const Eigen::LLT<Eigen::MatrixXd> factor(here.information);
+    const Eigen::VectorXd inside = -factor.matrixL().solve(here.downhill);
     Eigen::Map<Eigen::VectorXd>(residuals, size) = inside;
-    residuals[size] = std::sqrt(std::max(squared - inside.squaredNorm(), 0.0));
+    residuals[size] = std::sqrt(std::max(2.0 * here.cost - inside.squaredNorm(), 0.0));
     if (jacobians != nullptr && jacobians[0] != nullptr) {
       Eigen::Map<RowMajorMatrix> out(jacobians[0], size + 1, size);
       out.topRows(size) = factor.matrixU();
@@ -137,8 +115,7 @@ Identifiability machine_identifiability(const Model& model, Accumulator& accumul
 }
 
 void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
-              FitResult& out) {
-  Eigen::VectorXd z = unknowns.scaled_start();
+              Eigen::VectorXd z, FitResult& out) {
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(model, accumulator, unknowns, options.noise_mm), nullptr, z.data());
   ceres::Solver::Options solver;
@@ -149,10 +126,10 @@ void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unkn
   solver.parameter_tolerance = 1e-9;
   solver.initial_trust_region_radius = 1e8;  // the problem is nearly linear: start with Gauss-Newton steps
   solver.logging_type = ceres::SILENT;
+  const Eigen::VectorXd bound = bounds_about(unknowns, z);
   for (Eigen::Index j = 0; j < unknowns.size(); ++j) {
-    const double limit = std::max(unknowns.limit[j] / unknowns.scale[j], std::abs(z[j]));
-    problem.SetParameterLowerBound(z.data(), static_cast<int>(j), -limit);
-    problem.SetParameterUpperBound(z.data(), static_cast<int>(j), limit);
+    problem.SetParameterLowerBound(z.data(), static_cast<int>(j), -bound[j]);
+    problem.SetParameterUpperBound(z.data(), static_cast<int>(j), bound[j]);
   }
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
@@ -160,6 +137,23 @@ void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unkn
   out.iterations = static_cast<int>(summary.iterations.size()) - 1;
   out.termination = summary.message;
   out.values = unknowns.values(z.data());
+}
+
+/// For a fit that only judges a model: few readings show the way, all of them decide. Gives where the way ended.
+Eigen::VectorXd judge(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+                      Accumulator& accumulator, const Unknowns& unknowns, double noise_mm, FitResult& out) {
+  constexpr int kMostCoarse = 60, kMost = 20;
+  const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
+  FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
+  const Descent coarse = descend([&](const Eigen::VectorXd& z) { return few.at(z); }, few, start, bound, kMostCoarse);
+  const Descent fine =
+      descend([&](const Eigen::VectorXd& z) { return posterior_at(model, accumulator, unknowns, noise_mm, z); }, few,
+              coarse.z, bound, kMost);
+  out.usable = fine.is_reachable;
+  out.iterations = fine.steps;
+  out.termination = fine.is_at_rest ? "No further step is worth while." : "Many steps were not enough.";
+  out.values = unknowns.values(fine.z.data());
+  return fine.z;
 }
 
 /// Covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.
@@ -280,10 +274,16 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (unknowns.size() == 0) throw std::invalid_argument("there is nothing free to fit");
   out.free_columns = unknowns.columns;
   Accumulator accumulator(samples, measured_mm, unknowns.columns, options.robust_mm);
-  at_or_throw(accumulator, model);
-  out.rms_before_mm = rms(accumulator.residual_mm());
-  out.machine = machine_identifiability(model, accumulator, unknowns, options);
-  minimize(model, accumulator, unknowns, options, out);
+  Eigen::VectorXd z = unknowns.scaled_start();
+  if (options.judging && options.robust_mm == 0.0) {
+    z = judge(model, samples, measured_mm, accumulator, unknowns, options.noise_mm, out);
+  }
+  if (!options.judging) {
+    at_or_throw(accumulator, model);
+    out.rms_before_mm = rms(accumulator.residual_mm());
+    out.machine = machine_identifiability(model, accumulator, unknowns, options);
+  }
+  if (!out.usable) minimize(model, accumulator, unknowns, options, z, out);
 
   Model fitted = model;
   fitted.set_values(out.values);
@@ -295,7 +295,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.sweep.size() == samples.size()) out.correlation = correlation_length(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
-  if (options.curvature) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
+  if (!options.judging) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

@@ -56,6 +56,8 @@ const NormalEquations& Accumulator::at(const Model& model) {
   return last_;
 }
 
+void Accumulator::keep_jacobian() { jacobian_.setZero(samples_.size(), static_cast<Eigen::Index>(columns_.size())); }
+
 Eigen::VectorXd Accumulator::reading_mm(const Model& model) {
   Eigen::VectorXd out(samples_.size());
   BlockSolver(model, samples_, &memory_)
@@ -120,6 +122,9 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
         }
         for (std::size_t j = 0; j < columns_.size(); ++j) {
           chosen.col(j).head(rows.count) = all.col(columns_[j]).head(rows.count);
+        }
+        if (jacobian_.rows() > 0) {
+          jacobian_.middleRows(rows.first, rows.count) = chosen.topLeftCorner(rows.count, jacobian_.cols());
         }
         if (robust_mm_ > 0.0) chosen = weight.asDiagonal() * chosen;
         chosen.bottomRows(Block::kRows - rows.count).setZero();

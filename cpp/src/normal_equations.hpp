@@ -24,6 +24,10 @@ class Accumulator {
   /// Residuals of the last at(), mm.
   const Eigen::VectorXd& residual_mm() const { return residual_mm_; }
 
+  /// Keep the Jacobian of all readings at every pass; for few samples.
+  void keep_jacobian();
+  const Eigen::MatrixXd& jacobian() const { return jacobian_; }
+
   /// Predicted readings alone, mm; a sample without a solution reads zero.
   Eigen::VectorXd reading_mm(const Model& model);
 
@@ -37,6 +41,7 @@ class Accumulator {
   double robust_mm_;
   AngleMemory memory_;
   Eigen::VectorXd residual_mm_;
+  Eigen::MatrixXd jacobian_;  // of the chosen values; no rows where it is not kept
   Eigen::VectorXd last_values_;
   NormalEquations last_;
 };

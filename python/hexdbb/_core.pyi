@@ -417,7 +417,7 @@ def fit(
     max_iterations: typing.SupportsInt | typing.SupportsIndex = 50,
     robust_mm: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"] = ...,
-    curvature: bool = True,
+    judging: bool = False,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.

@@ -36,7 +36,7 @@ def evaluate_fit(
     noise: Noise,
     *,
     robust: bool = False,
-    curvature: bool = True,
+    judging: bool = False,
 ) -> tuple[Model, _core.FitResult]:
     """Fit chosen values of a model, no more: no held-out circles, no words, no ledger.
 
@@ -50,8 +50,8 @@ def evaluate_fit(
     noise : Noise
     robust : bool
         Huber's loss beyond `GLITCH_SIGMAS`.
-    curvature : bool
-        Whether the covariance counts the curvature of the readings; a fit that only judges a model does without.
+    judging : bool
+        A fit that only judges a model: it ends sooner, and its covariance is to first order.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def evaluate_fit(
             free=[bool(each) for each in free],
             robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
             sweep=_sweep_numbers(records),
-            curvature=curvature,
+            judging=judging,
         )
     except ValueError as error:
         raise InputError(f"{names}: {error}") from None
@@ -163,7 +163,7 @@ def refitter(noise: Noise, robust: bool = False) -> Refit:
     """Give a function that fits a model's free values to records."""
 
     def refit(records: Sequence[Record], model: Model) -> Model:
-        return evaluate_fit(records, model, model.free, noise, robust=robust, curvature=False)[0]
+        return evaluate_fit(records, model, model.free, noise, robust=robust, judging=True)[0]
 
     return refit
 

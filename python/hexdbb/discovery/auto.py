@@ -122,6 +122,6 @@ def is_needed(records: Sequence[Record], model: Model, choice: str) -> bool:
 
 def _squared(records: Sequence[Record], model: Model, noise: Noise) -> tuple[float, float, int]:
     """Squared residuals over the noise's variance, how many neighbours tell as much as one, and number of readings."""
-    result = evaluate_fit(records, model, model.free, noise, curvature=False)[1]
+    result = evaluate_fit(records, model, model.free, noise, judging=True)[1]
     squared = float(result.residual_mm @ result.residual_mm) / noise.sigma_mm**2
     return squared, result.correlation, len(result.residual_mm)

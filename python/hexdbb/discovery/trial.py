@@ -80,12 +80,12 @@ def try_effect(
     the rest is fitted again.
     """
     wider = with_effect(base.model, effect, elements, shape)
-    fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, curvature=False)
+    fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, judging=True)
     kept = _contributing(base, fitted, result, effect, elements)
     if kept != tuple(elements):
         elements = kept
         wider = with_effect(base.model, effect, elements, shape)
-        fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, curvature=False)
+        fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, judging=True)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
     count = int((wider.free & ~with_effect(base.model, effect, ()).free).sum())
     readings = base.readings / result.correlation

@@ -1,0 +1,26 @@
+// What a fit estimates: a model's free values in units of their expected sizes, within their physical limits.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hexdbb {
+
+struct Unknowns {
+  Eigen::VectorXd start;     // values of the whole model
+  std::vector<int> columns;  // of the free ones
+  Eigen::VectorXd scale;     // expected sizes of the free ones
+  Eigen::VectorXd limit;     // and their physical limits, engine units
+
+  Eigen::Index size() const { return scale.size(); }
+
+  Eigen::VectorXd values(const double* z) const {
+    Eigen::VectorXd out = start;
+    for (Eigen::Index j = 0; j < size(); ++j) out[columns[j]] = z[j] * scale[j];
+    return out;
+  }
+
+  Eigen::VectorXd scaled_start() const { return start(columns).cwiseQuotient(scale); }
+};
+
+}  // namespace hexdbb

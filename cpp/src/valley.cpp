@@ -1,0 +1,73 @@
+#include "valley.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexdbb {
+
+namespace {
+
+constexpr double kWorthAStep = 0.02;  // fall of chi-square
+constexpr double kDamping = 1e-3, kMoreDamping = 3.0, kLessDamping = 5.0, kMostDamping = 1e9;
+constexpr double kProbe = 0.1;     // of a step, to find its acceleration
+constexpr double kMostBend = 1.0;  // acceleration over velocity beyond which a step is not trusted
+
+Eigen::VectorXd every(const Eigen::VectorXd& column, Eigen::Index stride) {
+  return column(Eigen::seq(0, column.size() - 1, stride));
+}
+
+}  // namespace
+
+FewReadings::FewReadings(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+                         const Unknowns& unknowns, double noise_mm)
+    : model_(model),
+      unknowns_(unknowns),
+      stride_(std::max<Eigen::Index>(1, samples.size() / kRows)),
+      samples_(samples.every(stride_)),
+      measured_mm_(every(measured_mm, stride_)),
+      noise_mm_(noise_mm / std::sqrt(static_cast<double>(stride_))),
+      accumulator_(samples_, measured_mm_, unknowns.columns) {
+  accumulator_.keep_jacobian();
+}
+
+Eigen::VectorXd FewReadings::bend(const Eigen::VectorXd& z, const Eigen::VectorXd& v) {
+  at(z);
+  const Eigen::VectorXd here = measured_mm_ - accumulator_.residual_mm();
+  const Eigen::VectorXd probed = z + kProbe * v;
+  Model there = model_;
+  there.set_values(unknowns_.values(probed.data()));
+  const Eigen::VectorXd change = (accumulator_.reading_mm(there) - here) / kProbe;
+  const Eigen::VectorXd second = (2.0 / kProbe) * (change - accumulator_.jacobian() * unknowns_.scale.cwiseProduct(v));
+  return unknowns_.scale.cwiseProduct(accumulator_.jacobian().transpose() * second) / (noise_mm_ * noise_mm_);
+}
+
+Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewReadings& few, Eigen::VectorXd z,
+                const Eigen::VectorXd& bound, int most_steps) {
+  Descent out;
+  Posterior now = at(z);
+  out.is_reachable = now.is_reachable;
+  double damping = kDamping;
+  for (; now.is_reachable && out.steps < most_steps && damping < kMostDamping; ++out.steps) {
+    Eigen::MatrixXd damped = now.information;
+    damped.diagonal().array() += damping;
+    const BoundedStep straight(damped, now.downhill, z, bound);
+    out.is_at_rest = straight.promised() < kWorthAStep;
+    if (out.is_at_rest) break;
+    damping *= kMoreDamping;
+    const Eigen::VectorXd acceleration = -straight.solve(few.bend(z, straight.step()));
+    if (!(acceleration.norm() < kMostBend * straight.step().norm())) continue;
+    Eigen::VectorXd further = z + straight.step() + 0.5 * acceleration;
+    if ((further.cwiseAbs().array() > bound.array()).any()) further = z + straight.step();
+    const Posterior next = at(further);
+    if (!next.is_reachable || !(next.cost < now.cost)) continue;
+    out.is_at_rest = now.cost - next.cost < 0.5 * kWorthAStep;
+    z = further;
+    now = next;
+    damping /= kMoreDamping * kLessDamping;
+    if (out.is_at_rest) break;
+  }
+  out.z = z;
+  return out;
+}
+
+}  // namespace hexdbb
