@@ -1,0 +1,66 @@
+"""Circles that no machine was fitted on: other heights and places of the cup, other tilts and radii, another feed.
+
+Drawn once, the same for every machine; each keeps the clearances that `hexdbb plan propose` demands of its own circles
+(travel, gap, bar angle, condition of the machine), so that it lies where one would measure. A bar of another length is
+another record.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from hexdbb.errors import InputError
+from hexdbb.plan import Circle, Mount, Plan, load_plan
+from hexdbb.planning.clearances import Demands, circle_clearances
+
+BARS_MM = (60.0, 80.0, 100.0, 120.0)
+CIRCLES_PER_BAR = 5
+FEED_MM_MIN = 2000.0
+RANGE_UM = 2000.0
+"""Nobody has centred the bar on these machines: the cup is off by 0.1 mm, the platform by some tenths."""
+CUP_XY_MM, CUP_Z_MM = (-25.0, 25.0), (300.0, 355.0)
+PLANE_DEG, PLATFORM_DEG, YAW_DEG = 20.0, 15.0, 20.0
+SEED = 2006
+MOST_TRIALS = 5000
+
+
+@cache
+def unseen_plans() -> tuple[Plan, ...]:
+    """Give one plan for each bar; every circle has a mount of its own."""
+    return tuple(_plan(bar_mm) for bar_mm in BARS_MM)
+
+
+def _plan(bar_mm: float) -> Plan:
+    known = load_plan("standard")
+    machine, draw, demands = known.machine_file(), np.random.default_rng([SEED, int(bar_mm)]), Demands()
+    circles: list[Circle] = []
+    mounts: list[Mount] = []
+    for _ in range(MOST_TRIALS):
+        mount, circle = _drawn(draw, bar_mm, len(circles))
+        found = circle_clearances(machine, circle, mount.cup_mm)
+        if found is not None and demands.met_by(found):
+            circles.append(circle)
+            mounts.append(mount)
+        if len(circles) == CIRCLES_PER_BAR:
+            gauge = known.gauge.model_copy(update={"bar_length_mm": bar_mm, "range_um": RANGE_UM})
+            changed = {"mounts": tuple(mounts), "circles": tuple(circles), "gauge": gauge}
+            return known.model_copy(update={**changed, "feeds_mm_min": (FEED_MM_MIN,), "laps": 1})
+    raise InputError(f"unseen circles: {len(circles)} of radius {bar_mm:g} mm found (expected {CIRCLES_PER_BAR})")
+
+
+def _drawn(draw: np.random.Generator, bar_mm: float, number: int) -> tuple[Mount, Circle]:
+    x, y, z = (round(float(draw.uniform(*span)), 1) for span in (CUP_XY_MM, CUP_XY_MM, CUP_Z_MM))
+    plane = [round(float(each), 1) for each in draw.uniform(-PLANE_DEG, PLANE_DEG, 2)]
+    tilt = [round(float(each), 1) for each in draw.uniform(-PLATFORM_DEG, PLATFORM_DEG, 2)]
+    yaw = round(float(draw.uniform(-YAW_DEG, YAW_DEG)), 1)
+    circle = Circle(
+        id=number,
+        mount=number,
+        radius_mm=bar_mm,
+        ball_offset_mm=(0.0, 0.0, 60.0),
+        plane_rpy_deg=(plane[0], plane[1], 0.0),
+        platform_rpy_deg=(tilt[0], tilt[1], yaw),
+    )
+    return Mount(id=number, cup_mm=(x, y, z)), circle
