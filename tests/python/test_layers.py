@@ -44,6 +44,8 @@ ALLOWED: dict[str, set[str]] = {
     "diagnosis": {"errors", "frames", "units", "record", "model", "prediction", "redundancy", "_core"},
     "ledger": {"errors", "frames", "units", "record", "model", "prediction", "diagnosis", "_core"},
     "place_uncertainty": {"circle", "kinematics", "model", "diagnosis", "_core"},
+    # which variable of the samples carries a residual
+    "variables": {"record", "model", "effects", "_core"},
     "discovery": {
         "errors",
         "units",
@@ -55,6 +57,7 @@ ALLOWED: dict[str, set[str]] = {
         "prediction",
         "diagnosis",
         "ledger",
+        "variables",
         "_core",
     },
     # what a controller does about it
@@ -79,8 +82,8 @@ ALLOWED: dict[str, set[str]] = {
     },
     # where the model fails; readings come in as arrays, predicted or measured
     "iso230": {"errors", "circle_fit"},
-    "compare": {"errors", "frames", "record", "circle", "iso230"},
-    "plots": {"errors", "atomic_file", "circle", "iso230", "compare"},
+    "compare": {"errors", "frames", "record", "circle", "iso230", "variables"},
+    "plots": {"errors", "atomic_file", "circle", "iso230", "compare", "variables"},
     # the thesis' own way, to hold beside it
     "thesis": {
         "errors",

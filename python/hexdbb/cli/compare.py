@@ -15,11 +15,12 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.tables import comparison_text
-from hexdbb.diagnosis import fit_mounts
+from hexdbb.diagnosis import fit_mounts, noise_of
 from hexdbb.errors import InputError
 from hexdbb.model import Model
 from hexdbb.prediction import predict_reading_mm, samples_of
 from hexdbb.record import read_record
+from hexdbb.variables import Pushes
 
 
 @click.command("compare")
@@ -87,16 +88,18 @@ def command(
 def _comparison(paths: tuple[Path, ...], model: Model, progress: Progress) -> tuple[Comparison, list[str]]:
     """Compare, and say in sentences which set-ups had to be fitted first."""
     task = progress.add_task("predicting", total=len(paths))
-    records, predicted_mm, states, sentences = [], [], [], []
+    records, predicted_mm, states, pushes, sentences = [], [], [], [], []
     for path in paths:
         record = read_record(path)
         with_mounts, fitted = fit_mounts(record, model)
         records.append(record)
         predicted_mm.append(predict_reading_mm(record, with_mounts))
-        states.append(samples_of([record], with_mounts).state)
+        samples = samples_of([record], with_mounts)
+        states.append(samples.state)
+        pushes.append(Pushes.of(with_mounts, samples))
         sentences += fitted
         progress.advance(task)
-    return compare(records, predicted_mm, states), sentences
+    return compare(records, predicted_mm, states, pushes, noise_of(records).sigma_mm), sentences
 
 
 def _draw(comparison: Comparison, stem: Path, progress: Progress) -> list[Path]:

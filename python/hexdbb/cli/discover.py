@@ -103,8 +103,7 @@ def print_discovery(found: Discovery, console: Console, records: str, model_path
     if found.structure:
         console.print("What carries the rest (share of what is unexplained, on samples not used to find it):")
         for each in found.structure:
-            period = f", period {each.period:.3g} {each.unit}" if each.period is not None else ""
-            console.print(f"  {each.share:6.1%}  {each.variable}{period}", highlight=False)
+            console.print(f"  {each.share:6.1%}  {each.sentence}", highlight=False, soft_wrap=True)
     _print_next(found, console, records, model_path)
 
 

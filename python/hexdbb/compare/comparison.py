@@ -12,13 +12,12 @@ from hexdbb.compare.circles import CircleComparison, compare_circles, root_mean_
 from hexdbb.compare.failures import Failures, failures
 from hexdbb.compare.json_form import comparison_html, comparison_json
 from hexdbb.compare.radial import RadialError, radial_errors
-from hexdbb.compare.samples import Columns, State, sample_columns
-from hexdbb.compare.variables import Dependence, dependences
 from hexdbb.compare.worst import WorstPlace, worst_places
 from hexdbb.errors import InputError
 from hexdbb.frames import to_frame
 from hexdbb.iso230 import FloatArray
 from hexdbb.record import Record
+from hexdbb.variables import Carrier, Columns, Pushes, State, carriers, sample_columns
 
 WORST_COUNT = 5
 
@@ -39,8 +38,8 @@ class Comparison:
         Arcs with the largest residual, largest first.
     failures : Failures
         What the samples with the largest residuals have in common.
-    dependences : tuple of Dependence
-        How much of the residual each variable of the samples' state carries, largest first.
+    dependences : tuple of Carrier
+        How much of the residual each variable of the samples' state carries, the most telling first.
     columns : dict of str to (n,) arrays
         Every sample: where and when it was taken, measured, predicted and residual in um.
     """
@@ -51,7 +50,7 @@ class Comparison:
     radial: tuple[RadialError, ...]
     worst: tuple[WorstPlace, ...]
     failures: Failures
-    dependences: tuple[Dependence, ...]
+    dependences: tuple[Carrier, ...]
     columns: Columns = field(repr=False, compare=False)
 
     def to_json(self) -> dict[str, Any]:
@@ -67,7 +66,11 @@ class Comparison:
 
 
 def compare(
-    records: Sequence[Record], predicted_mm: Sequence[FloatArray], states: Sequence[State] | None = None
+    records: Sequence[Record],
+    predicted_mm: Sequence[FloatArray],
+    states: Sequence[State] | None = None,
+    pushes: Sequence[Pushes] | None = None,
+    noise_mm: float = 0.0,
 ) -> Comparison:
     """Compare records with predicted readings.
 
@@ -80,6 +83,11 @@ def compare(
     states : sequence of mappings, optional
         For each record, columns of the machine's state that are not in it: velocities and reversals of the sliders, as
         `hexdbb.prediction.samples_of(...).state` gives them. Without them nothing is said of these.
+    pushes : sequence of Pushes, optional
+        For each record, how its readings answer to pushes on the machine. Without them what depends on a slider is
+        sought in the reading as it stands, and nothing is said of guideways and legs.
+    noise_mm : float
+        Of one reading, where it is known.
 
     Raises
     ------
@@ -102,7 +110,7 @@ def compare(
         radial=radial_errors(circles),
         worst=tuple(worst_places(circles, WORST_COUNT)),
         failures=failures(columns),
-        dependences=tuple(dependences(columns)),
+        dependences=tuple(carriers(columns, None if pushes is None else Pushes.joined(list(pushes)), noise_mm)),
         columns=columns,
     )
 

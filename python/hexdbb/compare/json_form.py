@@ -13,6 +13,7 @@ from hexdbb.compare.failures import Failures
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities
 from hexdbb.compare.radial import RadialError
 from hexdbb.frames import html_table
+from hexdbb.variables import sentence
 
 if TYPE_CHECKING:
     from hexdbb.compare.comparison import Comparison
@@ -32,7 +33,8 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         "failures": _failures(comparison.failures),
         "both_directions": [each for circle in comparison.circles if (each := _both_ways(circle)) is not None],
         "state": [
-            {"variable": each.variable, "unit": each.unit, "share": each.share} for each in comparison.dependences
+            {"variable": each.variable, "unit": each.unit, "share": each.share, "sentence": sentence(each)}
+            for each in comparison.dependences
         ],
     }
 
@@ -62,7 +64,7 @@ def comparison_html(comparison: Comparison) -> str:
         for circle in comparison.circles
         for part in circle.directions
     ]
-    shares = [(each.variable, f"{100.0 * each.share:.0f} %") for each in comparison.dependences[:MOST_SHOWN]]
+    shares = [(sentence(each), f"{100.0 * each.share:.0f} %") for each in comparison.dependences[:MOST_SHOWN]]
     return (
         f"<p>residual (measured - predicted): {rms_um:.2f} µm rms, {peak_um:.1f} µm peak to valley</p>"
         + html_table(("record", "circle", "direction", "feed, mm/min", "rms, µm", "p-v, µm"), circles)

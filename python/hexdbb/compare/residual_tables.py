@@ -12,13 +12,13 @@ from rich.table import Table
 
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, root_mean_square
 from hexdbb.compare.quantities import UM_PER_MM
+from hexdbb.variables import sentence, telling
 
 if TYPE_CHECKING:
     from hexdbb.compare.comparison import Comparison
 
 MOST_HARMONICS = 8
 MOST_VARIABLES = 8
-LEAST_SHARE = 0.005
 
 
 def residual_text(comparison: Comparison) -> Iterator[RenderableType]:
@@ -71,14 +71,14 @@ def _harmonics_table(comparison: Comparison) -> Table:
 
 
 def _variables_table(comparison: Comparison) -> RenderableType:
-    shown = [each for each in comparison.dependences[:MOST_VARIABLES] if each.share >= LEAST_SHARE]
+    shown = telling(list(comparison.dependences), MOST_VARIABLES)
     if not shown:
         return "No variable carries any of the residual: its means over one half of the laps do not predict the other."
     table = _table("What carries the residual")
     table.add_column("variable")
     table.add_column("share of its mean square\n(half of the laps from the other)", justify="right")
     for each in shown:
-        table.add_row(each.variable, f"{100.0 * each.share:.1f} %")
+        table.add_row(sentence(each), f"{100.0 * each.share:.1f} %")
     return table
 
 

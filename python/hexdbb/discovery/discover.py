@@ -147,7 +147,7 @@ def judging_noise(records: Sequence[Record]) -> Noise:
 def _with_unsteadiness(found: Discovery, base: Base, unsteady: str) -> Discovery:
     if found.verdict != "none":
         return replace(found, remarks=(*found.remarks, unsteady))
-    structure = unexplained_structure(base.records, base.residual_mm, base.noise)
+    structure = unexplained_structure(base.records, base.model, base.residual_mm, base.noise)
     return replace(found, verdict="unknown", structure=structure, remarks=(*found.remarks, unsteady))
 
 
@@ -248,8 +248,9 @@ def _outcome(
     before = lack.rms_um
     named = verdict in ("effect", "ambiguous")
     residual = trials[0].result.residual_mm if named else base.residual_mm
+    model = trials[0].candidate.model if named else base.model
     left = trials[0].lack if named else lack
-    structure = unexplained_structure(base.records, residual, base.noise) if left.is_significant else ()
+    structure = unexplained_structure(base.records, model, residual, base.noise) if left.is_significant else ()
     remarks = (
         ("something else is missing besides: look again once this effect is added",)
         if named and left.is_significant

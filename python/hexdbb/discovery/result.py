@@ -78,16 +78,32 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Structure:
-    """A variable that carries part of what is unexplained; `period` where it is periodic in it."""
+    """A variable that carries part of what is unexplained.
+
+    `period` where it is periodic in it; `place` from where to where, where it sits at one place, or the samples between
+    which something shifts; both in `unit`. `size_um` is the amplitude, the shift, or the largest push at the
+    place. `sentence` says all of it.
+    """
 
     variable: str
     share: float
     period: float | None
     unit: str
+    sentence: str
+    place: tuple[float, float] | None = None
+    size_um: float | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Give one entry of `structure`."""
-        return {"variable": self.variable, "share": self.share, "period": self.period, "unit": self.unit}
+        return {
+            "variable": self.variable,
+            "share": self.share,
+            "period": self.period,
+            "unit": self.unit,
+            "place": None if self.place is None else list(self.place),
+            "size_um": self.size_um,
+            "sentence": self.sentence,
+        }
 
 
 @dataclass(frozen=True)

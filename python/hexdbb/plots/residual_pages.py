@@ -8,11 +8,15 @@ from matplotlib.figure import Figure
 
 from hexdbb.compare import UM_PER_MM, Comparison
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison
-from hexdbb.compare.variables import Dependence
+from hexdbb.iso230 import FloatArray
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS
+from hexdbb.variables import Carrier
+from hexdbb.variables.carriers import LEAST_SHARE
 
 COLUMNS = 4
 MOST_VARIABLES = 20
+GAP = 10.0
+"""Lines break where points are so many times further apart than usual: a guideway's two sliders do not meet."""
 MOST_LINES = 2
 """A variable with more classes apart (each circle) is drawn in one colour."""
 LINE_COLOURS = ("#1f5fa8", "#c0561a")
@@ -20,8 +24,9 @@ SUM_COLOUR, DIFFERENCE_COLOUR = PREDICTED_COLOURS[1], MEASURED_COLOURS[-1]
 
 
 def state_page(comparison: Comparison) -> Figure:
-    """Draw the mean residual over each variable, the one that carries most first, all to one scale."""
-    found = comparison.dependences[:MOST_VARIABLES]
+    """Draw what each variable's bins explain of the residual, the most telling variable first, all to one scale."""
+    drawn = [each for each in comparison.dependences if each.profiles]
+    found = [each for each in drawn if each.share > LEAST_SHARE][:MOST_VARIABLES] or drawn[:COLUMNS]
     rows = -(-len(found) // COLUMNS)
     figure = Figure(figsize=(11.5, 2.2 * rows + 0.9), layout="constrained")
     grid = figure.subplots(rows, COLUMNS, squeeze=False, sharey=True)
@@ -30,10 +35,10 @@ def state_page(comparison: Comparison) -> Figure:
     for axes in grid.flat[len(found) :]:
         axes.set_axis_off()
     for row in grid:
-        row[0].set_ylabel("mean residual, µm", fontsize=8)
+        row[0].set_ylabel("in the reading, µm", fontsize=8)
     figure.suptitle(
-        "Mean residual (measured - predicted) over each variable, and the share of its mean square that this carries\n"
-        "(means of one half of the laps, judged on the other; shares overlap)",
+        "What each variable explains of the residual (measured - predicted), as the reading shows it (rms of each bin,"
+        " signed as the push),\nand the share of its mean square that it carries, judged on laps it was not fitted to",
         fontsize=11,
     )
     return figure
@@ -94,15 +99,14 @@ def harmonics_page(comparison: Comparison) -> Figure:
     return figure
 
 
-def _draw_dependence(axes: Axes, dependence: Dependence) -> None:
+def _draw_dependence(axes: Axes, dependence: Carrier) -> None:
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     classes = not dependence.unit
-    for index, means in enumerate(dependence.means):
-        colour = LINE_COLOURS[index] if len(dependence.means) <= MOST_LINES else LINE_COLOURS[0]
+    for index, means in enumerate(dependence.profiles):
+        colour = LINE_COLOURS[index] if len(dependence.profiles) <= MOST_LINES else LINE_COLOURS[0]
         marker, line = ("o", "none") if classes else (".", "-")
         axes.plot(
-            means.centre,
-            means.mean_um,
+            *_broken(means.centre, means.mean_um),
             color=colour,
             linewidth=0.8,
             markersize=3.5,
@@ -110,16 +114,25 @@ def _draw_dependence(axes: Axes, dependence: Dependence) -> None:
             linestyle=line,
             label=means.name,
         )
-    if all(means.name for means in dependence.means):
+    if all(means.name for means in dependence.profiles):
         axes.legend(loc="best", fontsize=6, frameon=False)
     axes.set_title(f"{dependence.variable}: {100.0 * dependence.share:.0f} %", fontsize=8)
     if classes:
-        axes.set_xticks(sorted({float(each) for means in dependence.means for each in means.centre}))
+        axes.set_xticks(sorted({float(each) for means in dependence.profiles for each in means.centre}))
         axes.margins(x=0.2)
     else:
         axes.set_xlabel(dependence.unit, fontsize=7, labelpad=1)
+        low, high = axes.get_xlim()
+        axes.set_xticks([tick for tick in axes.get_xticks() if low <= tick <= high])
     axes.tick_params(labelsize=7)
     axes.grid(color="0.92", linewidth=0.5)
+
+
+def _broken(centre: FloatArray, mean_um: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Put a nan where a line should not be drawn."""
+    step = np.diff(centre)
+    far = np.flatnonzero(step > GAP * np.median(step)) + 1 if len(step) > 2 else np.zeros(0, np.intp)
+    return np.insert(centre, far, np.nan), np.insert(mean_um, far, np.nan)
 
 
 def _draw_both_ways(axes: Axes, circle: CircleComparison) -> None:

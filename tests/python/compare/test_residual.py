@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.harmonics import harmonics
-from hexdbb.compare.samples import halves
 from hexdbb.record import Record
+from hexdbb.variables.columns import halves
 
 MakeRecord = Callable[..., Record]
 NOISE_MM = 0.0005
@@ -87,7 +87,7 @@ def test_a_variable_carries_what_depends_on_it(record: Record) -> None:
 def test_the_means_drawn_are_those_of_the_residual(record: Record) -> None:
     comparison = with_residual(record, 0.002 * record.columns["direction"])
     direction = next(each for each in comparison.dependences if each.variable == "direction")
-    (means,) = direction.means
+    (means,) = direction.profiles
     assert means.centre.tolist() == [-1.0, 1.0]
     assert means.mean_um == pytest.approx([-2.0, 2.0], abs=0.05)
 

@@ -38,7 +38,7 @@ def test_a_clean_machine_lacks_nothing(measured: Callable[[str], Record], name: 
 
 @pytest.mark.parametrize(
     ("name", "carrier"),
-    [("dent-x3-s1", "angle on each circle"), ("mains_pickup-x10-s1", "time, repeating")],
+    [("dent-x3-s1", "guideway 3 position (vertical)"), ("mains_pickup-x10-s1", "time, repeating")],
     ids=["dent", "mains"],
 )
 def test_a_fault_outside_the_catalogue_is_unknown(measured: Callable[[str], Record], name: str, carrier: str) -> None:
@@ -46,7 +46,9 @@ def test_a_fault_outside_the_catalogue_is_unknown(measured: Callable[[str], Reco
     found = discover([record], new_model(record.machine))
     assert found.verdict == "unknown"
     assert found.best is None
-    assert carrier in [each.variable for each in found.structure[:2]]
+    first = found.structure[0]
+    assert first.variable == carrier and first.sentence.startswith(carrier)
+    assert (first.place is None) == (first.period is not None)
     shares = [each.share for each in found.structure]
     assert all(0.0 < share <= 1.0 for share in shares) and shares == sorted(shares, reverse=True)
 

@@ -1,4 +1,4 @@
-"""Every sample of a comparison beside its residual, and what state the machine was in: one column each.
+"""Every sample beside its residual, and what state the machine was in: one column each.
 
 Columns of the record are taken as they are; those of the state (velocities, reversals) are handed in, as prediction
 derives them. Where a column is not known for all records it is left out.
@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.compare.quantities import UM_PER_MM
-from hexdbb.iso230 import FloatArray
 from hexdbb.record import Record
 
+FloatArray = NDArray[np.float64]
 Columns = dict[str, NDArray[Any]]
 State = Mapping[str, NDArray[Any]]
 """Columns of a record's state by name, (n,) or (n, 6); `hexdbb.prediction.samples_of` gives them as `.state`."""
 
+UM_PER_MM = 1e3
 SLIDERS = range(1, 7)
 STRETCH = 4
 PER_SLIDER = {"velocity_mm_s": "v{}_mm_s", "since_reversal_s": "since_reversal{}_s", "side": "side{}"}
@@ -65,6 +65,12 @@ def _columns(record: Record, name: str, predicted_mm: FloatArray, state: State) 
     return columns
 
 
+def stretches(count: int) -> NDArray[np.bool_]:
+    """Deal samples in order, `STRETCH` to either half in turn: both halves then hold every time."""
+    second: NDArray[np.bool_] = (np.arange(count) // STRETCH) % 2 == 1
+    return second
+
+
 def halves(columns: Columns) -> NDArray[np.bool_]:
     """Deal the samples into two halves that hold the same circles, directions and feeds.
 
@@ -79,9 +85,15 @@ def halves(columns: Columns) -> NDArray[np.bool_]:
     first = np.searchsorted(turns[:, 0], turns[:, 0])
     place = np.arange(len(turns)) - first
     alone = np.bincount(turns[:, 0])[turns[:, 0]] == 1
-    stretch = np.arange(len(group)) // STRETCH
-    second: NDArray[np.bool_] = np.where(alone[turn_of], stretch % 2, place[turn_of] % 2) == 1
+    second: NDArray[np.bool_] = np.where(alone[turn_of], stretches(len(group)), place[turn_of] % 2 == 1)
     return second
+
+
+def sampling_rate_hz(columns: Columns) -> float:
+    """Give the usual number of samples a second."""
+    steps_s = np.diff(columns["t_s"])
+    usual_s = float(np.median(steps_s[steps_s > 0.0])) if (steps_s > 0.0).any() else np.inf
+    return 1.0 / usual_s
 
 
 def codes(values: NDArray[Any]) -> NDArray[np.intp]:
