@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.diagnosis.extrapolation import foretold
 from hexdbb.diagnosis.heldout import Refit, as_it_is, held_out
 from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
@@ -127,6 +128,7 @@ def diagnose(
     _require_told(fitted, result, records)
     after = (fitted, refitter(noise, robust))
     checked = held_out(records, against or (known, as_it_is), after) if check_held_out else None
+    expected = None if checked is None else foretold(records, fitted, result.noise_mm * 1e3)
     parameters = known.parameters()
     step = ledger_step("diagnose", model, records, (residual_mm(records, known), result.residual_mm), checked)
     unknown = unknown_directions(result.covariance, known, result.free_columns)
@@ -146,7 +148,7 @@ def diagnose(
         residual_mm=result.residual_mm,
         held_out=checked,
         unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
-        warnings=(*either_sign, *warnings_of(fitted, result, noise, checked)),
+        warnings=(*either_sign, *warnings_of(fitted, result, noise, checked, expected)),
     )
 
 

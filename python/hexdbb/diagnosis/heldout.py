@@ -64,11 +64,11 @@ def held_out(
     HeldOut or None
         None where there are not two groups.
     """
-    folds = _folds(records, by, most_folds)
-    if len(folds) < 2:
+    left_out = folds(records, by, most_folds)
+    if len(left_out) < 2:
         return None
     errors: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
-    for fold in folds:
+    for fold in left_out:
         training = [record.part(~rows) for record, rows in zip(records, fold, strict=True) if not rows.all()]
         for (model, refit), gathered in zip((before, after), errors, strict=True):
             trained = refit(training, model)
@@ -78,7 +78,7 @@ def held_out(
     return HeldOut(
         before_um=_rms_um(before_mm),
         after_um=_rms_um(after_mm),
-        folds=len(folds),
+        folds=len(left_out),
         peak_to_valley_before_um=float(np.ptp(before_mm)) * 1e3,
         peak_to_valley_after_um=float(np.ptp(after_mm)) * 1e3,
     )
@@ -89,8 +89,8 @@ def as_it_is(_: Sequence[Record], model: Model) -> Model:
     return model
 
 
-def _folds(records: Sequence[Record], by: str, most: int) -> list[list[Mask]]:
-    """Masks of the rows left out, one list a fold, one mask a record."""
+def folds(records: Sequence[Record], by: str, most: int) -> list[list[Mask]]:
+    """Deal circles or sweeps into groups: masks of the rows left out, one list a fold, one mask a record."""
     groups = [(index, int(each)) for index, record in enumerate(records) for each in np.unique(record.columns[by])]
     count = min(len(groups), most)
     return [

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
 
 from hexdbb import _core
+from hexdbb.diagnosis.extrapolation import Foretold
 from hexdbb.diagnosis.heldout import HeldOut
 from hexdbb.diagnosis.noise import Noise
-from hexdbb.model import Model
+from hexdbb.model import Model, Parameter
 from hexdbb.units import shown_factor, shown_unit
 
 FAR_FROM_PRIOR = 5.0
@@ -22,7 +25,9 @@ NO_BETTER = 0.98
 """Held-out error must fall at least to this part where the training error did."""
 
 
-def warnings_of(model: Model, result: _core.FitResult, noise: Noise, checked: HeldOut | None) -> Iterator[str]:
+def warnings_of(
+    model: Model, result: _core.FitResult, noise: Noise, checked: HeldOut | None, expected: Foretold | None = None
+) -> Iterator[str]:
     """Yield what to beware of, one sentence each."""
     yield from _beyond_reason(model, result)
     yield from _correlated(model, result)
@@ -32,6 +37,9 @@ def warnings_of(model: Model, result: _core.FitResult, noise: Noise, checked: He
             f"residual {after_um:.2f} um against {noise_um:.2f} um of noise ({noise.source}): the model misses"
             " something, and the uncertainties are stretched to match"
         )
+    if checked is not None and expected is not None and expected.extrapolates:
+        yield expected.sentence(checked.after_um)
+        return
     trained = result.rms_after_mm < NO_BETTER * result.rms_before_mm
     if checked is not None and trained and checked.after_um > NO_BETTER * checked.before_um:
         yield (
@@ -59,7 +67,23 @@ def _correlated(model: Model, result: _core.FitResult) -> Iterator[str]:
     spread = np.sqrt(np.diag(result.covariance))[known]
     correlation = result.covariance[np.ix_(known, known)] / np.outer(spread, spread)
     parameters = model.parameters()
-    for i, j in np.argwhere(np.triu(np.abs(correlation) > TOGETHER, k=1)):
-        first, second = parameters[known[i]].label, parameters[known[j]].label
-        together = f"{first} and {second} go together (correlation {correlation[i, j]:+.3f})"
-        yield f"{together}: only their sum or difference is sure"
+    count, group = connected_components(np.abs(correlation) > TOGETHER, directed=False)
+    members = [np.flatnonzero(group == each) for each in range(count)]
+    said = [_together(correlation[np.ix_(own, own)], [parameters[known[i]] for i in own]) for own in members]
+    groups = "; ".join(each for each in said if each)
+    if groups:
+        yield f"values go together (correlation beyond {TOGETHER:g}), only sums or differences are sure: {groups}"
+
+
+def _together(correlation: NDArray[np.float64], parameters: Sequence[Parameter]) -> str:
+    """Name values that go together, with the largest correlation; nothing where there is one only."""
+    if len(parameters) < 2:
+        return ""
+    pairs = correlation[np.triu_indices(len(parameters), k=1)]
+    kinds = {(each.effect, each.name) for each in parameters}
+    if len(kinds) == 1:
+        ((effect, name),) = kinds
+        words = f"{':'.join((effect, *(each.element for each in parameters)))} {name}"
+    else:
+        words = " and ".join(each.label for each in parameters)
+    return f"{words} ({pairs[np.argmax(np.abs(pairs))]:+.3f})"
