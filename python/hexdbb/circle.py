@@ -8,6 +8,7 @@ Assumption: the ball bar is as long as the circle's radius, so the cup is the ce
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Literal
 
 import numpy as np
@@ -26,6 +27,10 @@ Directions = Annotated[tuple[Direction, ...], Field(strict=False, min_length=1)]
 Laps = Annotated[int, Field(ge=1)]
 
 
+LEAST_NOISE_MM = 1e-6
+"""A gauge is not taken to be better than a nanometre."""
+
+
 class Gauge(StrictModel):
     """The ball bar and its length gauge."""
 
@@ -36,6 +41,16 @@ class Gauge(StrictModel):
     resolution_um: NotNegative = 0.1
     range_um: Positive = 1000.0
     """Largest reading, to either side."""
+
+    @property
+    def stated_noise_mm(self) -> float | None:
+        """Standard deviation of one reading as stated, with its rounding; None where it is not.
+
+        A rounded reading is off by up to half a step either way, evenly: standard deviation step / sqrt(12).
+        """
+        if self.noise_um is None:
+            return None
+        return max(math.hypot(self.noise_um, self.resolution_um / math.sqrt(12.0)) / 1000.0, LEAST_NOISE_MM)
 
 
 class Mount(StrictModel):

@@ -24,20 +24,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.circle import Gauge
 from hexdbb.model import Parameter
-from hexdbb.redundancy import sentences
+from hexdbb.redundancy import KNOWN_PART, sentences
 from hexdbb.sensitivity import Sensitivity
 
 Floats = NDArray[np.float64]
 
 RELATIVE_RANK = 1e-8
 """Singular values below this part of the largest are rounding."""
-LEAST_NOISE_MM = 1e-6
-"""A gauge is not taken to be better than a nanometre."""
-KNOWN_PART = 0.2
-"""A value is known where its uncertainty is at most this part of its expected size: the prior's weight is then under
-4 %."""
 
 
 @dataclass(frozen=True)
@@ -56,16 +50,6 @@ class Observability:
     o3: float
     o4: float
     unidentifiable: tuple[str, ...]
-
-
-def stated_noise_mm(gauge: Gauge) -> float | None:
-    """Give the standard deviation of one reading as a gauge states it, with its rounding; None where it does not.
-
-    A rounded reading is off by up to half a step either way, evenly: standard deviation step / sqrt(12).
-    """
-    if gauge.noise_um is None:
-        return None
-    return max(float(np.hypot(gauge.noise_um, gauge.resolution_um / np.sqrt(12.0))) / 1000.0, LEAST_NOISE_MM)
 
 
 def observability(sensitivity: Sensitivity) -> Observability:

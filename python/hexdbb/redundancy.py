@@ -17,6 +17,9 @@ from hexdbb.structure import named_moves
 
 Floats = NDArray[np.float64]
 
+KNOWN_PART = 0.2
+"""A value or direction is known where its uncertainty is at most this part of its expected size: the prior's weight
+is then under 4 %."""
 LEVER_MM = 300.0
 """Lever arm by which an angle is compared with a length: about half a guideway."""
 SMALL = 0.02

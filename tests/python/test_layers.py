@@ -41,7 +41,7 @@ ALLOWED: dict[str, set[str]] = {
     "redundancy": {"model", "structure"},
     "state": {"plan", "record"},
     "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
-    "diagnosis": {"errors", "frames", "units", "record", "model", "prediction", "redundancy", "_core"},
+    "diagnosis": {"errors", "frames", "units", "circle", "record", "model", "prediction", "redundancy", "_core"},
     "ledger": {"errors", "frames", "units", "record", "model", "prediction", "diagnosis", "_core"},
     "place_uncertainty": {"circle", "kinematics", "model", "diagnosis", "_core"},
     # which variable of the samples carries a residual
@@ -64,7 +64,7 @@ ALLOWED: dict[str, set[str]] = {
     "compensation": {"errors", "atomic_file", "machine", "kinematics", "model", "_core"},
     "compensated_targets": {"can_setup", "kinematics", "trajectory", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
-    "identifiability": {"circle", "model", "redundancy", "sensitivity", "_core"},
+    "identifiability": {"model", "redundancy", "sensitivity", "_core"},
     # which circles tell most
     "planning": {
         "errors",

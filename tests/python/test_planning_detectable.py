@@ -11,7 +11,6 @@ from click.testing import CliRunner
 
 from hexdbb import _core
 from hexdbb.cli.plan import command
-from hexdbb.identifiability import stated_noise_mm
 from hexdbb.machine import shipped
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
@@ -57,9 +56,9 @@ def test_what_others_absorb_wholly_never_shows() -> None:
 
 def test_noise_includes_the_rounding_and_is_unknown_where_not_stated() -> None:
     gauge = STANDARD.gauge
-    assert stated_noise_mm(gauge) == pytest.approx(np.hypot(0.5, 0.1 / np.sqrt(12)) / 1000.0)
-    assert stated_noise_mm(gauge.model_copy(update={"noise_um": None})) is None
-    assert stated_noise_mm(gauge.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0})) == 1e-6
+    assert gauge.stated_noise_mm == pytest.approx(np.hypot(0.5, 0.1 / np.sqrt(12)) / 1000.0)
+    assert gauge.model_copy(update={"noise_um": None}).stated_noise_mm is None
+    assert gauge.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0}).stated_noise_mm == 1e-6
 
 
 def test_check_lists_every_effect_of_the_catalogue_and_all_that_a_plan_can_tell() -> None:

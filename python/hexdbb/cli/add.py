@@ -14,6 +14,7 @@ from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.discovery import failing_effects
 from hexdbb.ledger import add_effect
@@ -25,19 +26,11 @@ from hexdbb.record import read_record
 
 @click.command("add")
 @click.argument("effect", metavar="EFFECT[:ELEMENT...]")
-@click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    required=True,
-    metavar="MODEL",
-    type=click.Path(path_type=Path),
-    help="Model file, as diagnose makes; it gains the effect.",
-)
+@records_argument
+@model_option("Model file, as diagnose makes; it gains the effect.")
 @effects_option
 @click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+@json_option
 def command(
     effect: str,
     records: tuple[Path, ...],

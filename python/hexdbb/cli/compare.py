@@ -13,6 +13,7 @@ from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.tables import comparison_text
 from hexdbb.diagnosis import fit_mounts, noise_of
@@ -24,16 +25,8 @@ from hexdbb.variables import Pushes
 
 
 @click.command("compare")
-@click.argument("records", nargs=-1, required=True, metavar="RECORD...", type=click.Path(path_type=Path))
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    required=True,
-    metavar="MODEL",
-    type=click.Path(path_type=Path),
-    help="Model file, as diagnose makes.",
-)
+@records_argument
+@model_option("Model file, as diagnose makes.")
 @effects_option
 @click.option(
     "--plot",
@@ -44,7 +37,7 @@ from hexdbb.variables import Pushes
     "without it NAME-compare.* beside the first record.",
 )
 @click.option("--no-plot", is_flag=True, help="Write no pictures.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object instead of the tables.")
+@json_option
 def command(
     records: tuple[Path, ...],
     model_path: Path,

@@ -14,6 +14,7 @@ from rich.table import Table
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option, own_effects
+from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.errors import InputError
 from hexdbb.identifiability import minimal_set
@@ -29,21 +30,14 @@ TOLD = 1e-4
 
 
 @click.command()
-@click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    required=True,
-    type=click.Path(path_type=Path),
-    help="Model file; made from the record's machine and the thesis' geometric errors where there is none yet.",
-)
+@records_argument
+@model_option("Model file; made from the record's machine and the thesis' geometric errors where there is none yet.")
 @effects_option
 @click.option("--free", "free", help="Effects to fit, as leg_length,slider_offset:2; the machine's others are held.")
 @click.option("--fix", "fix", help="Effects or elements to hold, as guideway_translation:3,bar_length.")
 @click.option("--minimal", is_flag=True, help="Fit as many errors as the readings tell (pivoted QR), hold the rest.")
 @click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+@json_option
 def command(
     records: tuple[Path, ...],
     model_path: Path,
@@ -157,9 +151,10 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
 
 def _values_table(model: Model) -> Table:
     table = Table(box=None, header_style="bold", pad_edge=False)
-    for name, side in (("effect", "left"), ("element", "left"), ("parameter", "left"), ("value", "right")):
-        table.add_column(name, justify=side)  # type: ignore[arg-type]
-    table.add_column("± 1 sigma", justify="right")
+    for name in ("effect", "element", "parameter"):
+        table.add_column(name)
+    for name in ("value", "± 1 sigma"):
+        table.add_column(name, justify="right")
     table.add_column("unit")
     index = 0
     parameters = model.parameters()

@@ -14,6 +14,7 @@ from hexdbb.cli.add import added_json, print_added
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.discovery import AutoStep, Candidate, Discovery, discover, discover_all
 from hexdbb.discovery.discover import Progress
 from hexdbb.model import Model, save_model
@@ -21,11 +22,11 @@ from hexdbb.record import Record, read_record
 
 
 @click.command()
-@click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("-m", "--model", "model_path", required=True, type=click.Path(path_type=Path), help="Model file.")
+@records_argument
+@model_option("Model file.")
 @effects_option
 @click.option("--auto", is_flag=True, help="Add what is missing to the model file, effect after effect.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+@json_option
 def command(records: tuple[Path, ...], model_path: Path, effects_path: Path | None, auto: bool, as_json: bool) -> None:
     """Find out which effect a model lacks, from RECORD... (.parquet or .csv).
 

@@ -9,21 +9,14 @@ import click
 
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.shared_options import json_option, model_option
 from hexdbb.ledger import history
 
 
 @click.command("history")
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    required=True,
-    metavar="MODEL",
-    type=click.Path(path_type=Path),
-    help="Model file.",
-)
+@model_option("Model file.")
 @effects_option
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+@json_option
 def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
     """Read out a model's ledger: each step, the effect, its size, and the error before and after.
 

@@ -15,7 +15,6 @@ from hexdbb.identifiability import (
     expected_uncertainties,
     minimal_set,
     observability,
-    stated_noise_mm,
 )
 from hexdbb.model import Model
 from hexdbb.plan import Plan
@@ -67,7 +66,7 @@ def plan_noise_mm(plan: Plan, noise_um: float | None) -> float:
     """Find the noise to plan for: as asked for, else as the gauge states it, else assumed, which is said."""
     if noise_um is not None:
         return noise_um / 1000.0
-    stated = stated_noise_mm(plan.gauge)
+    stated = plan.gauge.stated_noise_mm
     if stated is None:
         click.echo(f"the gauge states no noise: {ASSUMED_NOISE_UM} um assumed (--noise says better)", err=True)
         return ASSUMED_NOISE_UM / 1000.0

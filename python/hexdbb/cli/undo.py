@@ -10,6 +10,7 @@ import click
 from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.shared_options import json_option, model_option
 from hexdbb.ledger import undo
 from hexdbb.ledger.history import step_json
 from hexdbb.ledger.words import deed
@@ -17,17 +18,9 @@ from hexdbb.model import save_model
 
 
 @click.command("undo")
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    required=True,
-    metavar="MODEL",
-    type=click.Path(path_type=Path),
-    help="Model file; its last step is taken back.",
-)
+@model_option("Model file; its last step is taken back.")
 @effects_option
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
+@json_option
 def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
     """Give a model back as it was before the last step: a diagnosis, an effect added.
 

@@ -4,11 +4,10 @@ from hexdbb.diagnosis.fit import diagnose, evaluate_fit, refitter
 from hexdbb.diagnosis.heldout import HeldOut, held_out
 from hexdbb.diagnosis.mounts import fit_mounts, with_mounts_fitted
 from hexdbb.diagnosis.noise import Noise, noise_of, stated_noise
-from hexdbb.diagnosis.result import KNOWN_PART, UNKNOWN_PART, Diagnosis
+from hexdbb.diagnosis.result import UNKNOWN_PART, Diagnosis
 from hexdbb.diagnosis.step import ledger_step
 
 __all__ = [
-    "KNOWN_PART",
     "UNKNOWN_PART",
     "Diagnosis",
     "HeldOut",

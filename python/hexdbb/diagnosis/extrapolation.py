@@ -58,8 +58,8 @@ class Foretold:
         named = f"circle{'s' if len(self.circles) > 1 else ''} {', '.join(map(str, self.circles))}"
         return (
             f"held-out circles are extrapolated: with {named} left out the others tell too little of the machine; a"
-            f" true model would miss the circles left out by {self.expected_um:.3g} um ({self.worst_um:.3g} um the worst),"
-            f" {seen_um:.3g} um was seen: judge by the fitted error, or measure more circles"
+            f" true model would miss the circles left out by {self.expected_um:.3g} um ({self.worst_um:.3g} um the"
+            f" worst), {seen_um:.3g} um was seen: judge by the fitted error, or measure more circles"
         )
 
 

@@ -13,14 +13,14 @@ from hexdbb.diagnosis.extrapolation import foretold
 from hexdbb.diagnosis.heldout import Refit, as_it_is, held_out
 from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
-from hexdbb.diagnosis.result import KNOWN_PART, Diagnosis, prior_sigmas, unknown_directions
+from hexdbb.diagnosis.result import Diagnosis, prior_sigmas, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.step import ledger_step
 from hexdbb.errors import InputError, RunError
 from hexdbb.model import Model
 from hexdbb.prediction import knowing, residual_mm, samples_of
 from hexdbb.record import Record
-from hexdbb.redundancy import sentences
+from hexdbb.redundancy import KNOWN_PART, sentences
 
 Floats = NDArray[np.float64]
 

@@ -19,12 +19,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.circle import LEAST_NOISE_MM
 from hexdbb.record import Record
 
 Floats = NDArray[np.float64]
 
-LEAST_NOISE_MM = 1e-6
-"""A gauge is not taken to be better than a nanometre."""
 LEAST_REPEATS = 100
 """So many repeated readings are needed to estimate noise from them to about a tenth."""
 MEDIAN_OF_NORMAL = 0.6745
@@ -52,15 +51,9 @@ def noise_of(records: Sequence[Record]) -> Noise:
 
 def stated_noise(records: Sequence[Record]) -> Noise | None:
     """Give the noise as the gauges state it, the noisiest; None where one of them states none."""
-    stated = [_stated_mm(record) for record in records]
+    stated = [record.gauge.stated_noise_mm for record in records]
     known = [each for each in stated if each is not None]
-    return Noise(max(*known, LEAST_NOISE_MM), "stated") if len(known) == len(stated) else None
-
-
-def _stated_mm(record: Record) -> float | None:
-    if record.gauge.noise_um is None:
-        return None
-    return float(np.hypot(record.gauge.noise_um, record.gauge.resolution_um / np.sqrt(12.0)) / 1000.0)
+    return Noise(max(known), "stated") if len(known) == len(stated) else None
 
 
 def _robust_sigma(values: Floats) -> float:

@@ -20,13 +20,11 @@ from hexdbb.diagnosis.noise import Noise
 from hexdbb.diagnosis.tables import value_columns, values_html
 from hexdbb.frames import to_frame
 from hexdbb.model import Model
+from hexdbb.redundancy import KNOWN_PART
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
 
-KNOWN_PART = 0.2
-"""A value or direction is known where its uncertainty is at most this part of its expected size: the prior's weight
-is then under 4 %."""
 UNKNOWN_PART = 0.5
 """Of a direction whose uncertainty is above this part of its expected size the readings tell nothing."""
 

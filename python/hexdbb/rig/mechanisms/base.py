@@ -11,6 +11,7 @@ Units: mm, rad, s, N, degC. Frames: base frame for slider joints and cup, platfo
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Protocol, Self
@@ -117,7 +118,7 @@ class Momentary:
         self.action(motion, push)
 
 
-class MechanismTable(StrictModel):
+class MechanismTable(StrictModel, ABC):
     """What every ``[[mechanism]]`` of a truth file has."""
 
     sizes: ClassVar[tuple[str, ...]] = ()
@@ -127,9 +128,9 @@ class MechanismTable(StrictModel):
 
     kind: str
 
+    @abstractmethod
     def start(self, machine: MachineFile) -> Mechanism:
         """Put the mechanism into a machine at rest."""
-        raise NotImplementedError
 
     def scaled(self, factor: float) -> Self:
         """Give the same mechanism, larger by `factor` (at least 0)."""
