@@ -14,14 +14,26 @@ import linuxcnc
 PATIENCE_S = 300.0
 
 
+def reported(errors):
+    """Give the errors that LinuxCNC has reported since; one comes seldom alone."""
+    found = []
+    report = errors.poll()
+    while report is not None:
+        if report[0] in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR):
+            found.append(f"error: LinuxCNC: {report[1].strip()}")
+        time.sleep(0.2)
+        report = errors.poll()
+    return found
+
+
 def wait_until(is_so, status, errors, what):
     """Poll LinuxCNC; what it reports as an error ends the run."""
     deadline = time.monotonic() + PATIENCE_S
     while True:
         status.poll()
-        report = errors.poll()
-        if report is not None and report[0] in (linuxcnc.NML_ERROR, linuxcnc.OPERATOR_ERROR):
-            sys.exit(f"error: LinuxCNC: {report[1]}")
+        found = reported(errors)
+        if found:
+            sys.exit("\n".join(found))
         if is_so():
             return
         if time.monotonic() > deadline:

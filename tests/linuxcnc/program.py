@@ -3,6 +3,8 @@
 Model: the ball stands at cup + R_platform ball_offset of the pose's position, so that a circle of the ball about the cup
 is a circle of the position about cup - R ball_offset in the same plane. An arc takes one turn and a half from angle pi:
 a quarter turn before the turn that is evaluated and one after it, as a test's overshoot.
+Last come short moves with a stop before each: LinuxCNC then asks for the joints of an end point that is near the place it
+stands at, which must not be taken for motion.
 Tags: analogue output 0 has the number of the arc while it is driven, 0 between.
 Units: mm, deg; feed mm/min.
 """
@@ -19,6 +21,9 @@ from hexdbb.rig.geometry import rotation_rpy
 
 FEED_MM_MIN = 9000.0
 BALL_OFFSET_MM = (0.0, 0.0, 60.0)
+SHORT_MOVES_TAG = 100
+SHORT_MOVE_MM = 0.5
+SHORT_MOVES_FEED_MM_MIN = 60.0
 SETTLE_S = 0.8
 """Compensation fades in over 500 servo periods of 1 ms."""
 
@@ -60,8 +65,8 @@ CIRCLES = (STANDARD, UNSEEN)
 
 def arcs() -> list[Arc]:
     """Give the arcs in the order in which they are driven."""
-    kinds = [(on, circle, way) for on in (False, True) for circle in CIRCLES for way in (1, -1)]
-    return [Arc(tag, circle, way, on) for tag, (on, circle, way) in enumerate(kinds, start=1)]
+    kinds = [(circle, way, on) for on in (False, True) for circle in CIRCLES for way in (1, -1)]
+    return [Arc(tag, *kind) for tag, kind in enumerate(kinds, start=1)]
 
 
 def program() -> str:
@@ -73,7 +78,7 @@ def program() -> str:
             is_on = arc.is_compensated
             lines += ["M64 P0", f"G4 P{SETTLE_S:g}"]
         lines += _arc_lines(arc)
-    return "\n".join([*lines, "G4 P0.1", "M2", ""])
+    return "\n".join([*lines, *_short_moves(), "G4 P0.1", "M2", ""])
 
 
 def _arc_lines(arc: Arc) -> Iterator[str]:
@@ -86,4 +91,13 @@ def _arc_lines(arc: Arc) -> Iterator[str]:
     yield f"M68 E0 Q{arc.tag}"
     # P2: the second crossing of the end point, half a turn and one.
     yield f"{'G3' if arc.direction > 0 else 'G2'} X{x + radius:.9f} Y{y:.9f} I{radius:.9f} J0 P2"
+    yield "M68 E0 Q0"
+
+
+def _short_moves() -> Iterator[str]:
+    yield f"M68 E0 Q{SHORT_MOVES_TAG}"
+    for _ in range(6):
+        yield f"G91 G1 F{SHORT_MOVES_FEED_MM_MIN:g} Y{SHORT_MOVE_MM:g}"
+        yield "G4 P0.05"
+    yield "G90"
     yield "M68 E0 Q0"

@@ -43,11 +43,14 @@ class Session:
         By the names of `PINS`, shape (n,), a row a servo period without gaps.
     commanded, actual : (6,) arrays
         Pose at the end, mm and deg: as the program has it, as the module finds it from the joints.
+    log : str
+        What LinuxCNC and its modules had to say.
     """
 
     columns: dict[str, NDArray[np.float64]]
     commanded: NDArray[np.float64]
     actual: NDArray[np.float64]
+    log: str
 
     @property
     def sliders_mm(self) -> NDArray[np.float64]:
@@ -55,8 +58,16 @@ class Session:
         return np.column_stack([self.columns[f"slider_{k}_mm"] for k in range(1, 7)])
 
 
-def run_linuxcnc(work: Path, module: Path, compensation: Path, program: str) -> Session:
+def run_linuxcnc(work: Path, module: Path, compensation: Path, program: str, left_out: str | None = None) -> Session:
     """Run a program in a work folder that does not exist yet.
+
+    Parameters
+    ----------
+    work, module, compensation : Path
+    program : str
+        G-code.
+    left_out : str, optional
+        Lines of the sample's HAL file that have this in them are left out.
 
     Raises
     ------
@@ -70,18 +81,39 @@ def run_linuxcnc(work: Path, module: Path, compensation: Path, program: str) -> 
     (work / OPERATOR.name).chmod(0o755)
     (work / "program.ngc").write_text(program)
     (work / "record.hal").write_text(_record_hal())
+    hal = (work / "hexglider.hal").read_text().splitlines(keepends=True)
+    (work / "hexglider.hal").write_text("".join(line for line in hal if left_out is None or left_out not in line))
     (work / "hexglider.ini").write_text(_ini((work / "hexglider.ini").read_text()))
     done = run(work, "linuxcnc", f"{INSIDE}/hexglider.ini", timeout_s=TIMEOUT_S)
-    outcome, log = work / "operator.json", work / "linuxcnc_debug.txt"
+    outcome, debug = work / "operator.json", work / "linuxcnc_debug.txt"
+    log = f"{done.stdout}{done.stderr}{debug.read_text() if debug.is_file() else ''}"
     if not outcome.is_file():
-        printed = f"{done.stdout}{done.stderr}{log.read_text() if log.is_file() else ''}"
-        raise RuntimeError(f"LinuxCNC ended with {done.returncode} before the program did:\n{printed}")
+        raise RuntimeError(f"LinuxCNC ended with {done.returncode} before the program did:\n{log}")
     poses = json.loads(outcome.read_text())
-    return Session(_columns(work / "samples.txt"), np.array(poses["commanded"]), np.array(poses["actual"]))
+    return Session(read_samples(work / "samples.txt"), np.array(poses["commanded"]), np.array(poses["actual"]), log)
+
+
+def read_samples(samples: Path) -> dict[str, NDArray[np.float64]]:
+    """Read what halsampler wrote; give `PINS`' columns.
+
+    Raises
+    ------
+    RuntimeError
+        The sampler lost servo periods.
+    """
+    text = samples.read_text()
+    if "overrun" in text:
+        raise RuntimeError("the sampler lost servo periods (overrun)")
+    # LinuxCNC ends while the last line is written.
+    lines = text[: text.rindex("\n")].splitlines()
+    table = np.loadtxt(lines)
+    if np.any(np.diff(table[:, 0]) != 1):
+        raise RuntimeError("the sampler lost servo periods (numbers with gaps)")
+    return dict(zip(PINS, table[:, 1:].T, strict=True))
 
 
 def _ini(sample: str) -> str:
-    """The sample with what the user of it has to say as well."""
+    """Give the sample with a user interface, a program and the sampler in it."""
     replaced = {
         "DISPLAY = axis\n": f"DISPLAY = {INSIDE}/{OPERATOR.name}\nOPEN_FILE = {INSIDE}/program.ngc\n",
         "HALFILE = hexglider.hal\n": "HALFILE = hexglider.hal\nHALFILE = record.hal\n",
@@ -98,15 +130,3 @@ def _record_hal() -> str:
     lines = [f"loadrt sampler depth=20000 cfg={types}", "addf sampler.0 servo-thread"]
     lines += [f"net sampled-{k} {pin} => sampler.0.pin.{k}" for k, (pin, _) in enumerate(PINS.values())]
     return "\n".join([*lines, f"loadusr halsampler -t {INSIDE}/samples.txt", ""])
-
-
-def _columns(samples: Path) -> dict[str, NDArray[np.float64]]:
-    text = samples.read_text()
-    if "overrun" in text:
-        raise RuntimeError("the sampler lost servo periods (overrun)")
-    # LinuxCNC ends while the last line is written.
-    lines = text[: text.rindex("\n")].splitlines()
-    table = np.loadtxt(lines)
-    if np.any(np.diff(table[:, 0]) != 1):
-        raise RuntimeError("the sampler lost servo periods (numbers with gaps)")
-    return dict(zip(PINS, table[:, 1:].T, strict=True))

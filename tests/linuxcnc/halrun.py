@@ -1,0 +1,18 @@
+"""The module alone in HAL's own shell, `halrun`: what loads, what is refused and how it is said."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+from tests.linuxcnc.sandbox import prepare, run
+
+TIMEOUT_S = 60.0
+
+
+def halrun(work: Path, module: Path, commands: str) -> subprocess.CompletedProcess[str]:
+    """Run HAL commands in a work folder, made where there is none."""
+    work.mkdir(exist_ok=True)
+    prepare(work, module)
+    (work / "commands.hal").write_text(commands)
+    return run(work, "halrun", "commands.hal", timeout_s=TIMEOUT_S)
