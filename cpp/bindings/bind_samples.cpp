@@ -1,3 +1,5 @@
+#include <pybind11/numpy.h>
+
 #include "bindings.hpp"
 #include "hexdbb/prediction.hpp"
 
@@ -60,8 +62,13 @@ void bind_samples(py::module_& module) {
       .def_property_readonly("size", &Samples::size)
       .def_readonly("sliders_mm", &Samples::sliders_mm)
       .def_property_readonly("state", &state_of, "Columns of the state that are known, by name.")
-      .def("rows", &Samples::rows, py::arg("which"),
-           "Some rows; what is tabulated for the whole stays right for the part.")
+      .def(
+          "rows",
+          [](const Samples& samples,
+             const py::array_t<Eigen::Index, py::array::c_style | py::array::forcecast>& which) {
+            return samples.rows({which.data(), which.data() + which.size()});
+          },
+          py::arg("which"), "Some rows; what is tabulated for the whole stays right for the part.")
       .def(
           "derive", [](Samples& samples, const Machine& machine) { derive(NominalGeometry(machine), samples); },
           py::arg("machine"), py::call_guard<py::gil_scoped_release>(),

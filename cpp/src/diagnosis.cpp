@@ -143,12 +143,15 @@ void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unkn
 Eigen::VectorXd judge(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
                       Accumulator& accumulator, const Unknowns& unknowns, double noise_mm, FitResult& out) {
   constexpr int kMostCoarse = 60, kMost = 20;
+  constexpr double kCoarseFall = 1.0;  // of chi-square; the other readings move the minimum by more
+  constexpr double kFall = 0.02;       // no verdict hangs on so little
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
-  const Descent coarse = descend([&](const Eigen::VectorXd& z) { return few.at(z); }, few, start, bound, kMostCoarse);
+  const Descent coarse =
+      descend([&](const Eigen::VectorXd& z) { return few.at(z); }, few, start, bound, kCoarseFall, kMostCoarse);
   const Descent fine =
       descend([&](const Eigen::VectorXd& z) { return posterior_at(model, accumulator, unknowns, noise_mm, z); }, few,
-              coarse.z, bound, kMost);
+              coarse.z, bound, kFall, kMost);
   out.usable = fine.is_reachable;
   out.iterations = fine.steps;
   out.termination = fine.is_at_rest ? "No further step is worth while." : "Many steps were not enough.";

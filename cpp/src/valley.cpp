@@ -7,8 +7,8 @@ namespace hexdbb {
 
 namespace {
 
-constexpr double kWorthAStep = 0.02;  // fall of chi-square
-constexpr double kDamping = 1e-3, kMoreDamping = 3.0, kLessDamping = 5.0, kMostDamping = 1e9;
+// Nielsen (1999): more damping ever faster while steps fail, less the better the last one kept its promise.
+constexpr double kDamping = 1e-3, kMoreDamping = 3.0, kFaster = 2.0, kLeastPart = 0.1, kMostDamping = 1e9;
 constexpr double kProbe = 0.1;     // of a step, to find its acceleration
 constexpr double kMostBend = 1.0;  // acceleration over velocity beyond which a step is not trusted
 
@@ -42,28 +42,32 @@ Eigen::VectorXd FewReadings::bend(const Eigen::VectorXd& z, const Eigen::VectorX
 }
 
 Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewReadings& few, Eigen::VectorXd z,
-                const Eigen::VectorXd& bound, int most_steps) {
+                const Eigen::VectorXd& bound, double worth_a_step, int most_steps) {
   Descent out;
   Posterior now = at(z);
   out.is_reachable = now.is_reachable;
-  double damping = kDamping;
+  double damping = kDamping, more = kMoreDamping;
   for (; now.is_reachable && out.steps < most_steps && damping < kMostDamping; ++out.steps) {
     Eigen::MatrixXd damped = now.information;
     damped.diagonal().array() += damping;
     const BoundedStep straight(damped, now.downhill, z, bound);
-    out.is_at_rest = straight.promised() < kWorthAStep;
+    out.is_at_rest = straight.promised() < worth_a_step;
     if (out.is_at_rest) break;
-    damping *= kMoreDamping;
+    const double used = damping;
+    damping *= more;
+    more *= kFaster;
     const Eigen::VectorXd acceleration = -straight.solve(few.bend(z, straight.step()));
     if (!(acceleration.norm() < kMostBend * straight.step().norm())) continue;
     Eigen::VectorXd further = z + straight.step() + 0.5 * acceleration;
     if ((further.cwiseAbs().array() > bound.array()).any()) further = z + straight.step();
     const Posterior next = at(further);
     if (!next.is_reachable || !(next.cost < now.cost)) continue;
-    out.is_at_rest = now.cost - next.cost < 0.5 * kWorthAStep;
+    const double kept = 2.0 * (now.cost - next.cost) / straight.promised();
+    out.is_at_rest = now.cost - next.cost < 0.5 * worth_a_step;
     z = further;
     now = next;
-    damping /= kMoreDamping * kLessDamping;
+    damping = used * std::max(kLeastPart, 1.0 - std::pow(2.0 * std::min(kept, 1.0) - 1.0, 3.0));
+    more = kMoreDamping;
     if (out.is_at_rest) break;
   }
   out.z = z;

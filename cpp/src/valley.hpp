@@ -43,11 +43,11 @@ struct Descent {
   Eigen::VectorXd z;
   int steps = 0;
   bool is_reachable = false;  // false where a sample has no solution at the start
-  bool is_at_rest = false;    // a further step would change chi-square by nothing that a verdict hangs on
+  bool is_at_rest = false;    // no further step is worth while
 };
 
-/// Go down from `z` while `at` promises a fall worth a step.
+/// Go down from `z` until a step promises, or makes, chi-square fall by less than `worth_a_step`.
 Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewReadings& few, Eigen::VectorXd z,
-                const Eigen::VectorXd& bound, int most_steps);
+                const Eigen::VectorXd& bound, double worth_a_step, int most_steps);
 
 }  // namespace hexdbb

@@ -189,7 +189,7 @@ class Samples:
         """
         Fill what follows from time_s, sweep and the sliders: motion, leg forces, nominal readings.
         """
-    def rows(self, which: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex]) -> Samples:
+    def rows(self, which: typing.Annotated[numpy.typing.ArrayLike, numpy.int64]) -> Samples:
         """
         Some rows; what is tabulated for the whole stays right for the part.
         """

@@ -17,8 +17,9 @@ from hexdbb.diagnosis.result import Diagnosis, prior_sigmas, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.step import ledger_step
 from hexdbb.errors import InputError, RunError
+from hexdbb.measured import Measured, measured
 from hexdbb.model import Model
-from hexdbb.prediction import knowing, residual_mm, samples_of
+from hexdbb.prediction import knowing, residual_mm
 from hexdbb.record import Record
 from hexdbb.redundancy import KNOWN_PART, sentences
 
@@ -31,7 +32,7 @@ GLITCH_SIGMAS = 3.0
 
 
 def evaluate_fit(
-    records: Sequence[Record],
+    records: Sequence[Record] | Measured,
     model: Model,
     free: NDArray[np.bool_],
     noise: Noise,
@@ -43,7 +44,7 @@ def evaluate_fit(
 
     Parameters
     ----------
-    records : sequence of Record
+    records : sequence of Record, or Measured
         Of mounts the model knows.
     model : Model
         Start of the fit.
@@ -61,24 +62,22 @@ def evaluate_fit(
     RunError
         Where the fit did not end in a usable solution.
     """
-    names = ", ".join(record.name for record in records)
-    samples = samples_of(records, model)
-    engine = model.engine(samples)
+    taken = measured(records, model)
     try:
         result = _core.fit(
-            engine,
-            samples,
-            np.concatenate([record.reading_mm for record in records]),
+            taken.engine(model),
+            taken.samples,
+            taken.reading_mm,
             noise_mm=noise.sigma_mm,
             free=[bool(each) for each in free],
             robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
-            sweep=_sweep_numbers(records),
+            sweep=taken.sweep,
             judging=judging,
         )
     except ValueError as error:
-        raise InputError(f"{names}: {error}") from None
+        raise InputError(f"{taken.names}: {error}") from None
     if not result.usable:
-        raise RunError(f"{names}: the fit did not succeed: {result.termination}")
+        raise RunError(f"{taken.names}: the fit did not succeed: {result.termination}")
     return _fitted_model(model, result), result
 
 
@@ -121,13 +120,14 @@ def diagnose(
     _require_distinct(records)
     known = knowing(model, records)
     noise = noise_of(records)
-    first = evaluate_fit(records, known, known.free, noise, robust=robust)
+    taken = measured(records, known)
+    first = evaluate_fit(taken, known, known.free, noise, robust=robust)
     (fitted, result), either_sign = settle_signs(
-        first, lambda start: evaluate_fit(records, start, start.free, noise, robust=robust), noise.sigma_mm
+        first, lambda start: evaluate_fit(taken, start, start.free, noise, robust=robust), noise.sigma_mm
     )
     _require_told(fitted, result, records)
     after = (fitted, refitter(noise, robust))
-    checked = held_out(records, against or (known, as_it_is), after) if check_held_out else None
+    checked = held_out(taken, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else foretold(records, fitted, result.noise_mm * 1e3)
     parameters = known.parameters()
     step = ledger_step("diagnose", model, records, (residual_mm(records, known), result.residual_mm), checked)
@@ -164,7 +164,7 @@ def _require_distinct(records: Sequence[Record]) -> None:
 def refitter(noise: Noise, robust: bool = False) -> Refit:
     """Give a function that fits a model's free values to records."""
 
-    def refit(records: Sequence[Record], model: Model) -> Model:
+    def refit(records: Measured, model: Model) -> Model:
         return evaluate_fit(records, model, model.free, noise, robust=robust, judging=True)[0]
 
     return refit
@@ -182,18 +182,6 @@ def _require_told(model: Model, result: _core.FitResult, records: Sequence[Recor
             raise InputError(f"{names}: {effect} acts nowhere in these readings (expected to hold it: --fix {effect})")
     if (spread > 0.99 * sizes)[result.free_columns].all():
         raise InputError(f"{names}: rank 0: the readings say nothing about any free value (expected one at least)")
-
-
-def _sweep_numbers(records: Sequence[Record]) -> NDArray[np.int32]:
-    """Number the captures through all records."""
-    numbers, first = [], 0
-    for record in records:
-        own = np.zeros(len(record.columns["t_s"]), dtype=np.int32)
-        for sweep, rows in enumerate(record.sweeps()):
-            own[rows] = first + sweep
-        first += len(record.sweeps())
-        numbers.append(own)
-    return np.concatenate(numbers)
 
 
 def _fitted_model(model: Model, result: _core.FitResult) -> Model:

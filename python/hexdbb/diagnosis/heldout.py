@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.measured import Measured, measured
 from hexdbb.model import Model
-from hexdbb.prediction import samples_of
 from hexdbb.record import Record
 
 MOST_FOLDS = 7
 
-Refit = Callable[[Sequence[Record], Model], Model]
+Refit = Callable[[Measured, Model], Model]
 Mask = NDArray[np.bool_]
 
 
@@ -41,7 +41,7 @@ class HeldOut:
 
 
 def held_out(
-    records: Sequence[Record],
+    records: Sequence[Record] | Measured,
     before: tuple[Model, Refit],
     after: tuple[Model, Refit],
     by: Literal["circle", "sweep"] = "circle",
@@ -51,7 +51,7 @@ def held_out(
 
     Parameters
     ----------
-    records : sequence of Record
+    records : sequence of Record, or Measured
     before, after : tuple of Model and callable
         A start and how it is fitted to the training records; `as_it_is` leaves its values alone.
     by : str
@@ -64,16 +64,15 @@ def held_out(
     HeldOut or None
         None where there are not two groups.
     """
-    left_out = folds(records, by, most_folds)
+    taken = measured(records, after[0])
+    left_out = folds(taken.records, by, most_folds)
     if len(left_out) < 2:
         return None
     errors: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
-    for fold in left_out:
-        training = [record.part(~rows) for record, rows in zip(records, fold, strict=True) if not rows.all()]
+    for fold in map(np.concatenate, left_out):
         for (model, refit), gathered in zip((before, after), errors, strict=True):
-            trained = refit(training, model)
-            left = [record.part(rows) for record, rows in zip(records, fold, strict=True) if rows.any()]
-            gathered += [_residual(part, trained) for part in left]
+            own = measured(taken, model)
+            gathered.append(_residual(own.part(fold), refit(own.part(~fold), model)))
     before_mm, after_mm = (np.concatenate(gathered) for gathered in errors)
     return HeldOut(
         before_um=_rms_um(before_mm),
@@ -84,7 +83,7 @@ def held_out(
     )
 
 
-def as_it_is(_: Sequence[Record], model: Model) -> Model:
+def as_it_is(_: Measured, model: Model) -> Model:
     """Fit nothing."""
     return model
 
@@ -102,9 +101,8 @@ def folds(records: Sequence[Record], by: str, most: int) -> list[list[Mask]]:
     ]
 
 
-def _residual(record: Record, model: Model) -> NDArray[np.float64]:
-    samples = samples_of([record], model)
-    residual: NDArray[np.float64] = record.reading_mm - _core.predict(model.engine(samples), samples).reading_mm
+def _residual(part: Measured, model: Model) -> NDArray[np.float64]:
+    residual: NDArray[np.float64] = part.reading_mm - _core.predict(part.engine(model), part.samples).reading_mm
     return residual
 
 

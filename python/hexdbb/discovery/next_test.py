@@ -122,7 +122,7 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
 
 
 def _information(base: Base, model: Model) -> Floats:
-    samples = samples_of(base.records, model)
+    samples = base.measured.samples
     measured_mm = np.concatenate([record.reading_mm for record in base.records])
     equations = _core.normal_equations(model.engine(samples), samples, measured_mm)
     information: Floats = equations.information / base.noise.sigma_mm**2

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis import Noise
+from hexdbb.measured import Measured, measured
 from hexdbb.model import Model, Parameter, new_term
-from hexdbb.prediction import samples_of
 from hexdbb.record import Record
 
 Floats = NDArray[np.float64]
@@ -98,7 +98,7 @@ class Screen:
 
 
 def screen(
-    records: Sequence[Record],
+    records: Sequence[Record] | Measured,
     model: Model,
     candidates: Sequence[str],
     noise: Noise,
@@ -109,7 +109,7 @@ def screen(
 
     Parameters
     ----------
-    records : sequence of Record
+    records : sequence of Record, or Measured
     model : Model
         Fitted; its free values are what may imitate a candidate.
     candidates : sequence of str
@@ -121,9 +121,8 @@ def screen(
         Where the candidates' shaping values (a time constant) stand, in expected sizes: first order cannot move them.
     """
     full, tried = _with_candidates(model, candidates, shape)
-    measured = np.concatenate([record.reading_mm for record in records])
-    samples = samples_of(records, full)
-    equations = _core.normal_equations(full.engine(samples), samples, measured)
+    taken = measured(records, full)
+    equations = _core.normal_equations(taken.engine(full), taken.samples, taken.reading_mm)
     weight = 1.0 / (noise.sigma_mm**2 * correlation)
     information, gradient = equations.information * weight, equations.gradient * weight
     parameters = full.parameters()
@@ -137,7 +136,7 @@ def screen(
         gradient=gradient[tried] - cross.T @ at_rest,
         scale=np.diag(information)[tried],
         parameters=tuple(parameters[column] for column in tried),
-        readings=len(measured) / correlation,
+        readings=len(taken.reading_mm) / correlation,
         shape=shape,
     )
 

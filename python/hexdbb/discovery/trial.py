@@ -17,6 +17,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.discovery.result import Candidate, FittedParameter
 from hexdbb.discovery.screen import shaped
+from hexdbb.measured import Measured, measured
 from hexdbb.model import Model, new_term
 from hexdbb.record import Record
 from hexdbb.units import shown_factor, shown_unit
@@ -34,12 +35,17 @@ SMALLEST_PART = 0.01
 class Base:
     """The model a candidate must improve on, fitted to the same records."""
 
-    records: tuple[Record, ...]
+    measured: Measured
     model: Model
     noise: Noise
     squared: float
     """Sum of squared residuals over the noise's variance."""
     residual_mm: Floats
+
+    @property
+    def records(self) -> tuple[Record, ...]:
+        """Whose readings are to be explained."""
+        return self.measured.records
 
     @property
     def readings(self) -> int:
@@ -52,11 +58,12 @@ class Base:
         return max(self.squared - self.readings, 1e-9)
 
 
-def fitted_base(records: Sequence[Record], model: Model, noise: Noise) -> Base:
+def fitted_base(records: Sequence[Record] | Measured, model: Model, noise: Noise) -> Base:
     """Fit a model's free values and keep what candidates are compared with."""
-    fitted, result = evaluate_fit(records, model, model.free, noise)
+    taken = measured(records, model)
+    fitted, result = evaluate_fit(taken, model, model.free, noise, judging=True)
     residual = result.residual_mm
-    return Base(tuple(records), fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
+    return Base(taken, fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
 
 
 def with_effect(model: Model, effect: str, elements: Sequence[str], shape: float = 0.0) -> Model:
@@ -80,12 +87,12 @@ def try_effect(
     the rest is fitted again.
     """
     wider = with_effect(base.model, effect, elements, shape)
-    fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, judging=True)
+    fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
     kept = _contributing(base, fitted, result, effect, elements)
     if kept != tuple(elements):
         elements = kept
         wider = with_effect(base.model, effect, elements, shape)
-        fitted, result = evaluate_fit(base.records, wider, wider.free, base.noise, judging=True)
+        fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
     count = int((wider.free & ~with_effect(base.model, effect, ()).free).sum())
     readings = base.readings / result.correlation
