@@ -12,7 +12,7 @@ PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
 
 CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
 CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
-CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) -name '*.[ch]pp' -o -name '*.h')
+CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) firmware_interfaces/linuxcnc -name '*.[ch]pp' -o -name '*.[ch]')
 PYTHON_SOURCES := python tests .ci/scripts firmware_interfaces cpp/bench
 
 MAKEFLAGS += --no-print-directory

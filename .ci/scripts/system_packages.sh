@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Sees to what pip cannot install: a Python that is new enough, the compiler and the C++ libraries of the engine.
 # Installs only what is missing, through apt on Debian and Ubuntu; elsewhere it says what is needed and goes on.
+# HEXDBB_LINUXCNC=ON adds LinuxCNC, which Debian has from 12 on.
 set -euo pipefail
 
 python=${PYTHON:-python3}
@@ -15,6 +16,10 @@ packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libgtest-dev libbench
 if [ "$("$python" -c 'import sys; print(sys.base_prefix)')" = /usr ]; then
   version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
   packages+=("python$version-venv" "python$version-dev")
+fi
+
+if [ "${HEXDBB_LINUXCNC:-OFF}" = ON ]; then
+  packages+=(linuxcnc-uspace linuxcnc-uspace-dev pkg-config)
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -1,8 +1,8 @@
 """The machine behind the controller, and the compensation a user would make for it: measured, diagnosed, written.
 
-The truth has errors of geometry (50 um, 0.2 mrad), play in every screw, uneven pitch in three and legs that give way under
-the platform's weight; its sizes are drawn, none is chosen. The model is fitted to what a ball bar with its noise reads on
-the seven standard circles; it never sees the truth.
+The truth has errors of geometry (50 um, 0.2 mrad), play in every screw, uneven pitch in three and legs that give way
+under the platform's weight; its sizes are drawn, none is chosen but the sag's. The model is fitted to what a ball bar
+with its noise reads on the seven standard circles; it never sees the truth.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ Runs under the distribution's Python, which has the module `linuxcnc`.
 import json
 import sys
 import time
+from pathlib import Path
 
 import linuxcnc
 
@@ -60,8 +61,8 @@ def main():
     command.auto(linuxcnc.AUTO_RUN, 1)
     wait(lambda: status.interp_state != linuxcnc.INTERP_IDLE, "begin of the program")
     wait(lambda: status.interp_state == linuxcnc.INTERP_IDLE and status.inpos, "end of the program")
-    with open("operator.json", "w", encoding="utf-8") as file:
-        json.dump({"commanded": status.position[:6], "actual": status.actual_position[:6]}, file)
+    poses = {"commanded": status.position[:6], "actual": status.actual_position[:6]}
+    Path("operator.json").write_text(json.dumps(poses), encoding="utf-8")
 
 
 main()

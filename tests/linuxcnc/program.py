@@ -1,10 +1,10 @@
 """Circular tests as G-code: LinuxCNC's own arcs, in both directions, with the compensation off and then on.
 
-Model: the ball stands at cup + R_platform ball_offset of the pose's position, so that a circle of the ball about the cup
-is a circle of the position about cup - R ball_offset in the same plane. An arc takes one turn and a half from angle pi:
-a quarter turn before the turn that is evaluated and one after it, as a test's overshoot.
-Last come short moves with a stop before each: LinuxCNC then asks for the joints of an end point that is near the place it
-stands at, which must not be taken for motion.
+Model: the ball stands at position + R ball_offset, so that a circle of the ball about the cup is a circle of the
+position about cup - R ball_offset in the same plane. An arc takes one turn and a half from angle pi: a quarter turn
+before the turn that is evaluated and one after it, as a test's overshoot.
+Last come short moves with a stop before each: LinuxCNC then asks for the joints of an end point that is near the place
+it stands at, which must not be taken for motion.
 Tags: analogue output 0 has the number of the arc while it is driven, 0 between.
 Units: mm, deg; feed mm/min.
 """

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import click
-import matplotlib as mpl
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from tests.linuxcnc.machine import true_machine, write_compensation
 from tests.linuxcnc.module import built_module
 from tests.linuxcnc.program import CIRCLES, arcs, program
@@ -17,9 +18,6 @@ from tests.linuxcnc.session import PERIOD_S, Session, run_linuxcnc
 
 from hexdbb import iso230
 from hexdbb.machine import shipped_machine
-
-mpl.use("Agg")
-from matplotlib import pyplot as plt
 
 Paths = dict[tuple[str, bool, int], iso230.Path]
 
@@ -67,7 +65,9 @@ def _servo_table(session: Session) -> Iterator[str]:
 
 
 def _draw(paths: Paths, image: Path) -> None:
-    figure, axes = plt.subplots(2, len(CIRCLES), figsize=(10.0, 5.0), sharex=True, layout="constrained")
+    figure = Figure(figsize=(10.0, 5.0), layout="constrained")
+    FigureCanvasAgg(figure)
+    axes = figure.subplots(2, len(CIRCLES), sharex=True)
     for column, circle in zip(axes.T, CIRCLES, strict=True):
         for axis, is_on in zip(column, (False, True), strict=True):
             both = [paths[circle.name, is_on, direction] for direction in (1, -1)]

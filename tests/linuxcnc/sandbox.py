@@ -1,9 +1,9 @@
 """LinuxCNC in namespaces of its own: as an ordinary user, beside any other LinuxCNC, and gone when its time is over.
 
 LinuxCNC refuses root, loads modules from one folder of the system only, and keeps its state in System V shared memory,
-in `/tmp` and in processes that outlive their parent. `unshare` (util-linux) gives it a mount, an IPC and a PID namespace:
-the folder of modules shows a copy with ours added, `/tmp` is empty but for the work folder, and when `unshare` ends or is
-killed the kernel ends every process within.
+in `/tmp` and in processes that outlive their parent. `unshare` (util-linux) gives it a mount, an IPC and a PID
+namespace: the folder of modules shows a copy with ours added, `/tmp` is empty but for the work folder, and when
+`unshare` ends or is killed the kernel ends every process within.
 """
 
 from __future__ import annotations
@@ -34,13 +34,16 @@ exec "$@"
 ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": INSIDE, "LANG": "C.UTF-8", "USER": "nobody"}
 
 
+def is_installed() -> bool:
+    """Whether there are LinuxCNC and its headers."""
+    return shutil.which("linuxcnc") is not None and HEADER.exists()
+
+
 @cache
 def why_not() -> str | None:
     """Say why LinuxCNC cannot be run here; None where it can."""
-    if shutil.which("linuxcnc") is None:
-        return "LinuxCNC is not installed (Debian: linuxcnc-uspace)"
-    if not HEADER.exists():
-        return "LinuxCNC's headers are not installed (Debian: linuxcnc-uspace-dev)"
+    if not is_installed():
+        return "LinuxCNC is not installed (Debian: linuxcnc-uspace, linuxcnc-uspace-dev)"
     probe = subprocess.run([*_unshare(), "true"], capture_output=True, text=True, timeout=60)
     if probe.returncode != 0:
         return f"no namespaces for LinuxCNC: {probe.stderr.strip()} (expected root, or unprivileged user namespaces)"

@@ -11,7 +11,8 @@ from hexdbb.cli import cli
 from hexdbb.effects import load_effects
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", ROOT / "firmware_interfaces" / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+FOLDERS = ("firmware_interfaces", "docs")
+PAGES = [ROOT / "README.md", *(page for folder in FOLDERS for page in sorted((ROOT / folder).rglob("*.md")))]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
