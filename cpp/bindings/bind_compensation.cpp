@@ -96,13 +96,19 @@ void bind_compensation(py::module_& module) {
   module.def(
       "compensation_of",
       [](const Model& model, const std::string& name, const std::string& model_sha256, double max_correction_mm,
-         double reversal_travel_mm, double reference_temperature_c) {
-        return compensation_of(model, name, model_sha256, {max_correction_mm, reversal_travel_mm},
-                               reference_temperature_c);
+         double reversal_travel_mm, double reference_temperature_c, const std::vector<std::string>& unknown) {
+        CompensationData data = compensation_of(model, name, model_sha256, {max_correction_mm, reversal_travel_mm},
+                                                reference_temperature_c);
+        for (const std::string& each : unknown) {
+          data.left_out.push_back({each, "is known to the program that fitted it, not to the engine"});
+        }
+        return data;
       },
       py::arg("model"), py::kw_only(), py::arg("name"), py::arg("model_sha256"), py::arg("max_correction_mm"),
       py::arg("reversal_travel_mm"), py::arg("reference_temperature_c"),
-      "What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known.");
+      py::arg("unknown") = std::vector<std::string>(),
+      "What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known; "
+      "unknown: effects of the model that the engine does not have.");
   module.def("read_compensation", &read_compensation, py::arg("path"),
              "Read a compensation file; CompensationError says why it is refused.");
   module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),

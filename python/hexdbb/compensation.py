@@ -10,7 +10,7 @@ import csv
 import hashlib
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +22,7 @@ from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine, status_name
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model
+from hexdbb.record import Record
 
 Floats = NDArray[np.float64]
 
@@ -56,6 +57,7 @@ def make_compensation(
     Parameters
     ----------
     model : Model
+        Its effects of the user's own are left out, as what only the program that fitted them knows.
     max_correction_mm : float
         Largest correction of one slider; a controller refuses poses that need more.
     reversal_travel_mm : float
@@ -69,14 +71,33 @@ def make_compensation(
         `effects` it corrects, `left_out` with reasons.
     """
     content = model.path.read_bytes() if model.path is not None and model.path.is_file() else b""
+    unknown = [term.effect for term in model.terms if term.effect in model.own_effects]
+    known = replace(model, terms=tuple(term for term in model.terms if term.effect not in unknown))
     return _core.compensation_of(
-        model.engine(),
+        known.engine(),
         name=model.machine.name,
         model_sha256=hashlib.sha256(content).hexdigest() if content else "",
         max_correction_mm=max_correction_mm,
         reversal_travel_mm=reversal_travel_mm,
         reference_temperature_c=math.nan if reference_temperature_c is None else reference_temperature_c,
+        unknown=unknown,
     )
+
+
+def fitted_temperature_c(model: Model, record: Record) -> float:
+    """Give the temperature from which a model's growth counts: the first one of the record it was fitted to.
+
+    Raises
+    ------
+    InputError
+        The model was not fitted to this record, or no temperature was measured in it.
+    """
+    if record.content_hash() not in {each for step in model.ledger for each in step.record_hashes}:
+        raise InputError(f"{record.name}: the model was not fitted to it (expected a record that its history names)")
+    _, temperature_c = record.origin if record.origin is not None else (0.0, math.nan)
+    if math.isnan(temperature_c):
+        raise InputError(f"{record.name}: temperature_c: not measured (expected a record with a temperature)")
+    return temperature_c
 
 
 def write_text(text: str, path: Path) -> None:

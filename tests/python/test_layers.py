@@ -74,7 +74,7 @@ ALLOWED: dict[str, set[str]] = {
         "_core",
     },
     # what a controller does about it
-    "compensation": {"errors", "atomic_file", "machine", "kinematics", "model", "_core"},
+    "compensation": {"errors", "atomic_file", "machine", "record", "kinematics", "model", "_core"},
     "compensated_targets": {"can_setup", "kinematics", "trajectory", "_core"},
     "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
     "identifiability": {"model", "redundancy", "sensitivity", "_core"},

@@ -10,11 +10,13 @@ import numpy as np
 
 from hexdbb import _core
 from hexdbb.atomic_file import refuse_existing
+from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compensation import (
     MAX_CORRECTION_MM,
     REVERSAL_TRAVEL_MM,
     SUFFIX,
+    fitted_temperature_c,
     make_compensation,
     path_targets,
     read_compensation,
@@ -23,6 +25,8 @@ from hexdbb.compensation import (
     write_text,
 )
 from hexdbb.errors import InputError
+from hexdbb.model import Model
+from hexdbb.record import read_record
 
 POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -54,6 +58,14 @@ POSITIVE = click.FloatRange(min=0.0, min_open=True)
 @click.option(
     "--reference-temperature-c", type=float, help="Temperature at the record's first sample; else growth is left out."
 )
+@click.option(
+    "--reference",
+    "reference_path",
+    metavar="RECORD",
+    type=click.Path(path_type=Path),
+    help="The same, read from the record that the model was fitted to.",
+)
+@effects_option
 @click.option("--temperature-c", type=float, help="With --poses: the temperature to correct for.")
 @click.option("--overwrite", is_flag=True, help="Replace existing files.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
@@ -65,14 +77,16 @@ def command(
     max_correction_um: float,
     reversal_travel_um: float,
     reference_temperature_c: float | None,
+    reference_path: Path | None,
+    effects_path: Path | None,
     temperature_c: float | None,
     overwrite: bool,
     as_json: bool,
 ) -> None:
     """Write what a motion controller needs to correct the errors of MODEL, or correct a path with it.
 
-    MODEL is a model file, or a compensation file (NAME.hexcomp) made of one. Effects that belong to the measurement, or
-    depend on what a controller does not follow, are left out and listed with the reason.
+    MODEL is a model file, or a compensation file (NAME.hexcomp) made of one. Effects that belong to the measurement,
+    depend on what a controller does not follow, or are of your own (--effects) are left out and listed with the reason.
 
     POSES has the columns x_mm, y_mm, z_mm, roll_deg, pitch_deg, yaw_deg; the table written has s1_mm to s6_mm, a row a
     pose. It has no times, so that lags in proportion to speed are not corrected there.
@@ -92,8 +106,11 @@ def command(
     if model.suffix == SUFFIX:
         data = read_compensation(model)
     else:
+        known = existing_model(model, effects_path)
+        if reference_path is not None:
+            reference_temperature_c = stated_once(known, reference_path, reference_temperature_c)
         data = make_compensation(
-            existing_model(model),
+            known,
             max_correction_mm=1e-3 * max_correction_um,
             reversal_travel_mm=1e-3 * reversal_travel_um,
             reference_temperature_c=reference_temperature_c,
@@ -106,6 +123,19 @@ def command(
     if header is not None:
         write_text(data.header(), header)
     click.echo(json.dumps(summary, indent=2, allow_nan=False) if as_json else _words(summary))
+
+
+def stated_once(model: Model, path: Path, stated_c: float | None) -> float:
+    """Read the reference temperature from a record.
+
+    Raises
+    ------
+    InputError
+        It was stated as well, or the record does not tell.
+    """
+    if stated_c is not None:
+        raise InputError(f"--reference {path} together with --reference-temperature-c: expected one of them")
+    return fitted_temperature_c(model, read_record(path))
 
 
 def _correct_path(
