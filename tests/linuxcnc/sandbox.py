@@ -44,7 +44,8 @@ def why_not() -> str | None:
     """Say why LinuxCNC cannot be run here; None where it can."""
     if not is_installed():
         return "LinuxCNC is not installed (Debian: linuxcnc-uspace, linuxcnc-uspace-dev)"
-    probe = subprocess.run([*_unshare(), "true"], capture_output=True, text=True, timeout=60)
+    mount = ["mount", "-t", "tmpfs", "tmpfs", "/tmp"]
+    probe = subprocess.run([*_unshare(), *mount], capture_output=True, text=True, timeout=60)
     if probe.returncode != 0:
         return f"no namespaces for LinuxCNC: {probe.stderr.strip()} (expected root, or unprivileged user namespaces)"
     return None
@@ -64,7 +65,8 @@ def run(work: Path, *command: str, timeout_s: float) -> subprocess.CompletedProc
     subprocess.TimeoutExpired
         With it ends everything that it started.
     """
-    as_user: list[str] = []
+    # Who is no root is one in the namespace, to mount; a namespace within that one makes an ordinary user again.
+    as_user = ["unshare", "--user", f"--map-user={NOBODY}", f"--map-group={NOBODY}"]
     if os.geteuid() == 0:
         as_user = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]
         for each in (work, *work.rglob("*")):
@@ -82,4 +84,4 @@ def run(work: Path, *command: str, timeout_s: float) -> subprocess.CompletedProc
 
 def _unshare() -> list[str]:
     unshare = ["unshare", "--mount", "--ipc", "--pid", "--fork", "--kill-child", "--mount-proc"]
-    return unshare if os.geteuid() == 0 else [*unshare, "--user", "--map-current-user"]
+    return unshare if os.geteuid() == 0 else [*unshare, "--user", "--map-root-user"]
