@@ -48,10 +48,10 @@ void bind_effects(py::module_& module) {
              "Names of the effects of a group (geometry, set-up, catalogue), or of all.");
   module.def(
       "effect_info",
-      [](const Machine& machine, int mounts, const std::string& name, int circles) {
-        return find_effect(machine, mounts, name, circles)->info();
+      [](const Machine& machine, int mounts, const std::string& name) {
+        return find_effect(machine, mounts, name)->info();
       },
-      py::arg("machine"), py::arg("mounts"), py::arg("name"), py::arg("circles") = 1,
+      py::arg("machine"), py::arg("mounts"), py::arg("name"),
       "The effect of that name; ValueError where there is none.");
 }
 

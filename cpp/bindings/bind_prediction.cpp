@@ -27,11 +27,10 @@ void bind_prediction(py::module_& module) {
       .def(py::init<const Machine&>(), py::arg("machine"))
       .def(
           "add",
-          [](Model& model, const std::string& name, int mounts, int circles) {
-            model.add(find_effect(model.nominal.machine, mounts, name, circles));
+          [](Model& model, const std::string& name, int mounts) {
+            model.add(find_effect(model.nominal.machine, mounts, name));
           },
-          py::arg("name"), py::arg("mounts"), py::arg("circles") = 1,
-          "Append the effect of that name with all values zero.")
+          py::arg("name"), py::arg("mounts"), "Append the effect of that name with all values zero.")
       .def("add_tabulated", &add_tabulated, py::arg("info"), py::kw_only(), py::arg("values"), py::arg("ports"),
            py::arg("per_unit"),
            "Append an effect whose value values[j] pushes port ports[j] by per_unit[:, j], a row a sample.")

@@ -36,6 +36,6 @@ EffectPtr joint_offset();
 EffectPtr bar_drift();
 EffectPtr bar_gain();
 EffectPtr sample_delay();
-EffectPtr ball_eccentricity(int circles);
+EffectPtr ball_eccentricity(int mounts);
 
 }  // namespace hexdbb

@@ -9,10 +9,10 @@ namespace hexdbb {
 
 namespace {
 
-std::vector<EffectPtr> all_effects(const Machine& machine, int mounts, int circles) {
+std::vector<EffectPtr> all_effects(const Machine& machine, int mounts) {
   std::vector<EffectPtr> all = geometric_effects(machine);
   for (EffectPtr& effect : set_up_effects(mounts)) all.push_back(std::move(effect));
-  for (EffectPtr& effect : catalogue_effects(machine, circles)) all.push_back(std::move(effect));
+  for (EffectPtr& effect : catalogue_effects(machine, mounts)) all.push_back(std::move(effect));
   return all;
 }
 
@@ -22,22 +22,22 @@ void Effect::require(const Samples& samples) const {
   for (const std::string& column : info().needs) require_column(samples.state, column, "effect " + info().name);
 }
 
-std::vector<EffectPtr> catalogue_effects(const Machine& machine, int circles) {
-  return {backlash(),  reversal_spike(), pitch_cyclic(machine),  lead_error(machine),       straightness(machine),
-          servo_lag(), leg_thermal(),    screw_thermal(machine), gravity_sag(machine),      joint_offset(),
-          bar_drift(), bar_gain(),       sample_delay(),         ball_eccentricity(circles)};
+std::vector<EffectPtr> catalogue_effects(const Machine& machine, int mounts) {
+  return {backlash(),  reversal_spike(), pitch_cyclic(machine),  lead_error(machine),      straightness(machine),
+          servo_lag(), leg_thermal(),    screw_thermal(machine), gravity_sag(machine),     joint_offset(),
+          bar_drift(), bar_gain(),       sample_delay(),         ball_eccentricity(mounts)};
 }
 
 std::vector<std::string> effect_names(const std::string& group) {
   std::vector<std::string> names;
-  for (const EffectPtr& effect : all_effects(Machine(), 1, 1)) {
+  for (const EffectPtr& effect : all_effects(Machine(), 1)) {
     if (group.empty() || effect->info().group == group) names.push_back(effect->info().name);
   }
   return names;
 }
 
-EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name, int circles) {
-  for (EffectPtr& effect : all_effects(machine, mounts, circles)) {
+EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name) {
+  for (EffectPtr& effect : all_effects(machine, mounts)) {
     if (effect->info().name == name) return effect;
   }
   std::string known;

@@ -98,23 +98,21 @@ class SampleDelay : public Effect {
 
 EffectPtr sample_delay() { return std::make_shared<SampleDelay>(); }
 
-EffectPtr ball_eccentricity(int circles) {
+EffectPtr ball_eccentricity(int mounts) {
   // A ball put back into its magnetic holder: hundredths of a millimetre.
   const auto along = [](const char* name) { return ParameterInfo{name, "mm", 0.05, 2.0}; };
-  EffectInfo info{"ball_eccentricity",
-                  "The bar's ball sits elsewhere on the platform in every circle's set-up, one offset for each circle; "
-                  "ball_offset holds what all circles have in common.",
-                  "set-up",
-                  "circle",
-                  {},
-                  {along("x"), along("y"), along("z")},
-                  {"ball"},
-                  true,
-                  group::kCatalogue,
-                  {"circle"}};
-  return std::make_shared<PlacePerSetUp>(
-      std::move(info), circles, port::kBall, "circle",
-      [](const Samples& samples, Eigen::Index row) { return samples.state.circle[row]; });
+  EffectInfo info{
+      "ball_eccentricity",
+      "The bar's ball sits elsewhere on the platform in every set-up, one offset for each fixing of the tool "
+      "cup; ball_offset holds what all have in common.",
+      "set-up",
+      "mount",
+      {},
+      {along("x"), along("y"), along("z")},
+      {"ball"},
+      true,
+      group::kCatalogue};
+  return std::make_shared<PlacePerSetUp>(std::move(info), mounts, port::kBall);
 }
 
 }  // namespace hexdbb

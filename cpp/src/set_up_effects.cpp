@@ -21,8 +21,7 @@ EffectPtr cup_position(int mounts) {
                   {"cup"},
                   true,
                   group::kSetUp};
-  return std::make_shared<PlacePerSetUp>(std::move(info), mounts, port::kCup, "mount",
-                                         [](const Samples& samples, Eigen::Index row) { return samples.mount[row]; });
+  return std::make_shared<PlacePerSetUp>(std::move(info), mounts, port::kCup);
 }
 
 EffectPtr ball_offset() {

@@ -208,12 +208,7 @@ class Model:
     A machine and a list of effects with their values.
     """
     def __init__(self, machine: Machine) -> None: ...
-    def add(
-        self,
-        name: str,
-        mounts: typing.SupportsInt | typing.SupportsIndex,
-        circles: typing.SupportsInt | typing.SupportsIndex = 1,
-    ) -> None:
+    def add(self, name: str, mounts: typing.SupportsInt | typing.SupportsIndex) -> None:
         """
         Append the effect of that name with all values zero.
         """
@@ -382,17 +377,13 @@ def compensation_of(
     max_correction_mm: typing.SupportsFloat | typing.SupportsIndex,
     reversal_travel_mm: typing.SupportsFloat | typing.SupportsIndex,
     reference_temperature_c: typing.SupportsFloat | typing.SupportsIndex,
+    unknown: collections.abc.Sequence[str] = [],
 ) -> CompensationData:
     """
-    What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known.
+    What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known; unknown: effects of the model that the engine does not have.
     """
 
-def effect_info(
-    machine: Machine,
-    mounts: typing.SupportsInt | typing.SupportsIndex,
-    name: str,
-    circles: typing.SupportsInt | typing.SupportsIndex = 1,
-) -> EffectInfo:
+def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
     """
     The effect of that name; ValueError where there is none.
     """

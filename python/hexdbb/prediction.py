@@ -22,14 +22,9 @@ def mount_keys(records: Sequence[Record]) -> list[MountKey]:
     return [key for record in records for key in _keys_by_circle(record).values()]
 
 
-def circle_ids(records: Sequence[Record]) -> list[int]:
-    """Give the circles of some records that a sample was taken on, by id, each once."""
-    return sorted({int(each) for record in records for each in np.unique(record.columns["circle"])})
-
-
 def knowing(model: Model, records: Sequence[Record]) -> Model:
-    """Give the same model knowing the mounts and circles of some records; what is new to it stands where planned."""
-    return model.with_mounts(list(dict.fromkeys(mount_keys(records)))).with_circles(circle_ids(records))
+    """Give the same model knowing the mounts of some records; what is new to it stands where planned."""
+    return model.with_mounts(list(dict.fromkeys(mount_keys(records))))
 
 
 def unseen_mounts(record: Record, model: Model) -> list[MountKey]:
@@ -69,7 +64,7 @@ def samples_of(records: Sequence[Record], model: Model) -> _core.Samples:
         set_up=np.concatenate(set_up_rows).astype(np.int32),
         mount=np.concatenate(mount_rows).astype(np.int32),
         set_ups=set_ups,
-        state=state_columns(records, model.circles),
+        state=state_columns(records),
     )
     samples.derive(engine_machine(model.machine))
     return samples

@@ -102,13 +102,12 @@ def plan_sensitivity(
     mount = np.array([places[run.mount.id] for run in runs], dtype=np.int32)
     set_ups = [set_up_of(run, plan) for run in runs]
     known = with_planned_mounts(model, [mount.id for mount in plan.mounts])
-    known = known.with_circles([circle.id for circle in plan.circles])
     samples = _core.Samples(
         sliders_mm=np.vstack(sliders),
         set_up=repeat,
         mount=mount[repeat],
         set_ups=set_ups,
-        state=planned_columns(runs, angle_rad, known.circles),
+        state=planned_columns(runs, angle_rad),
     )
     samples.derive(engine_machine(model.machine))
     counts = np.array([readings_of(run, cycle_rate_hz) for run in runs])

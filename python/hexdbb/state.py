@@ -20,21 +20,19 @@ Columns = dict[str, NDArray[Any]]
 SECONDS_PER_MINUTE = 60.0
 
 
-def state_columns(records: Sequence[Record], circles: Sequence[int] = ()) -> Columns:
+def state_columns(records: Sequence[Record]) -> Columns:
     """Columns of the engine's state that a record holds, of several records one after another.
 
     Parameters
     ----------
     records : sequence of Record
-    circles : sequence of int
-        Ids of the circles a model knows; the `circle` of a sample is the place of its id among them, or -1.
 
     Returns
     -------
     dict of str to ndarray, each of shape (n,)
         Times in s, temperatures in °C and K (nan where not measured), angles in rad, feeds in mm/s.
     """
-    parts = [_columns(record, circles) for record in records]
+    parts = [_columns(record) for record in records]
     sweeps = 0
     for part in parts:
         _, number = np.unique(part["sweep"], return_inverse=True)
@@ -43,7 +41,7 @@ def state_columns(records: Sequence[Record], circles: Sequence[int] = ()) -> Col
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
 
 
-def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating], circles: Sequence[int] = ()) -> Columns:
+def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating]) -> Columns:
     """Columns of the state that a plan would have: one lap of each run, one after another, temperature not measured.
 
     Parameters
@@ -51,8 +49,6 @@ def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating], 
     runs : sequence of CircleRun
     angle_rad : ndarray, shape (m,)
         Angles from the run's start, rising, the same for every run.
-    circles : sequence of int
-        As for `state_columns`.
 
     Returns
     -------
@@ -70,7 +66,7 @@ def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating], 
     unknown = np.full(len(direction), np.nan)
     return {
         "time_s": of_runs(list(begins_s)) + np.outer(lap_s, angle_rad / (2.0 * np.pi)).ravel(),
-        "circle": _places(np.repeat([run.circle.id for run in runs], count), circles),
+        "circle": np.repeat(np.array([run.circle.id for run in runs], np.int32), count),
         "sweep": np.repeat(np.arange(len(runs), dtype=np.int32), count),
         "lap": np.zeros(len(direction), np.int32),
         "direction": direction,
@@ -81,14 +77,14 @@ def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating], 
     }
 
 
-def _columns(record: Record, circles: Sequence[int]) -> Columns:
+def _columns(record: Record) -> Columns:
     columns = record.columns
     assert record.origin is not None  # a record sets it when it is made
     start_s, start_c = record.origin
     temperature_c = columns.get("temperature_c", np.full(len(record), np.nan))
     return {
         "time_s": columns["t_s"] - start_s,
-        "circle": _places(columns["circle"], circles),
+        "circle": columns["circle"],
         "sweep": columns["sweep"],
         "lap": columns["lap"],
         "direction": columns["direction"].astype(np.float64),
@@ -97,11 +93,3 @@ def _columns(record: Record, circles: Sequence[int]) -> Columns:
         "temperature_c": temperature_c,
         "warming_k": temperature_c - start_c,
     }
-
-
-def _places(ids: NDArray[Any], known: Sequence[int]) -> NDArray[np.int32]:
-    """Place of each id among the known ones, -1 where it is none of them."""
-    places = np.full(len(ids), -1, np.int32)
-    for place, each in enumerate(known):
-        places[ids == each] = place
-    return places

@@ -66,9 +66,9 @@ Model full_model(const Machine& machine, int mounts) {
   return model;
 }
 
-Model model_of_everything(const Machine& machine, int mounts, int circles) {
+Model model_of_everything(const Machine& machine, int mounts) {
   Model model(machine);
-  for (const std::string& name : effect_names()) model.add(find_effect(machine, mounts, name, circles));
+  for (const std::string& name : effect_names()) model.add(find_effect(machine, mounts, name));
   return model;
 }
 

@@ -29,7 +29,7 @@ Samples moving_samples(const Machine& machine, const std::vector<CircleSpec>& ci
 Model full_model(const Machine& machine, int mounts);
 
 /// A model with every effect the engine knows, all values zero.
-Model model_of_everything(const Machine& machine, int mounts, int circles);
+Model model_of_everything(const Machine& machine, int mounts);
 
 /// Central differences of the prediction for one value, `step` in its unit.
 Eigen::VectorXd difference(Model model, const Samples& samples, int value, double step);

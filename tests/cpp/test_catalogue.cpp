@@ -23,7 +23,7 @@ class Catalogue : public ::testing::Test {
   Ports pushed(const std::string& name, const Eigen::VectorXd& values, Eigen::Index row = kRow) const {
     Eigen::Matrix<double, Eigen::Dynamic, port::kCount> out(1, int{port::kCount});
     out.setZero();
-    find_effect(machine, 1, name, 7)->push({samples, row, 1}, values, out);
+    find_effect(machine, 1, name)->push({samples, row, 1}, values, out);
     Ports ports;
     ports.value = out.transpose();
     return ports;
@@ -37,7 +37,7 @@ class Catalogue : public ::testing::Test {
 
   Eigen::VectorXd some(const std::string& name, double size) const {
     Drawing drawing(7);
-    return size * drawing.normals(find_effect(machine, 1, name, 7)->info().size());
+    return size * drawing.normals(find_effect(machine, 1, name)->info().size());
   }
 
   double slider(int k, Eigen::Index row = kRow) const { return samples.sliders_mm(row, k); }
@@ -67,7 +67,7 @@ TEST_F(Catalogue, WithoutTheStateItNeedsAnEffectIsRefused) {
   bare.state = State();
   for (const std::string& name : effect_names(group::kCatalogue)) {
     Model model(machine);
-    model.add(find_effect(machine, 1, name, 7));
+    model.add(find_effect(machine, 1, name));
     const EffectInfo& info = model.terms[0].effect->info();
     if (info.needs.empty()) {
       EXPECT_NO_THROW(predict(model, bare, false)) << name;
@@ -221,16 +221,19 @@ TEST_F(Catalogue, WhatTheGaugeAdds) {
   EXPECT_NEAR(found.reading(), gain.reading(), 1e-12);
 }
 
-TEST_F(Catalogue, BallOfEachCircle) {
-  const Eigen::VectorXd values = some("ball_eccentricity", 0.05);
+TEST_F(Catalogue, BallOfEachSetUp) {
+  const EffectPtr effect = find_effect(machine, 3, "ball_eccentricity");
+  const Eigen::VectorXd values = 0.05 * Drawing(7).normals(effect->info().size());
+  samples.mount[kRow] = 2;
+  Eigen::Matrix<double, Eigen::Dynamic, port::kCount> out(1, int{port::kCount});
+  out.setZero();
+  effect->push({samples, kRow, 1}, values, out);
   Ports expected;
-  expected.ball() = values.segment<3>(3 * 2);  // row 131 of 46 a circle
-  expect_same(pushed("ball_eccentricity", values), expected);
-  samples.state.circle[5] = -1;
-  Model model(machine);
-  model.add(find_effect(machine, 1, "ball_eccentricity", 7));
-  EXPECT_EQ(refusal([&] { predict(model, samples, false); }),
-            "circle[5] is -1, expected 0 to 6, which ball_eccentricity knows");
+  expected.ball() = values.segment<3>(3 * 2);
+  EXPECT_TRUE(out.row(0).transpose().isApprox(expected.value, 1e-12));
+  samples.mount[5] = 3;
+  EXPECT_EQ(refusal([&] { effect->require(samples); }),
+            "mount[5] is 3, expected 0 to 2, which ball_eccentricity knows");
 }
 
 TEST_F(Catalogue, TableIsTheEffectItWasMadeOf) {

@@ -23,7 +23,7 @@ class EffectDerivatives : public ::testing::TestWithParam<std::string> {
     circles.push_back({Vector3::Zero(), Vector3(0.14, 0.0, 0.0), 1});
     return moving_samples(machine, circles, 40);
   }();
-  Model model = model_of_everything(machine, kMounts, 8);
+  Model model = model_of_everything(machine, kMounts);
 };
 
 TEST_P(EffectDerivatives, AgainstDifferences) {

@@ -37,7 +37,7 @@ def samples() -> _core.Samples:
         set_up=rows,
         mount=rows,
         set_ups=[set_up],
-        state=planned_columns(runs, angle, [circle.id]),
+        state=planned_columns(runs, angle),
     )
     made.derive(engine_machine(MACHINE))
     return made

@@ -12,7 +12,7 @@ from hexdbb import _core
 from hexdbb.kinematics import inverse
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
-from hexdbb.prediction import circle_ids, knowing, predict_reading_mm, samples_of
+from hexdbb.prediction import knowing, predict_reading_mm, samples_of
 from hexdbb.record import SLIDER_COLUMNS, Record
 from hexdbb.state import planned_columns, state_columns
 
@@ -60,14 +60,13 @@ def test_columns_are_in_the_engines_units() -> None:
 
 def test_sweeps_and_circles_of_several_records() -> None:
     first, second = record_of(2), record_of(3, start_s=7.0)
-    state = state_columns([first, second], [2, 0])
+    state = state_columns([first, second])
     sweeps = [len(record.sweeps()) for record in (first, second)]
     assert state["sweep"].max() + 1 == sum(sweeps)
     assert (np.diff(state["sweep"]) >= 0).all()
     assert state["time_s"][len(first)] == 0.0
-    places = {0: 1, 1: -1, 2: 0}
     ids = np.concatenate([first.columns["circle"], second.columns["circle"]])
-    np.testing.assert_array_equal(state["circle"], [places[each] for each in ids])
+    np.testing.assert_array_equal(state["circle"], ids)
 
 
 def test_part_of_a_record_has_the_state_of_the_whole() -> None:
@@ -100,16 +99,6 @@ def test_every_effect_of_the_catalogue_predicts_a_record() -> None:
 def test_new_model_has_geometry_and_set_up_alone() -> None:
     terms = [term.effect for term in new_model(MACHINE).terms]
     assert terms == [*_core.effect_names("geometry"), *_core.effect_names("set-up")]
-
-
-def test_circle_a_model_does_not_know_is_named() -> None:
-    record = record_of(2)
-    model = new_model(MACHINE, ["ball_eccentricity"]).with_circles([0])
-    with pytest.raises(
-        ValueError, match=rf"circle\[{2 * COUNT}\] is -1, expected 0 to 0, which ball_eccentricity knows"
-    ):
-        _core.predict(model.engine(), samples_of([record], model))
-    assert circle_ids([record]) == [0, 1]
 
 
 def test_state_with_a_column_that_is_none() -> None:

@@ -33,7 +33,7 @@ struct EffectInfo {
   std::string name;
   std::string physics;  // one sentence
   std::string source;
-  std::string element_kind;               // "leg", "slider", "guideway", "side", "mount", "circle", "machine"
+  std::string element_kind;               // "leg", "slider", "guideway", "side", "mount", "machine"
   std::vector<std::string> elements;      // label of each element: "1", "2", or "12"
   std::vector<ParameterInfo> parameters;  // of one element
   std::vector<std::string> ports;         // names of ports.hpp
@@ -75,11 +75,11 @@ std::vector<EffectPtr> geometric_effects(const Machine& machine);
 /// Unknowns of the set-up: the cup's position per mount, the ball's offset, the bar's length.
 std::vector<EffectPtr> set_up_effects(int mounts);
 
-/// Physical causes beyond geometry and set-up; `circles` is the number of circles a model knows.
-std::vector<EffectPtr> catalogue_effects(const Machine& machine, int circles);
+/// Physical causes beyond geometry and set-up; `mounts` is the number of fixings of the tool cup a model knows.
+std::vector<EffectPtr> catalogue_effects(const Machine& machine, int mounts);
 
 /// All effects the engine knows, by name; throws std::invalid_argument naming the known ones.
-EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name, int circles = 1);
+EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name);
 
 /// Names of the effects of one group, or of all: geometry, set-up, catalogue.
 std::vector<std::string> effect_names(const std::string& group = "");

@@ -29,7 +29,7 @@ constexpr double kLongAgo = 1e6;           // s or mm since a reversal that neve
 struct State {
   Eigen::VectorXi row;     // place in the table the samples were taken from; empty: the samples are the whole table
   Eigen::VectorXd time_s;  // since the record's first sample
-  Eigen::VectorXi circle;  // as the model counts circles, from 0; negative where it does not know the circle
+  Eigen::VectorXi circle;  // as the plan counts circles
   Eigen::VectorXi sweep;   // uninterrupted capture
   Eigen::VectorXi lap;
   Eigen::VectorXd direction;           // +1 counter-clockwise, -1 clockwise

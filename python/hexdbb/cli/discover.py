@@ -16,7 +16,7 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.discovery import AutoStep, Candidate, Discovery, discover, discover_all
-from hexdbb.discovery.discover import Progress
+from hexdbb.discovery.search import Progress
 from hexdbb.model import Model, save_model
 from hexdbb.record import Record, read_record
 

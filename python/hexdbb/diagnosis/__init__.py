@@ -1,5 +1,6 @@
 """Diagnosis: the values that explain measured readings best, how well they are known, what cannot be known."""
 
+from hexdbb.diagnosis.extrapolation import foretold
 from hexdbb.diagnosis.fit import diagnose, evaluate_fit, refitter
 from hexdbb.diagnosis.heldout import HeldOut, held_out
 from hexdbb.diagnosis.mounts import fit_mounts, with_mounts_fitted
@@ -15,6 +16,7 @@ __all__ = [
     "diagnose",
     "evaluate_fit",
     "fit_mounts",
+    "foretold",
     "held_out",
     "ledger_step",
     "noise_of",

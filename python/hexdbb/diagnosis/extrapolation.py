@@ -63,7 +63,7 @@ class Foretold:
         )
 
 
-def foretold(records: Sequence[Record], model: Model, noise_um: float) -> Foretold | None:
+def foretold(records: Sequence[Record], model: Model, noise_um: float, most_folds: int = MOST_FOLDS) -> Foretold | None:
     """Compute the error to expect of circles left out, dealt as `held_out` deals them.
 
     Parameters
@@ -73,13 +73,15 @@ def foretold(records: Sequence[Record], model: Model, noise_um: float) -> Foreto
         Fitted to them; its free values count.
     noise_um : float
         Standard deviation of one reading.
+    most_folds : int
+        As for `held_out`.
 
     Returns
     -------
     Foretold or None
         None where there are not two groups of circles, or nothing is free.
     """
-    left_out = folds(records, "circle", MOST_FOLDS)
+    left_out = folds(records, "circle", most_folds)
     if len(left_out) < 2 or not model.free.any():
         return None
     parts = [[record.part(rows) for record, rows in zip(records, fold, strict=True) if rows.any()] for fold in left_out]

@@ -14,8 +14,9 @@ from typing import Literal
 import numpy as np
 
 from hexdbb.diagnosis import Diagnosis, Noise, evaluate_fit
-from hexdbb.discovery.discover import Progress, discover, judging_noise
+from hexdbb.discovery.discover import discover, judging_noise
 from hexdbb.discovery.result import Discovery
+from hexdbb.discovery.search import Progress
 from hexdbb.ledger import add_effect, held_at_zero, remove_effect
 from hexdbb.model import Model
 from hexdbb.prediction import knowing

@@ -73,12 +73,8 @@ class Screen:
         chosen = [
             index for index, each in enumerate(self.parameters) if each.effect == effect and each.element in elements
         ]
-        values, vectors = np.linalg.eigh(self.projected[np.ix_(chosen, chosen)])
-        visible = values > INVISIBLE * max(float(self.scale[chosen].max()), 1e-300)
-        along = (vectors.T @ self.gradient[chosen])[visible]
-        return Screened(
-            effect, tuple(elements), float(np.sum(along**2 / values[visible])), int(visible.sum()), self.shape
-        )
+        gain, count = offered(self.projected[np.ix_(chosen, chosen)], self.gradient[chosen], self.scale[chosen])
+        return Screened(effect, tuple(elements), float(gain), int(count), self.shape)
 
     def best_elements(self, effect: str) -> Screened:
         """Gather an effect's elements, best first, while each pays for itself."""
@@ -95,6 +91,25 @@ class Screen:
     def single_elements(self, effect: str) -> list[Screened]:
         """Each element alone."""
         return [self.gain(effect, (element,)) for element in self.elements(effect)]
+
+
+def offered(projected: Floats, gradient: Floats, scale: Floats) -> tuple[Floats, NDArray[np.intp]]:
+    """Fall of chi-square b' A^+ b that columns offer, and in how many directions the model does not imitate them.
+
+    Parameters
+    ----------
+    projected : ndarray, shape (..., k, k)
+        A.
+    gradient : ndarray, shape (..., k)
+        b.
+    scale : ndarray, shape (..., k)
+        Diagonal of B'B.
+    """
+    values, vectors = np.linalg.eigh(projected)
+    visible = values > INVISIBLE * np.maximum(scale.max(axis=-1, keepdims=True), 1e-300)
+    along = np.einsum("...ji,...j->...i", vectors, gradient)
+    gain = np.sum(np.divide(along**2, values, out=np.zeros_like(values), where=visible), axis=-1)
+    return gain, np.sum(visible, axis=-1)
 
 
 def screen(

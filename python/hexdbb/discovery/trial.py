@@ -88,7 +88,7 @@ def try_effect(
     """
     wider = with_effect(base.model, effect, elements, shape)
     fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
-    kept = _contributing(base, fitted, result, effect, elements)
+    kept = contributing(base, fitted, result, effect, elements)
     if kept != tuple(elements):
         elements = kept
         wider = with_effect(base.model, effect, elements, shape)
@@ -121,7 +121,7 @@ def holm(candidates: Sequence[Candidate], tried: int) -> list[Candidate]:
     return corrected
 
 
-def _contributing(
+def contributing(
     base: Base, fitted: Model, result: _core.FitResult, effect: str, elements: Sequence[str]
 ) -> tuple[str, ...]:
     """Elements whose values stand clear of zero (Wald): more than they cost, and a part of what the best one gives."""

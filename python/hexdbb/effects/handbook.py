@@ -72,7 +72,7 @@ def _page(info: _core.EffectInfo) -> str:
 
 
 def _elements(info: _core.EffectInfo) -> str:
-    per_set_up = {"mount": "one for each mount", "circle": "one for each circle"}
+    per_set_up = {"mount": "one for each mount"}
     if info.element_kind in per_set_up:
         return per_set_up[info.element_kind]
     if len(info.elements) == 1:

@@ -34,7 +34,7 @@ class SampleState:
     time_s: Floats
     """Since the record's first sample."""
     circle: Ints
-    """Place of the circle among those the model knows."""
+    """Id of the circle in the plan."""
     sweep: Ints
     lap: Ints
     direction: Floats

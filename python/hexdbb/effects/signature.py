@@ -98,7 +98,7 @@ def _circle() -> tuple[Floats, list[int], dict[bool, _core.Samples]]:
     )
     samples = {}
     for has_thermometer in (False, True):
-        state = planned_columns(runs, angle_rad, [run.circle.id])
+        state = planned_columns(runs, angle_rad)
         if has_thermometer:
             state["warming_k"] = np.tile(angle_rad / (2.0 * np.pi), len(runs))
         each = _core.Samples(sliders_mm=sliders_mm, set_up=rows, mount=rows, set_ups=[set_up], state=state)

@@ -27,4 +27,4 @@ def undo(model: Model) -> Model:
             " (expected an [[earlier]] section)"
         )
     before = last.before
-    return replace(model, terms=before.terms, mounts=before.mounts, circles=before.circles, ledger=model.ledger[:-1])
+    return replace(model, terms=before.terms, mounts=before.mounts, ledger=model.ledger[:-1])

@@ -14,39 +14,36 @@ from hexdbb.model.ledger import State
 from hexdbb.model.shown import engine_values, shown_values, units_of
 from hexdbb.model.terms import MountKey, Term
 
-Describe = Callable[[int, int, str], _core.EffectInfo]
-"""Describes an effect, given the numbers of mounts and circles and its name."""
+Describe = Callable[[int, str], _core.EffectInfo]
+"""Describes an effect, given the number of mounts and its name."""
 
 
 def earlier_entry(step: int, state: State, describe: Describe) -> EarlierEntry:
     """Put the state before a step into the form of the file."""
-    mounts, circles = len(state.mounts), len(state.circles)
-    effects = tuple(_entry(term, units_of(describe(mounts, circles, term.effect))) for term in state.terms)
-    return EarlierEntry(before_step=step, mounts=mounts, circles=circles, effect=effects)
+    mounts = len(state.mounts)
+    effects = tuple(_entry(term, units_of(describe(mounts, term.effect))) for term in state.terms)
+    return EarlierEntry(before_step=step, mounts=mounts, effect=effects)
 
 
-def earlier_state(
-    entry: EarlierEntry, mounts: Sequence[MountKey], circles: Sequence[int], describe: Describe, where: str
-) -> State:
+def earlier_state(entry: EarlierEntry, mounts: Sequence[MountKey], describe: Describe, where: str) -> State:
     """Read the state before a step.
 
     Raises
     ------
     InputError
-        More mounts or circles than the file has, an effect that is not known, or values that are not as many as it has.
+        More mounts than the file has, an effect that is not known, or values that are not as many as it has.
     """
-    for key, count, there in (("mounts", entry.mounts, len(mounts)), ("circles", entry.circles, len(circles))):
-        if count > there:
-            raise InputError(f"{where}.{key}: {count} (expected at most {there}, as many as the file has)")
+    if entry.mounts > len(mounts):
+        raise InputError(f"{where}.mounts: {entry.mounts} (expected at most {len(mounts)}, as many as the file has)")
     terms = []
     for index, effect in enumerate(entry.effects):
         place = f"{where}.effect[{index}]"
         try:
-            units = units_of(describe(entry.mounts, entry.circles, effect.name))
+            units = units_of(describe(entry.mounts, effect.name))
         except InputError as error:
             raise InputError(f"{place}.name: {error}") from None
         terms.append(_term(effect, units, place))
-    return State(tuple(terms), tuple(mounts[: entry.mounts]), tuple(circles[: entry.circles]))
+    return State(tuple(terms), tuple(mounts[: entry.mounts]))
 
 
 def _entry(term: Term, units: Sequence[str]) -> EarlierEffectEntry:

@@ -89,12 +89,11 @@ class EarlierEffectEntry(StrictModel):
 class EarlierEntry(StrictModel):
     """The model as it stood before a step of the ledger: what taking the step back gives.
 
-    Mounts and circles are only ever appended: `mounts` and `circles` are how many of the file's there were.
+    Mounts are only ever appended: `mounts` is how many of the file's there were.
     """
 
     before_step: int
     mounts: Annotated[int, Field(ge=0)]
-    circles: Annotated[int, Field(ge=0)] = 0
     effects: tuple[EarlierEffectEntry, ...] = Field(default=(), strict=False, alias="effect")
 
 
@@ -103,7 +102,6 @@ class ModelFile(FileModel):
 
     schema_id: Literal["hexdbb.model/1"] = Field(default="hexdbb.model/1", alias="schema")
     machine: MachineFile
-    circles: Annotated[tuple[int, ...], Field(strict=False)] = ()
     effects: tuple[EffectEntry, ...] = Field(default=(), strict=False, alias="effect")
     mounts: tuple[MountEntry, ...] = Field(default=(), strict=False, alias="mount")
     steps: tuple[StepEntry, ...] = Field(default=(), strict=False, alias="step")

@@ -34,7 +34,7 @@ def load_model(path: Path | str, effects: Iterable[OwnEffect] = ()) -> Model:
     """
     file = load_toml(path, ModelFile)
     mounts = tuple(MountKey(entry.record_sha256, entry.id) for entry in file.mounts)
-    model = Model(file.machine, (), mounts, circles=file.circles).knowing_effects(effects)
+    model = Model(file.machine, (), mounts).knowing_effects(effects)
     terms = tuple(_term(model, entry, f"{path}: effect[{index}]") for index, entry in enumerate(file.effects))
     names = [term.effect for term in terms]
     if len(set(names)) != len(names):
@@ -55,7 +55,6 @@ def save_model(model: Model, path: Path | str) -> None:
     describe = _describe(model.machine, model.own_effects)
     file = ModelFile(
         machine=model.machine,
-        circles=model.circles,
         effect=tuple(_entry(term, [next(parameters) for _ in term.values]) for term in model.terms),
         mount=tuple(MountEntry(record_sha256=key.record_hash, id=key.mount_id) for key in model.mounts),
         step=tuple(_step_entry(step) for step in model.ledger),
@@ -70,13 +69,13 @@ def save_model(model: Model, path: Path | str) -> None:
 
 
 def _describe(machine: MachineFile, own: OwnEffects) -> Describe:
-    return lambda mounts, circles, effect: effect_info(machine, max(mounts, 1), effect, max(circles, 1), own)
+    return lambda mounts, effect: effect_info(machine, max(mounts, 1), effect, own)
 
 
 def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], own: OwnEffects, path: str) -> tuple[LedgerStep, ...]:
     describe = _describe(file.machine, own)
     states = {
-        entry.before_step: earlier_state(entry, mounts, file.circles, describe, f"{path}: earlier[{index}]")
+        entry.before_step: earlier_state(entry, mounts, describe, f"{path}: earlier[{index}]")
         for index, entry in enumerate(file.earlier)
     }
     return tuple(replace(_step(entry), before=states.get(entry.step)) for entry in file.steps)

@@ -13,11 +13,10 @@ from hexdbb.model.terms import MountKey, Term
 
 @dataclass(frozen=True)
 class State:
-    """How a model stood: its effects with their values, the mounts whose cups and the circles whose balls it knew."""
+    """How a model stood: its effects with their values, the mounts whose set-up it knew."""
 
     terms: tuple[Term, ...]
     mounts: tuple[MountKey, ...]
-    circles: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,6 @@ class Model:
     ledger: tuple[LedgerStep, ...] = field(default=())
     path: Path | None = field(default=None, compare=False)
     """The file it was read from."""
-    circles: tuple[int, ...] = ()
-    """Circles whose set-up of the ball it knows, by id: the elements of `ball_eccentricity`."""
     own_effects: OwnEffects = field(default_factory=dict, compare=False, repr=False)
     """Effects of the user's own that may stand in it, by name; the file does not keep what they do."""
 
@@ -45,7 +43,7 @@ class Model:
 
     def info(self, effect: str) -> _core.EffectInfo:
         """Describe one effect as it stands in this model."""
-        return effect_info(self.machine, max(len(self.mounts), 1), effect, max(len(self.circles), 1), self.own_effects)
+        return effect_info(self.machine, max(len(self.mounts), 1), effect, self.own_effects)
 
     def parameters(self) -> list[Parameter]:
         """Name every value, in the order of `values`."""
@@ -54,7 +52,7 @@ class Model:
     @property
     def state(self) -> State:
         """Effects and mounts as they stand, for the ledger to keep."""
-        return State(self.terms, self.mounts, self.circles)
+        return State(self.terms, self.mounts)
 
     @property
     def values(self) -> Floats:
@@ -91,16 +89,8 @@ class Model:
     def with_mounts(self, keys: Sequence[MountKey]) -> Model:
         """Give the same model knowing these mounts too; their cups stand where planned until they are fitted."""
         new = [key for key in keys if key not in self.mounts]
-        return replace(self, mounts=(*self.mounts, *new))._with_places()
-
-    def with_circles(self, ids: Sequence[int]) -> Model:
-        """Give the same model knowing these circles too; their balls sit where planned until they are fitted."""
-        new = [each for each in ids if each not in self.circles]
-        return replace(self, circles=(*self.circles, *new))._with_places()
-
-    def _with_places(self) -> Model:
-        """Give the same model with a place for every value that its mounts and circles make."""
-        return replace(self, terms=tuple(_extended(term, self.info(term.effect).size) for term in self.terms))
+        wider = replace(self, mounts=(*self.mounts, *new))
+        return replace(wider, terms=tuple(_extended(term, wider.info(term.effect).size) for term in self.terms))
 
     def knowing_effects(self, effects: Iterable[OwnEffect]) -> Model:
         """Give the same model, in which effects of the user's own may stand too."""
@@ -123,7 +113,7 @@ class Model:
         for term in self.terms:
             own = self.own_effects.get(term.effect)
             if own is None:
-                engine.add(term.effect, max(len(self.mounts), 1), max(len(self.circles), 1))
+                engine.add(term.effect, max(len(self.mounts), 1))
             elif samples is None:
                 raise InputError(f"{term.effect}: an effect of your own is known in measured samples only, not here")
             else:
@@ -132,9 +122,7 @@ class Model:
         return engine
 
 
-def effect_info(
-    machine: MachineFile, mounts: int, effect: str, circles: int = 1, own: OwnEffects | None = None
-) -> _core.EffectInfo:
+def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects | None = None) -> _core.EffectInfo:
     """Describe an effect; `own` are the user's.
 
     Raises
@@ -145,7 +133,7 @@ def effect_info(
     if own and effect in own:
         return own[effect].info()
     try:
-        return _core.effect_info(engine_machine(machine), mounts, effect, circles)
+        return _core.effect_info(engine_machine(machine), mounts, effect)
     except ValueError as error:
         raise InputError(str(error)) from None
 

@@ -9,8 +9,8 @@ import pytest
 
 from hexdbb import _core
 from hexdbb.diagnosis import Noise
-from hexdbb.discovery.discover import absent_effects
 from hexdbb.discovery.screen import Screen, screen
+from hexdbb.discovery.search import absent_effects
 from hexdbb.model import Model, Parameter, new_model, new_term
 from hexdbb.prediction import knowing, samples_of
 from hexdbb.record import Record
