@@ -12,6 +12,7 @@ import pytest
 from hexdbb.errors import InputError
 from hexdbb.machine import shipped
 from hexdbb.record import read_record, write_record
+from hexdbb.record.laps import counted_laps
 
 MEASUREMENT = """schema = "hexdbb.measurement/1"
 machine = "machine.toml"
@@ -180,3 +181,25 @@ def test_circle_of_two_ids_is_refused(place: Path) -> None:
 def test_missing_measurement_file_is_named(place: Path) -> None:
     (place / "a.toml").unlink()
     assert error_of(place).startswith(f"a.csv: no such file {place}/a.toml")
+
+
+@pytest.mark.parametrize("begin_deg", [0.0, 90.0])
+def test_laps_are_counted_from_the_angle_where_they_are_left_out(tmp_path: Path, begin_deg: float) -> None:
+    turned = np.concatenate([np.arange(0.0, 720.0, 3.7), np.arange(0.0, 1080.0, 7.0)])
+    sweep = np.repeat([0, 1], [195, 155])
+    direction = np.where(sweep == 0, 1.0, -1.0)
+    columns = {"sweep": sweep, "direction": direction, "angle_deg": (begin_deg + direction * turned) % 360.0}
+    laps = counted_laps(columns)
+    assert laps is not None
+    assert np.array_equal(laps, np.floor(turned / 360.0))
+    assert counted_laps({"sweep": sweep}) is None
+
+
+def test_a_record_without_laps_is_that_with_them(place: Path) -> None:
+    whole = read_record(place / "a.csv")
+    rows = [line.split(",") for line in (HEADER, *ROWS)]
+    lap = rows[0].index("lap")
+    write(place, [",".join(cells[:lap] + cells[lap + 1 :]) for cells in rows])
+    assert np.array_equal(read_record(place / "a.csv").columns["lap"], whole.columns["lap"])
+    write(place, [",".join(cells[1:lap] + cells[lap + 1 :]) for cells in rows])
+    assert error_of(place).startswith("a.csv: missing column reading_um (")

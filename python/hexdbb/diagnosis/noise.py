@@ -1,12 +1,14 @@
 """How noisy the readings are: from repeated laps, else as the gauge states it, else from the readings' own roughness.
 
 Repeated laps: the slider positions of two laps at one angle differ by micrometres only, so the difference of their
-readings is noise, whatever the machine's errors are (pure error, in the words of regression). With the earlier lap
-interpolated linearly between two readings at part f, white noise s makes differences of variance s^2 (1 + f^2 + (1 -
-f)^2). Stated: the gauge's standard deviation with its rounding, which is evenly spread: step / sqrt(12).
-Roughness: second differences of neighbouring readings remove what changes smoothly; of white noise s they have the
-standard deviation sqrt(6) s. The median absolute value (0.6745 of a standard deviation) keeps jumps out of both
-estimates.
+readings is noise, whatever the machine's errors are (pure error, in the words of regression). The sweep's lowest
+harmonics are taken out of both, lest the contour's curvature between two readings counts; with the earlier lap then
+interpolated linearly between two readings at part f, white noise s makes differences of variance
+s^2 (1 + f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding, which is evenly spread:
+step / sqrt(12). Roughness: second differences of neighbouring readings, harmonics taken out as well, remove what
+changes smoothly; of white noise s they have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard
+deviations are jumps and do not count in either; what that takes from normal noise is given back. A median would be
+robust too, but the readings are rounded, so that it could only be one of few values.
 """
 
 from __future__ import annotations
@@ -18,6 +20,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import stats
 
 from hexdbb.circle import LEAST_NOISE_MM
 from hexdbb.record import Record
@@ -26,7 +29,14 @@ Floats = NDArray[np.float64]
 
 LEAST_REPEATS = 100
 """So many repeated readings are needed to estimate noise from them to about a tenth."""
-MEDIAN_OF_NORMAL = 0.6745
+HARMONICS = 8
+READINGS_PER_VALUE = 5
+CLIP = 3.0
+KEPT_VARIANCE = 1.0 - 2.0 * CLIP * float(stats.norm.pdf(CLIP)) / (2.0 * float(stats.norm.cdf(CLIP)) - 1.0)
+"""Variance of a standard normal value of which is known that it is within `CLIP`."""
+MOST_JUMPS = 0.1
+"""Of all differences."""
+ROUNDS = 20
 
 
 @dataclass(frozen=True)
@@ -45,7 +55,11 @@ def noise_of(records: Sequence[Record]) -> Noise:
     stated = stated_noise(records)
     if stated is not None:
         return stated
-    rough = [np.diff(record.reading_mm[rows], n=2) / np.sqrt(6.0) for record in records for rows in record.sweeps()]
+    rough = [
+        np.diff(_without_contour(record.columns["angle_deg"][rows], record.reading_mm[rows]), n=2) / np.sqrt(6.0)
+        for record in records
+        for rows in record.sweeps()
+    ]
     return Noise(_robust_sigma(np.concatenate(rough)), "roughness")
 
 
@@ -59,18 +73,35 @@ def stated_noise(records: Sequence[Record]) -> Noise | None:
 def _robust_sigma(values: Floats) -> float:
     if not len(values):
         return LEAST_NOISE_MM
-    return max(float(np.median(np.abs(values))) / MEDIAN_OF_NORMAL, LEAST_NOISE_MM)
+    size = np.abs(values)
+    sigma = float(np.quantile(size, 1.0 - MOST_JUMPS)) / float(stats.norm.ppf(1.0 - MOST_JUMPS / 2.0))
+    if sigma == 0.0:  # coarsely rounded readings are mostly alike
+        sigma = float(np.sqrt(np.mean(values**2)))
+    for _ in range(ROUNDS):
+        kept = size[size <= CLIP * sigma]
+        sigma = float(np.sqrt(np.mean(kept**2) / KEPT_VARIANCE)) if len(kept) else 0.0
+    return max(sigma, LEAST_NOISE_MM)
 
 
 def _lap_differences(record: Record) -> Iterator[Floats]:
     """Differences of consecutive laps at one angle, in units of one reading's noise."""
-    lap, angle = record.columns["lap"], record.columns["angle_deg"]
     for rows in record.sweeps():
-        numbers = np.unique(lap[rows])
+        lap, angle = record.columns["lap"][rows], record.columns["angle_deg"][rows]
+        numbers = np.unique(lap)
+        reading_mm = _without_contour(angle, record.reading_mm[rows]) if len(numbers) > 1 else record.reading_mm[rows]
         for earlier, later in pairwise(numbers):
-            first, second = rows[lap[rows] == earlier], rows[lap[rows] == later]
-            if len(first) > 2 and len(second) > 2:
-                yield _difference(angle[first], record.reading_mm[first], angle[second], record.reading_mm[second])
+            first, second = lap == earlier, lap == later
+            if first.sum() > 2 and second.sum() > 2:
+                yield _difference(angle[first], reading_mm[first], angle[second], reading_mm[second])
+
+
+def _without_contour(angle_deg: Floats, reading_mm: Floats) -> Floats:
+    """Take the lowest harmonics out of a sweep's readings, as many as their number allows."""
+    highest = min(HARMONICS, len(angle_deg) // READINGS_PER_VALUE // 2)
+    turns = np.outer(np.radians(angle_deg), np.arange(highest + 1))
+    basis = np.hstack([np.cos(turns), np.sin(turns[:, 1:])])
+    left: Floats = reading_mm - basis @ np.linalg.lstsq(basis, reading_mm, rcond=None)[0]
+    return left
 
 
 def _difference(first_deg: Floats, first_mm: Floats, second_deg: Floats, second_mm: Floats) -> Floats:

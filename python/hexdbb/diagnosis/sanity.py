@@ -17,6 +17,8 @@ from hexdbb.units import shown_factor, shown_unit
 
 FAR_FROM_PRIOR = 5.0
 """Values beyond this many expected sizes are remarkable."""
+FEW_READINGS = 2
+"""Fewer readings than so many a value tell little."""
 TOGETHER = 0.95
 """Correlation beyond which two values cannot be told apart."""
 LACK_OF_FIT = 1.5
@@ -29,6 +31,9 @@ def warnings_of(
     model: Model, result: _core.FitResult, noise: Noise, checked: HeldOut | None, expected: Foretold | None = None
 ) -> Iterator[str]:
     """Yield what to beware of, one sentence each."""
+    readings, values = len(result.residual_mm), len(result.free_columns)
+    if readings < FEW_READINGS * values:
+        yield f"{readings} readings for {values} values: most of what is shown is what was expected, not what was read"
     yield from _beyond_reason(model, result)
     yield from _correlated(model, result)
     noise_um, after_um = noise.sigma_mm * 1e3, result.rms_after_mm * 1e3

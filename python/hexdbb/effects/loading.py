@@ -30,7 +30,8 @@ def load_effects(path: Path | str) -> list[UserEffect]:
     except InputError:
         raise
     except Exception as error:  # a user's file may raise anything
-        raise InputError(f"{place}:{_line_in(place, error)}: {type(error).__name__}: {error}") from None
+        words = error.msg if isinstance(error, SyntaxError) else error
+        raise InputError(f"{place}:{_line_in(place, error)}: {type(error).__name__}: {words}") from None
     found = {id(value): value for value in vars(module).values() if isinstance(value, UserEffect)}
     effects = sorted(found.values(), key=lambda each: each.line)
     if not effects:
@@ -46,4 +47,5 @@ def _line_in(path: Path, error: Exception) -> int:
     """Line of a file in which an error arose."""
     if isinstance(error, SyntaxError):
         return error.lineno or 0
-    return line_of(str(path), error)
+    # A module knows its file by the whole path, however it was named.
+    return line_of(str(path.absolute()), error)

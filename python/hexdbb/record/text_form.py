@@ -1,6 +1,7 @@
 """The text form of a record, which other programs write and read: `NAME.csv` and `NAME.toml`.
 
-Columns stand in any order, extra ones are kept; floats are written so that they read back to the last bit.
+Columns stand in any order, extra ones are kept; floats are written so that they read back to the last bit. `lap` may be
+left out and is counted from the angle then.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from hexdbb.machine import machine_beside
 from hexdbb.record.cells import first_bad_cell, line_of_row
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, Origin, normalise
+from hexdbb.record.laps import counted_laps
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
 from hexdbb.record.tables import to_columns
@@ -30,8 +32,11 @@ def read_text_form(path: Path) -> Record:
         raise InputError(f"{path}: no such file {measurement_path} (expected gauge, mounts and circles beside the CSV)")
     measurement = load_toml(measurement_path, Measurement)
     origin = Origin(str(path), lambda row: line_of_row(path, row))
+    columns = _read_columns(path)
+    if "lap" not in columns and (laps := counted_laps(columns)) is not None:
+        columns["lap"] = laps
     record = Record(
-        columns=normalise(_read_columns(path), origin),
+        columns=normalise(columns, origin),
         gauge=measurement.gauge,
         mounts=measurement.mounts,
         circles=measurement.circles,
