@@ -33,7 +33,7 @@ def residual_text(comparison: Comparison) -> Iterator[RenderableType]:
     if any(part.harmonics for circle in comparison.circles for part in circle.directions):
         yield _harmonics_table(comparison)
         yield ""
-    yield _variables_table(comparison)
+    yield from _variables(comparison)
 
 
 def _both_ways_table(comparison: Comparison) -> Table:
@@ -70,16 +70,13 @@ def _harmonics_table(comparison: Comparison) -> Table:
     return table
 
 
-def _variables_table(comparison: Comparison) -> RenderableType:
+def _variables(comparison: Comparison) -> Iterator[str]:
     shown = telling(list(comparison.dependences), MOST_VARIABLES)
     if not shown:
-        return "No variable carries any of the residual: its means over one half of the laps do not predict the other."
-    table = _table("What carries the residual")
-    table.add_column("variable")
-    table.add_column("share of its mean square\n(half of the laps from the other)", justify="right")
-    for each in shown:
-        table.add_row(sentence(each), f"{100.0 * each.share:.1f} %")
-    return table
+        yield "No variable carries any of the residual: what is fitted to half of the laps does not predict the others."
+        return
+    yield "What carries the residual (share of its mean square, on laps not used to find it):"
+    yield from (f"  {each.share:6.1%}  {sentence(each)}" for each in shown)
 
 
 def _table(title: str) -> Table:

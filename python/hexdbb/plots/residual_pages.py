@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import textwrap
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -14,7 +16,9 @@ from hexdbb.variables import Carrier
 from hexdbb.variables.carriers import LEAST_SHARE
 
 COLUMNS = 4
-MOST_VARIABLES = 20
+MOST_VARIABLES = 16
+TITLE_WIDTH = 36
+"""Characters in a line above a panel."""
 GAP = 10.0
 """Lines break where points are so many times further apart than usual: a guideway's two sliders do not meet."""
 MOST_LINES = 2
@@ -116,7 +120,8 @@ def _draw_dependence(axes: Axes, dependence: Carrier) -> None:
         )
     if all(means.name for means in dependence.profiles):
         axes.legend(loc="best", fontsize=6, frameon=False)
-    axes.set_title(f"{dependence.variable}: {100.0 * dependence.share:.0f} %", fontsize=8)
+    title = f"{dependence.variable}: {100.0 * dependence.share:.0f} %"
+    axes.set_title(textwrap.fill(title, TITLE_WIDTH), fontsize=8)
     if classes:
         axes.set_xticks(sorted({float(each) for means in dependence.profiles for each in means.centre}))
         axes.margins(x=0.2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -121,7 +122,20 @@ def test_pages_of_several_records_do_not_overwrite_each_other(make_record: MakeR
 
 @pytest.mark.parametrize("page", [0, 3, -3, -2, -1])
 def test_nothing_is_cut_off(seven_circles: Comparison, page: int) -> None:
-    figure = comparison_pages(seven_circles)[page].draw()
+    require_all_is_seen(comparison_pages(seven_circles)[page].draw())
+
+
+def test_long_names_of_variables_fit_above_their_panels(seven_circles: Comparison) -> None:
+    named = "guideway 1 position (vertical), growing with time"
+    long = [replace(each, variable=named, share=0.5) for each in seven_circles.dependences if each.profiles]
+    figure = comparison_pages(replace(seven_circles, dependences=tuple(long)))[-3].draw()
+    require_all_is_seen(figure)
+    titles = [axes.title.get_window_extent() for axes in figure.axes if axes.get_title()]
+    assert len(titles) > 4
+    assert not any(one.overlaps(other) for one, other in itertools.combinations(titles, 2))
+
+
+def require_all_is_seen(figure: Figure) -> None:
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     width, height = canvas.get_width_height()
