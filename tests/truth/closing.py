@@ -44,6 +44,8 @@ COMPLIANCE_UM_N = 0.4
 """10 um under the weight of the platform."""
 GAUGE = GaugeTruth(noise_um=0.5, resolution_um=0.1, range_um=2000.0)
 MOST_BY_HAND = 6
+MAX_CORRECTION_MM = 2.0
+"""Where a leg stands steeply on its guideway, an error of 0.1 mm takes a correction of more than a millimetre."""
 
 
 @dataclass(frozen=True)
@@ -94,8 +96,13 @@ def machine_of(seed: int) -> TruthFile:
 
 
 def silent(truth: TruthFile) -> TruthFile:
-    """Give the same machine with a gauge that neither errs nor rounds."""
-    return truth.model_copy(update={"gauge": GAUGE.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0})})
+    """Give the same machine in a perfect set-up: a gauge that neither errs nor rounds, cups where they should be.
+
+    Of a cup's error the centre in the circle's plane is removed anyhow; a cup that is out of that plane by z makes the
+    radius larger by z^2 / 2 R, which no reading of one circle tells from the machine.
+    """
+    gauge = GAUGE.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0})
+    return truth.model_copy(update={"gauge": gauge, "setup": truth.setup.model_copy(update={"cup_error_um": ()})})
 
 
 def found_in(records: Sequence[Record], model: Model, say: Said) -> Found:
@@ -135,7 +142,8 @@ def found_in(records: Sequence[Record], model: Model, say: Said) -> Found:
 
 def drive_of(model: Model, machine: MachineFile) -> Drive:
     """Give the slider targets of a controller that compensates by a model."""
-    targets = CompensatedTargets(make_compensation(model), machine.can_setup.limits, "compensation")
+    data = make_compensation(model, max_correction_mm=MAX_CORRECTION_MM)
+    targets = CompensatedTargets(data, machine.can_setup.limits, "compensation")
 
     def drive(position_mm: Floats, rpy_rad: Floats, cycle_s: float) -> Floats:
         rows = targets.sliders(position_mm, rpy_rad, cycle_s)
