@@ -15,7 +15,7 @@ import numpy as np
 from scipy import sparse
 
 from hexdbb.variables.bins import binned
-from hexdbb.variables.columns import Columns, FloatArray, halves, sampling_rate_hz, stretches
+from hexdbb.variables.columns import Columns, FloatArray, sampling_rate_hz
 from hexdbb.variables.judge import Judge
 from hexdbb.variables.periods import strongest_frequency, waves
 from hexdbb.variables.places import Place, one_place
@@ -130,10 +130,10 @@ def telling(found: list[Carrier], most: int) -> list[Carrier]:
 
 def _means(variable: Variable, judge: Judge) -> Carrier:
     cut = binned(variable)
-    push_um = judge.fit(cut.design)[0] * 1e3
+    share, push_mm = judge.weighed(cut.design, variable.is_time)
+    push_um = push_mm * 1e3
     # Of a weight of one this is the mean itself.
     mean_um = push_um * np.sqrt(np.asarray(cut.design.multiply(cut.design).sum(axis=0)).ravel() / cut.samples)
-    share = judge.share(cut.design, variable.is_time)
     profiles = tuple(
         Profile(variable.names[each] if variable.names else "", cut.centre[here], mean_um[here])
         for each in np.unique(cut.group)
@@ -155,7 +155,7 @@ def _means(variable: Variable, judge: Judge) -> Carrier:
         return whole
     place, inside = at
     there = cut.design[:, inside]
-    inside_mm = judge.fit(there)[0]
+    inside_mm = judge.fit(there)
     largest_mm = float(inside_mm[np.argmax(np.abs(inside_mm))])
     alone = replace(
         whole,
@@ -175,14 +175,14 @@ def _periodic(variable: Variable, columns: Columns, judge: Judge) -> Iterator[Ca
     ((weight, values),) = variable.parts
     rate_hz = sampling_rate_hz(columns)
     highest = 0.5 * rate_hz if variable.is_time else 1.0 / SHORTEST_PERIOD_MM
-    first = ~(stretches(len(values)) if variable.is_time else halves(columns))
+    first = ~judge.second[variable.is_time]
     frequency = strongest_frequency((weight * judge.residual_mm)[first], values[first], highest)
     if frequency is None:
         return
     design = sparse.csr_matrix(waves(weight, values, frequency))
     share = judge.share(design, variable.is_time)
     if share > LEAST_SHARE:
-        amplitude_um = float(np.linalg.norm(judge.fit(design)[0])) * 1e3
+        amplitude_um = float(np.linalg.norm(judge.fit(design))) * 1e3
         yield Carrier(
             subject=variable.subject,
             variable=f"{variable.name}, repeating",

@@ -31,14 +31,63 @@ Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
-class Trained:
-    """Some of the samples, and what the model's own values do there."""
+class Half:
+    """Some of the samples, and what the model's own values do there; in units of the noise."""
 
     rows: Mask
     jacobian: FloatArray
-    inverse: NDArray[np.floating]
-    """Of J'J / noise^2 + I."""
+    residual: FloatArray
+    information: FloatArray
     gradient: FloatArray
+
+    def moments(self, design: sparse.csr_matrix, noise_mm: float) -> Moments:
+        """Sum a hypothesis over these samples."""
+        own = design[self.rows] / noise_mm
+        turned = own.T.tocsr()
+        return Moments(
+            (turned @ own).toarray(),
+            np.asarray(turned @ self.jacobian),
+            turned @ self.residual,
+            self.information,
+            self.gradient,
+        )
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Sums over some samples: W'W, W'J, W'r, J'J, J'r; all that a fit and its judgement need of them."""
+
+    square: FloatArray
+    cross: FloatArray
+    gradient: FloatArray
+    own_square: FloatArray
+    own_gradient: FloatArray
+
+    def __add__(self, other: Moments) -> Moments:
+        return Moments(
+            self.square + other.square,
+            self.cross + other.cross,
+            self.gradient + other.gradient,
+            self.own_square + other.own_square,
+            self.own_gradient + other.own_gradient,
+        )
+
+    def fitted(self, ridge: float) -> tuple[FloatArray, FloatArray]:
+        """Give the values c of the hypothesis and the shifts d of the model's own."""
+        damping = max(ridge, LEAST_PART * float(self.square.diagonal().max(initial=1.0)))
+        inverse: NDArray[np.floating] = np.linalg.inv(self.own_square + np.eye(len(self.own_square)))
+        eased = inverse @ self.cross.T
+        values: FloatArray = np.linalg.solve(
+            self.square + damping * np.eye(len(self.square)) - self.cross @ eased,
+            self.gradient - eased.T @ self.own_gradient,
+        )
+        return values, inverse @ (self.own_gradient - self.cross.T @ values)
+
+    def gained(self, values: FloatArray, shifts: FloatArray) -> float:
+        """Fall of the sum of squares when W c + J d is taken from these residuals."""
+        along = values @ self.gradient + shifts @ self.own_gradient
+        predicted = values @ self.square @ values + 2.0 * (values @ self.cross @ shifts)
+        return float(2.0 * along - predicted - shifts @ self.own_square @ shifts)
 
 
 class Judge:
@@ -73,9 +122,11 @@ class Judge:
         self._nuisance = np.zeros((count, 0)) if nuisance is None or noise_mm <= 0.0 else nuisance
         if not self._is_fitted():
             self._nuisance = np.zeros((count, 0))
-        by_lap, by_stretch = halves(columns), stretches(count)
-        self._halves = {False: self._both(by_lap), True: self._both(by_stretch)}
-        self.everything = self._trained(np.ones(count, bool))
+        self.second = {False: halves(columns), True: stretches(count)}
+        """Samples of the second half, for what depends on place and for what depends on time."""
+        self._halves = {is_time: self._both(second) for is_time, second in self.second.items()}
+        self._whole = self._half(np.ones(count, bool))
+        self._inverse = np.linalg.inv(self._whole.information + np.eye(len(self._whole.information)))
 
     def share(self, design: sparse.csr_matrix, is_time: bool) -> float:
         """Give the share a hypothesis carries, at most 1; negative where it predicts wrongly.
@@ -86,23 +137,20 @@ class Judge:
         is_time : bool
             Whether it depends on time, so that neighbouring stretches are held against one another and not laps.
         """
-        if self.whole <= 0.0:
-            return 0.0
-        gained = sum(self._gained(design, trained) for trained in self._halves[is_time])
-        return min(gained / len(self.residual_mm) / self.whole, 1.0)
+        return self.weighed(design, is_time)[0]
 
-    def fit(self, design: sparse.csr_matrix, trained: Trained | None = None) -> tuple[FloatArray, FloatArray]:
-        """Give the values c of a hypothesis and the shifts d of the model's own, in mm and expected sizes."""
-        on = self.everything if trained is None else trained
-        own = design[on.rows] / self._noise_mm
-        cross = np.asarray(own.T @ on.jacobian) / self._noise_mm
-        gradient = own.T @ (self.residual_mm[on.rows] / self._noise_mm)
-        square = (own.T @ own).toarray()
-        ridge = max(self._ridge, LEAST_PART * float(square.diagonal().max(initial=1.0)))
-        square = square + ridge * np.eye(len(square))
-        eased = on.inverse @ cross.T
-        values: FloatArray = np.linalg.solve(square - cross @ eased, gradient - eased.T @ on.gradient)
-        return values, on.inverse @ (on.gradient - cross.T @ values)
+    def weighed(self, design: sparse.csr_matrix, is_time: bool) -> tuple[float, FloatArray]:
+        """Give the share, and the values c fitted to all samples, in mm."""
+        first, second = (half.moments(design, self._noise_mm) for half in self._halves[is_time])
+        values_mm = (first + second).fitted(self._ridge)[0]
+        if self.whole <= 0.0:
+            return 0.0, values_mm
+        gained = first.gained(*second.fitted(self._ridge)) + second.gained(*first.fitted(self._ridge))
+        return min(gained * self._noise_mm**2 / len(self.residual_mm) / self.whole, 1.0), values_mm
+
+    def fit(self, design: sparse.csr_matrix) -> FloatArray:
+        """Give the values c of a hypothesis, in mm."""
+        return self._whole.moments(design, self._noise_mm).fitted(self._ridge)[0]
 
     def step_gains(self, weights: FloatArray, cells: NDArray[np.intp], count: int) -> FloatArray:
         """Fall of the sum of squares that a push from each cell on explains; entry k begins with cell k.
@@ -116,7 +164,7 @@ class Judge:
         count : int
             Number of cells.
         """
-        on, scale = self.everything, 1.0 / self._noise_mm
+        on, scale = self._whole, 1.0 / self._noise_mm
         m = weights.shape[1]
         square, cross = np.zeros((count, m, m)), np.zeros((count, m, on.jacobian.shape[1]))
         gradient = np.zeros((count, m))
@@ -125,33 +173,25 @@ class Judge:
         for cell in range(count):
             rows = order[edges[cell] : edges[cell + 1]]
             own = weights[rows] * scale
-            square[cell], cross[cell] = own.T @ own, own.T @ on.jacobian[rows] * scale
-            gradient[cell] = own.T @ (self.residual_mm[rows] * scale)
+            square[cell], cross[cell] = own.T @ own, own.T @ on.jacobian[rows]
+            gradient[cell] = own.T @ on.residual[rows]
         square, cross, gradient = (np.cumsum(each[::-1], axis=0)[::-1] for each in (square, cross, gradient))
-        projected = square - cross @ on.inverse @ cross.transpose(0, 2, 1)
+        projected = square - cross @ self._inverse @ cross.transpose(0, 2, 1)
         ridge = np.maximum(self._ridge, LEAST_PART * square.max(axis=(1, 2), initial=1.0))
-        left = gradient - cross @ (on.inverse @ on.gradient)
+        left = gradient - cross @ (self._inverse @ on.gradient)
         solved = np.linalg.solve(projected + ridge[:, None, None] * np.eye(m), left[..., None])[..., 0]
         gains: FloatArray = np.einsum("ij,ij->i", left, solved)
         return gains
 
     def _is_fitted(self) -> bool:
-        on = self._trained(np.ones(len(self.residual_mm), bool))
-        mended = float(on.gradient @ on.inverse @ on.gradient) * self._noise_mm**2
-        return mended < FITTED * float(self.residual_mm @ self.residual_mm)
+        on = self._half(np.ones(len(self.residual_mm), bool))
+        steps = np.linalg.solve(on.information + np.eye(len(on.information)), on.gradient)
+        return float(on.gradient @ steps) < FITTED * float(on.residual @ on.residual)
 
-    def _both(self, second: Mask) -> tuple[Trained, Trained]:
-        return self._trained(~second), self._trained(second)
+    def _both(self, second: Mask) -> tuple[Half, Half]:
+        return self._half(~second), self._half(second)
 
-    def _trained(self, rows: Mask) -> Trained:
+    def _half(self, rows: Mask) -> Half:
         jacobian = self._nuisance[rows] / self._noise_mm
-        inverse = np.linalg.inv(jacobian.T @ jacobian + np.eye(jacobian.shape[1]))
-        gradient: FloatArray = jacobian.T @ (self.residual_mm[rows] / self._noise_mm)
-        return Trained(rows, self._nuisance[rows], inverse, gradient)
-
-    def _gained(self, design: sparse.csr_matrix, trained: Trained) -> float:
-        values, shifts = self.fit(design, trained)
-        judged = ~trained.rows
-        predicted = design[judged] @ values + self._nuisance[judged] @ shifts
-        left = self.residual_mm[judged]
-        return float(np.sum(left**2 - (left - predicted) ** 2))
+        residual = self.residual_mm[rows] / self._noise_mm
+        return Half(rows, jacobian, residual, jacobian.T @ jacobian, jacobian.T @ residual)

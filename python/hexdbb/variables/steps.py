@@ -55,7 +55,7 @@ def steps(columns: Columns, pushes: Pushes | None, judge: Judge) -> Iterator[Ste
             variable=f"{subject}, shifting once" if subject != "time" else "time, one shift",
             pushes=where,
             place=_place(columns, first, rows),
-            size_um=_size_um(design, judge.fit(design)[0], len(after)),
+            size_um=_size_um(design, judge.fit(design), len(after)),
             values=weights.shape[1] + 1,
             design=design,
         )
