@@ -91,7 +91,7 @@ demo: setup  ## circular tests on the simulated rig: diagnosed, compared, a hidd
 bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md, docs/real-time.md
 	@$(STEP) "Configure the benchmarks" cmake --preset bench
 	@$(STEP) "Compile the benchmarks" cmake --build --preset bench
-	@$(BIN)/python cpp/bench/report.py build/bench/cpp/bench/hexdbb_bench --output docs/benchmarks.md
+	@PYTHONPATH=$(CURDIR) $(BIN)/python cpp/bench/report.py build/bench/cpp/bench/hexdbb_bench --output docs/benchmarks.md
 	@$(BIN)/python cpp/bench/compensation_report.py build/bench/cpp/bench/hexdbb_compensation_bench --output docs/real-time.md
 
 # --- upkeep ---------------------------------------------------------------------------------------------------------

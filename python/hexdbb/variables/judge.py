@@ -75,8 +75,8 @@ class Moments:
     def fitted(self, ridge: float) -> tuple[FloatArray, FloatArray]:
         """Give the values c of the hypothesis and the shifts d of the model's own."""
         damping = max(ridge, LEAST_PART * float(self.square.diagonal().max(initial=1.0)))
-        inverse: NDArray[np.floating] = np.linalg.inv(self.own_square + np.eye(len(self.own_square)))
-        eased = inverse @ self.cross.T
+        inverse: FloatArray = np.linalg.inv(self.own_square + np.eye(len(self.own_square))).astype(np.float64)
+        eased: FloatArray = inverse @ self.cross.T
         values: FloatArray = np.linalg.solve(
             self.square + damping * np.eye(len(self.square)) - self.cross @ eased,
             self.gradient - eased.T @ self.own_gradient,
