@@ -80,7 +80,7 @@ class Moments:
         values: FloatArray = np.linalg.solve(
             self.square + damping * np.eye(len(self.square)) - self.cross @ eased,
             self.gradient - eased.T @ self.own_gradient,
-        )
+        ).astype(np.float64)
         return values, inverse @ (self.own_gradient - self.cross.T @ values)
 
     def gained(self, values: FloatArray, shifts: FloatArray) -> float:
