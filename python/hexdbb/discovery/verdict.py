@@ -59,7 +59,9 @@ def judge(search: Search, trials: Sequence[Trial]) -> Discovery:
         return _outcome("unknown" if lack.is_significant else "none", search.base, lack, trials, None)
     search.progress("confirming on readings left out of the fit")
     checked = _confirm(search.base, best.candidate)
-    named = best if _accounts_for(search.base, best, checked) else _in_company(search, best, checked)
+    named = best if _accounts_for(search.base, best, checked) else None
+    if named is None or (named.lack.is_significant and len(named.candidate.elements) > 1):
+        named = _in_company(search, best, checked) or named
     if named is None:
         return _outcome("unknown" if lack.is_significant else "none", search.base, lack, trials, checked)
     trials = (named, *trials[1:])
