@@ -191,6 +191,24 @@ TEST(Compensation, APoseOnlyLookedAtIsNotFollowed) {
   }
 }
 
+TEST(Compensation, TakesTheSidesAControllerSaysThatLooksAhead) {
+  const Model truth = wrong_machine({"backlash"}, 14);
+  Compensator compensator(data_of(truth));
+  const std::vector<Pose> path = circle_path(kStep_s, 0.1);
+  const NominalGeometry nominal{Machine()};
+  Direction said;
+  said.side << 1.0, -1.0, 0.5, 0.0, -0.25, 1.0;
+  for (const Pose& pose : path) {
+    const SliderTargets targets = compensator.sliders(pose, said);
+    ASSERT_EQ(targets.status, Status::kOk);
+    const Vector6 expected = 0.5 * said.side.cwiseProduct(truth.terms[0].values);
+    EXPECT_LT((targets.sliders_mm - inverse(nominal, pose).sliders_mm - expected).cwiseAbs().maxCoeff(), 1e-9);
+  }
+  // What is not said follows from the motion again, from the sides said last.
+  const SliderTargets after = compensator.sliders(path.back());
+  EXPECT_LT((after.correction_mm - 0.5 * said.side.cwiseProduct(truth.terms[0].values)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(Compensation, IsRefusedBeyondItsLimitAndHolds) {
   const Model truth = wrong_machine(kGeometricNames, 10);
   CompensationData data = data_of(truth);

@@ -40,13 +40,13 @@ def comparison_text(comparison: Comparison) -> RenderableType:
 def _radial_lines(comparison: Comparison) -> Iterator[str]:
     """One line a record: what the machine makes of a commanded circle."""
     for each in comparison.radial:
-        of = f" of {each.record_name}" if _several_records(comparison) else ""
+        of = f" of {each.record_name}" if _several_records(comparison) else " of the commanded circles"
         driven = f", compensated by {each.compensation}" if each.compensation else ""
         if each.rms_mm is None or each.peak_to_valley_mm is None:
             yield f"Radial error{of}{driven}: - (no full circle)"
             continue
         yield (
-            f"Radial error of the commanded circles{of}{driven}: rms {UM_PER_MM * each.rms_mm:.2f} µm,"
+            f"Radial error{of}{driven}: rms {UM_PER_MM * each.rms_mm:.2f} µm,"
             f" peak to valley {UM_PER_MM * each.peak_to_valley_mm:.1f} µm (circle {each.worst_circle})"
         )
 

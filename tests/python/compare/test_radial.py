@@ -73,7 +73,7 @@ def test_without_a_full_circle_there_is_none(make_record: MakeRecord) -> None:
     comparison = compare([made], [nothing(made)])
     assert comparison.radial[0].rms_mm is None
     assert comparison.to_json()["radial"][0]["rms_um"] is None
-    assert "Radial error: - (no full circle)" in text_of(comparison)
+    assert "Radial error of the commanded circles: - (no full circle)" in text_of(comparison)
 
 
 def test_a_compensated_record_says_so_beside_one_that_is_not(make_record: MakeRecord) -> None:
