@@ -102,9 +102,10 @@ def carriers(
     noise_mm : float
         Of one reading; where it is not known (0), nothing is allowed for what the model's own values imitate.
     beyond_noise : bool
-        Whether shares are of what is beyond the noise, or of the whole mean square.
+        Whether the residual is that of a fit, of which shares are of what is beyond the noise; else they are of the
+        whole mean square.
     """
-    judge = Judge(columns, None if pushes is None else pushes.own, noise_mm, beyond_noise=beyond_noise)
+    judge = Judge(columns, pushes, noise_mm, beyond_noise=beyond_noise)
     found = []
     for variable in variables(columns, pushes):
         found.append(_means(variable, judge))

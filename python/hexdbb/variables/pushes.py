@@ -34,6 +34,8 @@ class Pushes:
         Platform frame and base frame.
     own : (n, p) array
         The model's free values, each times its expected size: mm per expected size.
+    standing : (p,) array
+        Where these values stand, in expected sizes: a fit balances the readings against them.
     """
 
     slider: Floats
@@ -43,6 +45,7 @@ class Pushes:
     ball: Floats
     cup: Floats
     own: Floats
+    standing: Floats
 
     @classmethod
     def of(cls, model: Model, samples: _core.Samples) -> Pushes:
@@ -57,10 +60,19 @@ class Pushes:
         across = np.array([_core.guideway_axes(slider // 2) for slider in range(6)])
         local = np.einsum("nki,kij->nkj", joint, across)
         return cls(
-            parts["slider"], parts["leg"], local[..., 0], local[..., 2], parts["ball"], parts["cup"], own[:, model.free]
+            slider=parts["slider"],
+            leg=parts["leg"],
+            lateral=local[..., 0],
+            vertical=local[..., 2],
+            ball=parts["ball"],
+            cup=parts["cup"],
+            own=own[:, model.free],
+            standing=(model.values / sizes)[model.free],
         )
 
     @classmethod
     def joined(cls, parts: list[Pushes]) -> Pushes:
-        """Put those of several records one after another."""
-        return cls(*(np.concatenate([getattr(each, field.name) for each in parts]) for field in fields(cls)))
+        """Put those of one model's records one after another."""
+        of_samples = [field.name for field in fields(cls) if field.name != "standing"]
+        joined = {name: np.concatenate([getattr(each, name) for each in parts]) for name in of_samples}
+        return cls(**joined, standing=parts[0].standing)

@@ -23,6 +23,8 @@ WAYS = ("moving down", "moving up")
 BINS = 36
 """Ten degrees each for the angle."""
 COARSE_BINS = 12
+SETTLED = 4.0
+"""What settles does so to e^-4 over the time of the samples."""
 READING = "in the reading"
 ALONG = "along the guideway"
 
@@ -136,8 +138,8 @@ def _of_slider(columns: Columns, k: int, pushes: Pushes | None) -> Iterator[Vari
 
 def _of_guideway(columns: Columns, g: int, pushes: Pushes) -> Iterator[Variable]:
     subject, both = f"guideway {g}", (2 * g - 1, 2 * g)
-    time_s = columns["t_s"]
-    later = (time_s - time_s.mean()) / max(float(np.ptp(time_s)), 1e-9)
+    passed = (columns["t_s"] - columns["t_s"].min()) / max(float(np.ptp(columns["t_s"])), 1e-9)
+    courses = {"growing": passed, "settling": -np.exp(-SETTLED * passed)}
     for way, signs, weights in (
         ("vertical", ("up", "down"), pushes.vertical),
         ("lateral", ("outward", "inward"), pushes.lateral),
@@ -146,8 +148,9 @@ def _of_guideway(columns: Columns, g: int, pushes: Pushes) -> Iterator[Variable]
         parts = tuple((weights[:, k - 1], columns[f"s{k}_mm"]) for k in both)
         place = f"{subject} position ({way})"
         yield Variable(subject, place, "mm", parts, where, is_place=True, signs=signs)
-        timed = tuple((weight * later, values) for weight, values in parts)
-        yield Variable(subject, f"{place}, growing with time", "mm", timed, where, bins=COARSE_BINS)
+        for course, later in courses.items():
+            timed = tuple((weight * (later - later.mean()), values) for weight, values in parts)
+            yield Variable(subject, f"{place}, {course} with time", "mm", timed, where, bins=COARSE_BINS)
 
 
 def _of_leg(columns: Columns, k: int, pushes: Pushes) -> Iterator[Variable]:
