@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.truth.simulate import simulate
 
 from hexdbb import _core
 from hexdbb.compensation import (
@@ -19,10 +21,16 @@ from hexdbb.compensation import (
     read_poses,
     write_text,
 )
+from hexdbb.diagnosis import diagnose
+from hexdbb.effects import load_effects
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.machine import shipped_machine
-from hexdbb.model import Model, new_model, save_model
+from hexdbb.model import Model, new_model, new_term, save_model
+from hexdbb.plan import load_plan
+from hexdbb.record import read_record, write_record
+from hexdbb.rig.mechanisms import MECHANISMS
+from hexdbb.rig.truth import TruthFile
 
 EFFECTS = ["leg_length", "guideway_rotation_xy", "backlash", "gravity_sag", "cup_position", "reversal_spike"]
 
@@ -172,6 +180,74 @@ def test_a_wrong_table_of_poses_is_refused(tmp_path: Path, text: str, expected: 
     path.write_text(text)
     with pytest.raises(InputError, match=expected):
         read_poses(path)
+
+
+OWN = '''
+from hexdbb.effects import effect
+
+
+@effect(port="slider", unit="mm", prior_sigma=0.01, elements=6)
+def dent(state):
+    """A dent."""
+    return (abs(state.sliders_mm - 300.0) < 5.0) * 1.0
+'''
+
+
+def test_effects_of_ones_own_are_left_out_by_name(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text(OWN)
+    own = load_effects(tmp_path / "mine.py")
+    known = wrong_model().knowing_effects(own)
+    save_model(replace(known, terms=(*known.terms, new_term("dent", 6))), tmp_path / "model.toml")
+    refused = hexdbb("compensate", "model.toml", "-o", "a.hexcomp", folder=tmp_path)
+    assert refused.returncode == 2
+    assert "--effects" in refused.stderr
+    line = ("compensate", "model.toml", "--effects", "mine.py", "-o", "a.hexcomp", "--json")
+    done = hexdbb(*line, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    left_out = {each["effect"]: each["reason"] for each in json.loads(done.stdout)["left_out"]}
+    assert left_out["dent"] == "is known to the program that fitted it, not to the engine"
+    written = read_compensation(tmp_path / "a.hexcomp")
+    assert dict(written.left_out)["dent"] == left_out["dent"]
+    assert written.effects == make_compensation(wrong_model()).effects
+
+
+@pytest.fixture(scope="module")
+def warmed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A record of a machine whose legs grow with a thermometer, and the model diagnosed from it."""
+    folder = tmp_path_factory.mktemp("warmed")
+    plan = load_plan("thesis").model_copy(update={"feeds_mm_min": (6000.0,), "laps": 1})
+    table = {"kind": "leg_thermal", "growth_um": 60.0, "time_constant_s": 60.0}
+    growth = MECHANISMS["leg_thermal"].model_validate(table)
+    record = simulate(TruthFile(mechanism=(growth,)), plan, 1, temperature=True)
+    write_record(record, folder / "warm.parquet")
+    write_record(simulate(TruthFile(mechanism=(growth,)), plan, 2), folder / "other.parquet")
+    found = diagnose([read_record(folder / "warm.parquet")], new_model(record.machine, ["leg_thermal", "cup_position"]))
+    save_model(found.model, folder / "model.toml")
+    return folder
+
+
+def test_the_reference_temperature_is_that_of_the_records_first_sample(warmed: Path) -> None:
+    done = hexdbb("compensate", "model.toml", "--reference", "warm.parquet", "-o", "a.hexcomp", folder=warmed)
+    assert done.returncode == 0, done.stderr
+    first = read_record(warmed / "warm.parquet").columns["temperature_c"][0]
+    assert read_compensation(warmed / "a.hexcomp").reference_temperature_c == first
+    assert "leg_thermal" in read_compensation(warmed / "a.hexcomp").effects
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--reference", "other.parquet"), "other.parquet: the model was not fitted to it"),
+        (("--reference", "gone.parquet"), "gone.parquet: no such file"),
+        (("--reference", "warm.parquet", "--reference-temperature-c", "20"), "expected one of them"),
+    ],
+)
+def test_a_wrong_reference_is_refused(warmed: Path, words: tuple[str, ...], said: str) -> None:
+    done = hexdbb("compensate", "model.toml", *words, "-o", "b.hexcomp", folder=warmed)
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not (warmed / "b.hexcomp").exists()
 
 
 def test_command_says_what_is_missing(model_path: Path) -> None:

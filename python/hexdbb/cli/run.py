@@ -127,7 +127,8 @@ def command(
         progress.notes.append("stdin is no terminal: nobody is asked whether the bar is mounted")
     elif not yes:
         request = replace(request, confirm=_ask(console, progress))
-    programme = prepare(request)
+    with console.status("computing and checking all targets"):
+        programme = prepare(request)
     with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
         console.print(_announcement(programme, lockstep, request), highlight=False, soft_wrap=True)
         with display(progress, console):
