@@ -123,7 +123,7 @@ def bow(state):
         ("    return state.acceleration\n", ":6: effect mine: AttributeError: 'SampleState' object has no attribute"),
         ("    return state.time_s\n", ":4: effect mine: size: gives shape (180,) (expected (180, 6) at port slider)"),
         ("    return 'large'\n", ":4: effect mine: size: gives a str (expected an array of numbers of shape (180, 6))"),
-        ("    pass\n", ":4: effect mine: size: gives shape () (expected (180, 6) at port slider)"),
+        ("    pass\n", ":4: effect mine: size: gives nothing (expected to return an array of shape (180, 6))"),
         (
             "    return np.where(np.arange(len(state))[:, None] == 2, np.nan, state.sliders_mm)\n",
             ":4: effect mine: size: nan in sample 3 (expected a number)",

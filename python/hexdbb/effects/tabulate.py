@@ -97,7 +97,8 @@ def _tabulated(effect: UserEffect, state: SampleState, *, must_vary: bool) -> Ta
 def _bases(effect: UserEffect, state: SampleState) -> list[tuple[str, object]]:
     """Call the user's function; one result a parameter."""
     try:
-        result = effect.basis(state)
+        with np.errstate(all="ignore"):  # a value that is not finite is named below
+            result = effect.basis(state)
     except Exception as error:  # a user's function may raise anything
         line = line_of(effect.path, error) or effect.line
         said = f"{type(error).__name__}: {error}"
@@ -114,6 +115,8 @@ def _columns(effect: UserEffect, parameter: str, basis: object, count: int) -> F
     """Check one parameter's basis; shape (count, columns of the port)."""
     of = f"{effect.where}: {parameter}"
     expected = (count, *SHAPES[effect.port])
+    if basis is None:
+        raise UserEffectError(f"{of}: gives nothing (expected to return an array of shape {expected})")
     try:
         table = np.asarray(basis, dtype=np.float64)
     except (TypeError, ValueError):
