@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.thermometer import smoothed
 
 Columns = dict[str, NDArray[Any]]
 
@@ -81,7 +82,9 @@ def _columns(record: Record) -> Columns:
     columns = record.columns
     assert record.origin is not None  # a record sets it when it is made
     start_s, start_c = record.origin
-    temperature_c = columns.get("temperature_c", np.full(len(record), np.nan))
+    temperature_c = np.full(len(record), np.nan)
+    if "temperature_c" in columns:
+        temperature_c = smoothed(columns["t_s"], columns["sweep"], columns["temperature_c"])
     return {
         "time_s": columns["t_s"] - start_s,
         "circle": columns["circle"],

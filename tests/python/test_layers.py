@@ -39,7 +39,8 @@ ALLOWED: dict[str, set[str]] = {
     "effects": {"errors", "units", "machine", "plan", "kinematics", "model", "state", "_core"},
     "structure": {"model"},
     "redundancy": {"model", "structure"},
-    "state": {"plan", "record"},
+    "thermometer": set(),
+    "state": {"plan", "record", "thermometer"},
     "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
     "measured": {"record", "model", "prediction", "_core"},
     "diagnosis": {
