@@ -107,8 +107,8 @@ void bind_compensation(py::module_& module) {
       py::arg("model"), py::kw_only(), py::arg("name"), py::arg("model_sha256"), py::arg("max_correction_mm"),
       py::arg("reversal_travel_mm"), py::arg("reference_temperature_c"),
       py::arg("unknown") = std::vector<std::string>(),
-      "What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known; "
-      "unknown: effects of the model that the engine does not have.");
+      "What of a model a controller can correct, and why the rest not.\n\n"
+      "reference_temperature_c: nan where not known; unknown: effects of the model that the engine does not have.");
   module.def("read_compensation", &read_compensation, py::arg("path"),
              "Read a compensation file; CompensationError says why it is refused.");
   module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),
@@ -119,10 +119,10 @@ void bind_compensation(py::module_& module) {
       .def(py::init<const CompensationData&, const std::string&>(), py::arg("data"), py::arg("source"))
       .def("sliders_along", &sliders_along, py::arg("position_mm"), py::arg("rpy_rad"), py::arg("time_s"),
            py::arg("temperature_c"), py::arg("side") = py::none(),
-           "Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion. A row refused "
-           "has "
-           "the last targets, and where a correction is too large, its size. side (n, 6), "
-           "-1 .. 1: of each slider, where the motion to come is known; without it they follow from the motion so far.")
+           "Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.\n\n"
+           "A row refused has the last targets, and where a correction is too large, its size.\n"
+           "side (n, 6), -1 .. 1, is where each slider comes from, if the motion to come is known;\n"
+           "without it the sides follow from the motion so far.")
       .def("poses_of", &poses_of, py::arg("sliders_mm"),
            "Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of rows of slider coordinates.")
       .def("enable", &Compensator::enable, py::arg("on"), "Off or on; it fades over the next 500 poses.")

@@ -366,7 +366,11 @@ class Compensator:
         side: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"] | None = None,
     ) -> tuple:
         """
-        Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion. A row refused has the last targets, and where a correction is too large, its size. side (n, 6), -1 .. 1: of each slider, where the motion to come is known; without it they follow from the motion so far.
+        Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.
+
+        A row refused has the last targets, and where a correction is too large, its size.
+        side (n, 6), -1 .. 1, is where each slider comes from, if the motion to come is known;
+        without it the sides follow from the motion so far.
         """
 
 def compensation_of(
@@ -380,7 +384,9 @@ def compensation_of(
     unknown: collections.abc.Sequence[str] = [],
 ) -> CompensationData:
     """
-    What of a model a controller can correct, and why the rest not. reference_temperature_c: nan where not known; unknown: effects of the model that the engine does not have.
+    What of a model a controller can correct, and why the rest not.
+
+    reference_temperature_c: nan where not known; unknown: effects of the model that the engine does not have.
     """
 
 def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:

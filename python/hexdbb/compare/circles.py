@@ -5,7 +5,7 @@ Convention: residual = measured - predicted. Radial deviation of a path = readin
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from hexdbb.circle import Circle
 from hexdbb.compare.both_ways import BothWays, both_ways
 from hexdbb.compare.harmonics import Harmonic, harmonics
 from hexdbb.compare.quantities import Quantities, evaluate_quantities
+from hexdbb.compare.set_up import without_set_up_mm
 from hexdbb.iso230 import FloatArray, Path
 from hexdbb.record import Record
 
@@ -40,9 +41,9 @@ class DirectionComparison:
     residual_mm : (n,) array
         Measured minus predicted reading.
     radial_mm : (n,) array or None
-        Radial error of each sample: its distance from the centre less the commanded radius, the set-up's centre offset
-        removed (least squares over both directions, ISO 230-4). No model is in it: it is what the machine, compensated
-        or not, does to a commanded circle. None where no direction is a full circle.
+        Radial error of each sample: reading less what the commanded circle would read about a cup that is off in its
+        plane, the offset found by least squares over both directions (`hexdbb.compare.set_up`). No model is in it: it
+        is what the machine, compensated or not, does to a commanded circle. None where no direction is a full circle.
     measured, predicted : Path
         Mean path over the laps.
     measured_quantities, predicted_quantities : Quantities
@@ -102,7 +103,8 @@ class CircleComparison:
     @property
     def set_up_centre_mm(self) -> FloatArray | None:
         """Centre offset (2,) of the measured paths, least squares; None where no direction is a full circle."""
-        return _centre_mm(part.measured for part in self.directions)
+        full = [part.measured for part in self.directions if part.measured.is_full_circle]
+        return iso230.set_up_centre_mm(*full) if full else None
 
     @property
     def radial_mm(self) -> FloatArray | None:
@@ -149,14 +151,15 @@ def _compare_circle(
     measured_quantities, predicted_quantities = evaluate_quantities(measured), evaluate_quantities(predicted)
     angle_rad = np.radians(columns["angle_deg"])
     residual_mm = record.reading_mm - predicted_mm
-    centre_mm = _centre_mm(measured.values())
+    is_full = any(path.is_full_circle for path in measured.values())
+    radial_mm = _radial_mm(record, circle, rows) if is_full else {}
     directions = tuple(
         DirectionComparison(
             direction=direction,
             rows=found,
             angle_rad=angle_rad[found],
             residual_mm=residual_mm[found],
-            radial_mm=None if centre_mm is None else _radial_mm(record, circle, found, centre_mm),
+            radial_mm=radial_mm.get(direction),
             measured=measured[direction],
             predicted=predicted[direction],
             measured_quantities=measured_quantities[direction],
@@ -174,20 +177,6 @@ def compensation_of(record: Record) -> str | None:
     return str(driven.get("file", "a compensation")) if isinstance(driven, dict) else None
 
 
-def _centre_mm(paths: Iterable[Path]) -> FloatArray | None:
-    full = [path for path in paths if path.is_full_circle]
-    return iso230.set_up_centre_mm(*full) if full else None
-
-
-def _radial_mm(record: Record, circle: Circle, rows: IndexArray, centre_mm: FloatArray) -> FloatArray:
-    """Distance of each sample from the centre less the commanded radius."""
-    distance_mm = record.reading_mm[rows] + record.gauge.bar_length_mm
-    angle_rad = np.radians(record.columns["angle_deg"][rows])
-    points_mm = distance_mm[:, None] * np.column_stack([np.cos(angle_rad), np.sin(angle_rad)])
-    radial_mm: FloatArray = np.hypot(*(points_mm - centre_mm).T) - circle.radius_mm
-    return radial_mm
-
-
 def _mean_path(record: Record, circle: Circle, rows: IndexArray, reading_mm: FloatArray) -> Path:
     """Mean path over the laps (and repeated sweeps) of the given samples."""
     columns = record.columns
@@ -202,3 +191,15 @@ def _mean_path(record: Record, circle: Circle, rows: IndexArray, reading_mm: Flo
             for turn in range(int(turn_of.max()) + 1)
         ]
     )
+
+
+def _radial_mm(record: Record, circle: Circle, rows: Mapping[int, IndexArray]) -> dict[int, FloatArray]:
+    """Radial error by direction, the cup's offset found from both together."""
+    joined = np.concatenate(list(rows.values()))
+    left_mm = without_set_up_mm(
+        np.radians(record.columns["angle_deg"][joined]),
+        record.reading_mm[joined] + record.gauge.bar_length_mm,
+        circle.radius_mm,
+    )
+    ends = np.cumsum([len(found) for found in rows.values()])[:-1]
+    return dict(zip(rows, np.split(left_mm, ends), strict=True))

@@ -90,7 +90,7 @@ def _both_table(comparison: Comparison) -> Table:
 def _notes(comparison: Comparison) -> Iterator[str]:
     yield f"Quantities of {iso230.EDITION}:"
     yield from (f"  {quantity.symbol}: {quantity.name}" for quantity in QUANTITIES)
-    yield "Radial error: of every sample, centre offset removed (least squares); peak to valley of the worst circle."
+    yield "Radial error: of every sample, the cup's offset in the plane removed; peak to valley of the worst circle."
     yield "Measured quantities are of the mean of the laps and hold the gauge's noise; predicted ones hold none."
     quantities = (part.measured_quantities for circle in comparison.circles for part in circle.directions)
     if any(None in values.values() for values in quantities):

@@ -18,10 +18,8 @@ MakeRecord = Callable[..., Record]
 
 
 def offset(angle: np.ndarray, direction: int) -> np.ndarray:
-    """Deviation of a perfect circle about a centre that is off by (0.1, -0.05) mm, exactly."""
-    x, y = 0.1, -0.05
-    along = x * np.cos(angle) + y * np.sin(angle)
-    return along + np.sqrt(along**2 + 100.0**2 - x**2 - y**2) - 100.0
+    """What a perfect circle reads about a cup that is off by (0.3, -0.2) mm in its plane."""
+    return np.hypot(100.0 * np.cos(angle) - 0.3, 100.0 * np.sin(angle) + 0.2) - 100.0
 
 
 def nothing(record: Record) -> np.ndarray:
