@@ -146,3 +146,10 @@ def _print_next(found: Discovery, console: Console, records: str, model_path: Pa
         console.print(
             f"next: hexdbb add {found.best.choice} -m {model_path} {records}", highlight=False, soft_wrap=True
         )
+    if found.verdict == "unknown":
+        console.print(
+            "next: write what it may be as an effect of your own, and let it compete:"
+            f" hexdbb discover {records} -m {model_path} --effects mine.py",
+            highlight=False,
+            soft_wrap=True,
+        )

@@ -15,9 +15,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 from hexdbb.diagnosis import HeldOut, foretold, held_out, refitter
-from hexdbb.discovery.changed_values import best_change
 from hexdbb.discovery.lack_of_fit import LackOfFit
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import Candidate, Discovery, Verdict
@@ -42,6 +42,7 @@ SIGNIFICANT_P = 1e-3
 ALIKE = 10.0
 """Effects whose chi-squares differ by less explain the readings alike."""
 MOST_FOLDS = 4
+MORE = "something else is missing besides: look again once this effect is added"
 
 
 def judge(search: Search, trials: Sequence[Trial]) -> Discovery:
@@ -129,10 +130,17 @@ def _in_company(search: Search, best: Trial, checked: HeldOut | None) -> Trial |
 
 def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:
     fit = refitter(base.noise)
-    # Of a set-up measured by few circles nothing is known without them.
-    by_circle = base.model.info(candidate.effect).element_kind != "mount"
     before, after = (base.model, fit), (candidate.model, fit)
-    return held_out(base.measured, before, after, "circle" if by_circle else "sweep", MOST_FOLDS)
+    by: Literal["circle", "sweep"] = "circle" if _told_by_others(base, candidate) else "sweep"
+    return held_out(base.measured, before, after, by, MOST_FOLDS)
+
+
+def _told_by_others(base: Base, candidate: Candidate) -> bool:
+    """Whether some circles tell what matters on others: of a set-up without its circles, of few circles, nothing."""
+    if base.model.info(candidate.effect).element_kind == "mount":
+        return False
+    expected = foretold(base.records, candidate.model, base.noise.sigma_mm * 1e3, MOST_FOLDS)
+    return expected is not None and not expected.extrapolates
 
 
 def _outcome(
@@ -154,15 +162,5 @@ def _outcome(
         ambiguous_with=(),
         next_test=None,
         structure=structure,
-        remarks=_remarks(verdict, base, left),
+        remarks=(MORE,) if named is not None and left.is_significant else (),
     )
-
-
-def _remarks(verdict: Verdict, base: Base, left: LackOfFit) -> tuple[str, ...]:
-    if verdict != "unknown":
-        more = left.is_significant
-        return ("something else is missing besides: look again once this effect is added",) if more else ()
-    change = best_change(base)
-    if change is None or change.share < SUBSTANTIAL or change.bic_drop < STRONG:
-        return ()
-    return (f"it looks like {change.sentence}: that would explain {change.share:.0%} of it",)

@@ -53,6 +53,35 @@ def test_a_fault_outside_the_catalogue_is_unknown(measured: Callable[[str], Reco
     assert all(0.0 < share <= 1.0 for share in shares) and shares == sorted(shares, reverse=True)
 
 
+@pytest.mark.parametrize("name", ["loose_cup-x3-s0", "guideway_bend-x3-s2"])
+def test_what_fits_but_does_not_predict_is_not_named(measured: Callable[[str], Record], name: str) -> None:
+    record = measured(name)
+    found = discover([record], new_model(record.machine))
+    assert found.verdict == "unknown"
+    # The best candidate takes most of it where it is fitted.
+    assert found.candidates[0].share > 0.5
+    assert "cup" in found.structure[0].variable or "guideway 2" in found.structure[0].variable
+
+
+def test_two_faults_are_found_one_by_one_with_their_elements(measured: Callable[[str], Record]) -> None:
+    name = "backlash+servo_lag-x3-s4"
+    record = measured(name)
+    wanted = {f"{each.kind}:{each.element}" for each in case(name).hidden}
+    found = discover([record], new_model(record.machine))
+    assert found.best is not None and found.best.choice in wanted
+    assert found.remarks == ("something else is missing besides: look again once this effect is added",)
+    second = discover([record], found.best.model)
+    assert second.best is not None and {found.best.choice, second.best.choice} == wanted
+    assert second.heldout_after_um is not None and second.heldout_after_um < 1.2 * record.gauge.noise_um
+
+
+def test_two_circles_are_enough_where_they_tell_it(measured: Callable[[str], Record]) -> None:
+    record = measured("backlash-x3-s1")
+    few = record.part(record.columns["circle"] < 2)
+    found = discover([few], new_model(record.machine))
+    assert found.best is not None and found.best.choice == "backlash:4"
+
+
 def test_too_few_to_judge_is_said(measured: Callable[[str], Record]) -> None:
     record = measured("none-s3")
     model = new_model(record.machine)
