@@ -3,9 +3,10 @@
 The machine: errors of geometry of 50 um and 0.2 mrad, play and a pitch error in every drive, legs that give way. The
 record of the fit and the records of unseen circles come from the truth simulator, which shares no code with the engine;
 what is between them is what a user does with the commands, in the same order.
-Error: the radial error of each circle as `hexdbb compare` has it: every sample's distance from the centre of its circle
-less the commanded radius. Of the set-up only the centre is removed, by least squares, before and after alike, because
-the cup of an unseen mount stands nobody knows where (ISO 230-4 does the same); the radius is not.
+Error: the radial error of each circle as `hexdbb compare` has it: what every sample reads beyond a perfect circle of
+the commanded radius, the cup's offset in the circle's plane removed by least squares, before and after alike, because
+the cup of an unseen mount stands nobody knows where (ISO 230-4 removes a centre for the same reason); the radius is
+not.
 """
 
 from __future__ import annotations
@@ -98,7 +99,7 @@ def machine_of(seed: int) -> TruthFile:
 def silent(truth: TruthFile) -> TruthFile:
     """Give the same machine in a perfect set-up: a gauge that neither errs nor rounds, cups where they should be.
 
-    Of a cup's error the centre in the circle's plane is removed anyhow; a cup that is out of that plane by z makes the
+    Of a cup's error the part in the circle's plane is removed anyhow; a cup that is out of that plane by z makes the
     radius larger by z^2 / 2 R, which no reading of one circle tells from the machine.
     """
     gauge = GAUGE.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0})
