@@ -49,7 +49,7 @@ class Noise:
 
 def noise_of(records: Sequence[Record]) -> Noise:
     """Find the noise of some records' readings; of several gauges the noisiest counts."""
-    repeated = [difference for record in records for difference in _lap_differences(record)]
+    repeated = [difference for record in records for difference in lap_differences(record)]
     if sum(map(len, repeated)) >= LEAST_REPEATS:
         return Noise(_robust_sigma(np.concatenate(repeated)), "repeated laps")
     stated = stated_noise(records)
@@ -83,7 +83,7 @@ def _robust_sigma(values: Floats) -> float:
     return max(sigma, LEAST_NOISE_MM)
 
 
-def _lap_differences(record: Record) -> Iterator[Floats]:
+def lap_differences(record: Record) -> Iterator[Floats]:
     """Differences of consecutive laps at one angle, in units of one reading's noise."""
     for rows in record.sweeps():
         lap, angle = record.columns["lap"][rows], record.columns["angle_deg"][rows]

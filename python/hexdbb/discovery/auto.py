@@ -14,7 +14,8 @@ from typing import Literal
 import numpy as np
 
 from hexdbb.diagnosis import Diagnosis, Noise, evaluate_fit
-from hexdbb.discovery.discover import discover, judging_noise
+from hexdbb.discovery.discover import discover
+from hexdbb.discovery.judging import judging_noise
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.search import Progress
 from hexdbb.ledger import add_effect, held_at_zero, remove_effect
@@ -113,7 +114,7 @@ def is_needed(records: Sequence[Record], model: Model, choice: str) -> bool:
     InputError
         An effect or element that the model does not have.
     """
-    known, noise = knowing(model, records), judging_noise(records)
+    known, noise = knowing(model, records), judging_noise(records).noise
     without = held_at_zero(known, choice)
     values = int(known.free.sum()) - int(without.free.sum())
     more, correlation, readings = _squared(records, without, noise)

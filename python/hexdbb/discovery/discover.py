@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexdbb.diagnosis import Noise, noise_of, stated_noise
+from hexdbb.discovery.judging import JudgingNoise, judging_noise
 from hexdbb.discovery.lack_of_fit import FitTest
 from hexdbb.discovery.own_effects import failing_effects
 from hexdbb.discovery.result import Discovery
@@ -24,8 +24,6 @@ from hexdbb.record import Record
 
 MOST_TRIED = 6
 """So many effects get a fit of their own."""
-UNSTEADY = 1.25
-"""Noise of repeated laps over the gauge's stated noise beyond which the machine does not repeat."""
 LEAST_READINGS = 200
 LEAST_SWEEPS = 2
 
@@ -61,46 +59,29 @@ def discover(
     """
     _require_enough(records)
     known = knowing(model, records)
-    noise, unsteady = _noise(records)
+    judging = judging_noise(records)
     progress("fitting the model as it is")
-    base = fitted_base(records, known, noise)
+    base = fitted_base(records, known, judging.noise)
     asked = list(candidates) if candidates is not None else absent_effects(base.model)
     failed = failing_effects(records, base.model, asked)
     names = tuple(name for name in asked if name not in failed)
-    search = Search(base, FitTest(records, noise), names, progress)
+    search = Search(base, FitTest(records, judging.noise), names, progress)
     progress("screening all effects")
     ranked, tried = search.ranked()
     found = judge(search, search.trials([each for each in ranked if each.gain > 0.0][:MOST_TRIED], tried))
     found = replace(found, remarks=(*found.remarks, *(f"left out: {error}" for error in failed.values())))
-    return _with_unsteadiness(found, base, unsteady) if unsteady is not None else found
+    return _with_remark(found, base, judging)
 
 
-def _noise(records: Sequence[Record]) -> tuple[Noise, str | None]:
-    """Noise to judge by: of repeated laps where they are as steady as the gauge is stated to be, else the gauge's.
-
-    Where laps repeat much worse than the gauge should, something is missing that no lap shares with the next; that is
-    said, and what is stated counts.
-    """
-    repeated, stated = noise_of(records), stated_noise(records)
-    if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
-        return repeated, None
-    return stated, (
-        f"laps repeat to {repeated.sigma_mm * 1e3:.2f} um only,"
-        f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} um:"
-        " something changes from lap to lap"
-    )
-
-
-def judging_noise(records: Sequence[Record]) -> Noise:
-    """Give the noise of one reading that a model of some records is judged by."""
-    return _noise(records)[0]
-
-
-def _with_unsteadiness(found: Discovery, base: Base, unsteady: str) -> Discovery:
-    if found.verdict != "none":
-        return replace(found, remarks=(*found.remarks, unsteady))
+def _with_remark(found: Discovery, base: Base, judging: JudgingNoise) -> Discovery:
+    """Say what laps tell of the noise; a machine that does not repeat does not lack nothing."""
+    if judging.remark is None:
+        return found
+    found = replace(found, remarks=(*found.remarks, judging.remark))
+    if judging.is_steady or found.verdict != "none":
+        return found
     structure = unexplained_structure(base.records, base.model, base.residual_mm, base.noise)
-    return replace(found, verdict="unknown", structure=structure, remarks=(*found.remarks, unsteady))
+    return replace(found, verdict="unknown", structure=structure)
 
 
 def _require_enough(records: Sequence[Record]) -> None:

@@ -30,7 +30,7 @@ LEAST_ROWS = 40
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from."""
 LEVEL_SIGMAS = 4.0
-SHAPE_P = 1e-3
+SHAPE_P = 1e-4
 
 
 @dataclass(frozen=True)

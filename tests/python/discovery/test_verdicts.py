@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from tests.truth.cases import case
+from tests.truth.plans import PACE
+from tests.truth.simulate import simulate
 
 from hexdbb.discovery import discover
 from hexdbb.errors import InputError
@@ -51,6 +54,19 @@ def test_a_fault_outside_the_catalogue_is_unknown(measured: Callable[[str], Reco
     assert (first.place is None) == (first.period is not None)
     shares = [each.share for each in found.structure]
     assert all(0.0 < share <= 1.0 for share in shares) and shares == sorted(shares, reverse=True)
+
+
+def test_a_gauge_noisier_than_stated_is_no_fault_of_the_machine() -> None:
+    hidden = case("backlash-x3-s1", replace(PACE, rate_hz=4.0))
+    gauge = hidden.truth.gauge.model_copy(update={"noise_um": 2.0})
+    record = simulate(hidden.truth.model_copy(update={"gauge": gauge}), hidden.plan, pace=hidden.pace)
+    assert record.gauge.noise_um == 0.5
+    found = discover([record], new_model(record.machine))
+    assert found.best is not None and found.best.choice == "backlash:4"
+    assert found.lack_of_fit.noise_um == pytest.approx(2.0, rel=0.05)
+    (remark,) = found.remarks
+    assert "the gauge is stated to have 0.50 um: it is noisier than stated" in remark
+    assert discover([record], found.best.model).verdict == "none"
 
 
 @pytest.mark.parametrize("name", ["loose_cup-x3-s0", "guideway_bend-x3-s2"])

@@ -13,7 +13,7 @@ from tests.truth.cases import case
 from tests.truth.plans import PACE
 
 from hexdbb.diagnosis import evaluate_fit
-from hexdbb.discovery.discover import judging_noise
+from hexdbb.discovery.judging import judging_noise
 from hexdbb.model import new_model
 from hexdbb.prediction import knowing, samples_of
 from hexdbb.variables import Carrier, Columns, Pushes, carriers, sample_columns, sentence, telling
@@ -25,7 +25,7 @@ Columned = Callable[[np.ndarray], Columns]
 def left(name: str) -> tuple[Columns, Pushes, float]:
     """Columns and pushes of a case's residual after a fit of geometry, and the noise."""
     record = case(name, replace(PACE, rate_hz=0.5 * PACE.rate_hz)).record()
-    known, noise = knowing(new_model(record.machine), [record]), judging_noise([record])
+    known, noise = knowing(new_model(record.machine), [record]), judging_noise([record]).noise
     fitted, result = evaluate_fit([record], known, known.free, noise)
     samples = samples_of([record], fitted)
     columns = sample_columns([record], [record.name], [record.reading_mm - result.residual_mm], [samples.state])

@@ -1,0 +1,40 @@
+"""The noise that a model of some records is judged by, and what is to be said of it.
+
+Repeated laps tell it best, where they are as steady as the gauge is stated to be. Where they repeat much worse, either
+the gauge is noisier than stated, and what differs from lap to lap is white; or something is missing that no lap shares
+with the next: then what is stated counts, and whatever else is found, not all is well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hexdbb.diagnosis import Noise, is_white, lap_differences, noise_of, stated_noise
+from hexdbb.record import Record
+
+UNSTEADY = 1.25
+"""Noise of repeated laps over the gauge's stated noise beyond which the machine does not repeat."""
+
+
+@dataclass(frozen=True)
+class JudgingNoise:
+    """Noise of one reading; `remark` where laps say otherwise than the gauge, `is_steady` where that is but noise."""
+
+    noise: Noise
+    remark: str | None = None
+    is_steady: bool = True
+
+
+def judging_noise(records: Sequence[Record]) -> JudgingNoise:
+    """Choose the noise of one reading that a model of some records is judged by."""
+    repeated, stated = noise_of(records), stated_noise(records)
+    if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
+        return JudgingNoise(repeated)
+    sizes = (
+        f"laps repeat to {repeated.sigma_mm * 1e3:.2f} um only,"
+        f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} um"
+    )
+    if is_white([each for record in records for each in lap_differences(record)]):
+        return JudgingNoise(repeated, f"{sizes}: it is noisier than stated")
+    return JudgingNoise(stated, f"{sizes}: something changes from lap to lap", is_steady=False)
