@@ -19,7 +19,7 @@ from hexdbb.model import new_model
 from hexdbb.plan import Plan, load_plan
 from hexdbb.record import TARGET_COLUMNS, read_record
 from hexdbb.rig.mechanisms import MECHANISMS
-from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.rig.truth import DriveTruth, TruthFile, random_truth
 from hexdbb.validation import dump_toml
 
 ROOT = Path(__file__).parents[2]
@@ -149,7 +149,10 @@ def unseen_plan(fast: dict[str, object]) -> Plan:
 
 
 def faulty_truth() -> TruthFile:
-    """A random machine with play, a pitch error and legs that give way."""
+    """A random machine with play, a pitch error and legs that give way.
+
+    Its drives reach their targets: at `RATE_HZ`, a lag of 2 ms would cut the corners of the circles by 0.7 um.
+    """
     tables = [
         {"kind": "backlash", "slider": 4, "width_um": 15.0},
         {"kind": "backlash", "slider": 1, "width_um": 8.0},
@@ -157,7 +160,7 @@ def faulty_truth() -> TruthFile:
         {"kind": "gravity_sag", "compliance_um_n": 0.4},
     ]
     mechanisms = tuple(MECHANISMS[str(table["kind"])].model_validate(table) for table in tables)
-    return random_truth(20060701).model_copy(update={"mechanism": mechanisms})
+    return random_truth(20060701).model_copy(update={"mechanism": mechanisms, "drive": DriveTruth(lag_s=1e-9)})
 
 
 def radial(folder: Path, *records: str) -> list[dict[str, object]]:
