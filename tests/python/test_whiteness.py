@@ -27,7 +27,7 @@ def test_what_changes_is_not(kind: str, seed: int) -> None:
     changes = {
         "line": [0.5 * np.sin(2.0 * at + k) for k in range(SERIES)],
         "trend": [1.5 * (at / VALUES - 0.5)] * SERIES,
-        "burst": [np.random.default_rng(k).normal(0.0, 0.5, VALUES) if k == 3 else 0.0 * at for k in range(SERIES)],
+        "burst": [np.random.default_rng(k).normal(0.0, 1.0, VALUES) if k == 3 else 0.0 * at for k in range(SERIES)],
     }
     assert not is_white([white + change for white, change in zip(noise(seed), changes[kind], strict=True)])
 
