@@ -94,6 +94,10 @@ bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks
 	@PYTHONPATH=$(CURDIR) $(BIN)/python cpp/bench/report.py build/bench/cpp/bench/hexdbb_bench --output docs/benchmarks.md
 	@$(BIN)/python cpp/bench/compensation_report.py build/bench/cpp/bench/hexdbb_compensation_bench --output docs/real-time.md
 
+.PHONY: closed-loop
+closed-loop: setup  ## compensation judged on unseen circles of machines of known truth; rewrites docs/closed-loop.md
+	@$(BIN)/python -m tests.truth.closed_loop -o docs/closed-loop.md
+
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 
 .PHONY: lint lint-cpp lint-python lint-types lint-spelling
