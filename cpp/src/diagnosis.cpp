@@ -94,6 +94,9 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
   }
   out.scale = expected_sizes(model)(out.columns);
   out.limit = physical_limits(model)(out.columns);
+  const Eigen::VectorXd shapes =
+      of_each_value(model, [](const ParameterInfo& parameter) { return parameter.is_shape ? 1.0 : 0.0; });
+  for (const int column : out.columns) out.shapes.push_back(shapes[column] != 0.0);
   return out;
 }
 
@@ -140,6 +143,9 @@ void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unkn
 }
 
 /// For a fit that only judges a model: few readings show the way, all of them decide. Gives where the way ended.
+///
+/// A model that lacks something bends its geometry far away to imitate it, from where the way back is long once it has
+/// what it lacks; so the way is also tried from the values most probable before any reading was known.
 Eigen::VectorXd judge(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
                       Accumulator& accumulator, const Unknowns& unknowns, double noise_mm, FitResult& out) {
   constexpr int kMostCoarse = 60, kMost = 20;
@@ -147,8 +153,15 @@ Eigen::VectorXd judge(const Model& model, const Samples& samples, const Eigen::V
   constexpr double kFall = 0.02;       // no verdict hangs on so little
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
-  const Descent coarse =
-      descend([&](const Eigen::VectorXd& z) { return few.at(z); }, few, start, bound, kCoarseFall, kMostCoarse);
+  const auto down_from = [&](const Eigen::VectorXd& z) {
+    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, kCoarseFall, kMostCoarse);
+  };
+  Descent coarse = down_from(start);
+  const Eigen::VectorXd expected = unknowns.scaled_expected();
+  if (expected != start) {
+    Descent other = down_from(expected);
+    if (other.is_reachable && other.cost < coarse.cost) coarse = std::move(other);
+  }
   const Descent fine =
       descend([&](const Eigen::VectorXd& z) { return posterior_at(model, accumulator, unknowns, noise_mm, z); }, few,
               coarse.z, bound, kFall, kMost);

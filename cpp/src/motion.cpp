@@ -34,7 +34,7 @@ std::vector<Rows> rows_by_sweep(const Eigen::VectorXi& sweep) {
 
 struct Smooth {
   Eigen::VectorXd time_s;
-  Track place_mm, velocity_mm_s, acceleration_mm_s2, jerk_mm_s3;
+  Track place_mm, velocity_mm_s, acceleration_mm_s2, jerk_mm_s3, snap_mm_s4;
 };
 
 /// First and last row of the window about `row`; at a sweep's ends it reaches further to the other side.
@@ -127,8 +127,9 @@ Smooth smooth(Eigen::VectorXd time_s, const Track& raw_mm) {
   Track velocity_mm_s = slopes(stencils, raw_mm);
   Track acceleration_mm_s2 = slopes(stencils, velocity_mm_s);
   Track jerk_mm_s3 = slopes(stencils, acceleration_mm_s2);
-  return {std::move(time_s), std::move(place_mm), std::move(velocity_mm_s), std::move(acceleration_mm_s2),
-          std::move(jerk_mm_s3)};
+  Track snap_mm_s4 = slopes(stencils, jerk_mm_s3);
+  return {std::move(time_s),     std::move(place_mm),  std::move(velocity_mm_s), std::move(acceleration_mm_s2),
+          std::move(jerk_mm_s3), std::move(snap_mm_s4)};
 }
 
 /// Where a slider turned back.
@@ -193,6 +194,7 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
     out.velocity_mm_s(row, k) = track.velocity_mm_s(at, k);
     out.acceleration_mm_s2(row, k) = track.acceleration_mm_s2(at, k);
     out.jerk_mm_s3(row, k) = track.jerk_mm_s3(at, k);
+    out.snap_mm_s4(row, k) = track.snap_mm_s4(at, k);
     out.side(row, k) = side;
     if (passed > 0) {
       const Turn& last = turns.at[passed - 1];
@@ -207,6 +209,7 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
 Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
   const Eigen::Index count = sliders_mm.rows();
   Motion out{SliderTable(count, kLegs),
+             SliderTable(count, kLegs),
              SliderTable(count, kLegs),
              SliderTable(count, kLegs),
              SliderTable(count, kLegs),

@@ -80,6 +80,7 @@ void derive(const NominalGeometry& nominal, Samples& samples) {
   state.velocity_mm_s = std::move(moved.velocity_mm_s);
   state.acceleration_mm_s2 = std::move(moved.acceleration_mm_s2);
   state.jerk_mm_s3 = std::move(moved.jerk_mm_s3);
+  state.snap_mm_s4 = std::move(moved.snap_mm_s4);
   state.side = std::move(moved.side);
   state.since_reversal_s = std::move(moved.since_reversal_s);
   state.since_reversal_mm = std::move(moved.since_reversal_mm);

@@ -11,6 +11,7 @@ struct Unknowns {
   std::vector<int> columns;  // of the free ones
   Eigen::VectorXd scale;     // expected sizes of the free ones
   Eigen::VectorXd limit;     // and their physical limits, engine units
+  std::vector<bool> shapes;  // whether it only shapes what others push
 
   Eigen::Index size() const { return scale.size(); }
 
@@ -21,6 +22,15 @@ struct Unknowns {
   }
 
   Eigen::VectorXd scaled_start() const { return start(columns).cwiseQuotient(scale); }
+
+  /// Most probable before any reading is known; shapes stay where they are.
+  Eigen::VectorXd scaled_expected() const {
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
+    for (Eigen::Index j = 0; j < size(); ++j) {
+      if (shapes[static_cast<std::size_t>(j)]) out[j] = start[columns[j]] / scale[j];
+    }
+    return out;
+  }
 };
 
 }  // namespace hexdbb

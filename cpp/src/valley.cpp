@@ -71,6 +71,7 @@ Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewR
     if (out.is_at_rest) break;
   }
   out.z = z;
+  if (out.is_reachable) out.cost = now.cost;
   return out;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "posterior.hpp"
 
@@ -41,6 +42,7 @@ class FewReadings {
 
 struct Descent {
   Eigen::VectorXd z;
+  double cost = std::numeric_limits<double>::infinity();
   int steps = 0;
   bool is_reachable = false;  // false where a sample has no solution at the start
   bool is_at_rest = false;    // no further step is worth while

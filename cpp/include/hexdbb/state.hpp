@@ -41,6 +41,7 @@ struct State {
   SliderTable velocity_mm_s;
   SliderTable acceleration_mm_s2;
   SliderTable jerk_mm_s3;
+  SliderTable snap_mm_s4;
   SliderTable side;               // +1 or -1: where the slider last moved to; 0 where it never moved
   SliderTable since_reversal_s;   // kLongAgo where there was none in the sweep
   SliderTable since_reversal_mm;  // travel from the turning point, likewise
@@ -67,6 +68,7 @@ void for_each_column(StateType& state, Visit visit) {
   visit("velocity_mm_s", state.velocity_mm_s);
   visit("acceleration_mm_s2", state.acceleration_mm_s2);
   visit("jerk_mm_s3", state.jerk_mm_s3);
+  visit("snap_mm_s4", state.snap_mm_s4);
   visit("side", state.side);
   visit("since_reversal_s", state.since_reversal_s);
   visit("since_reversal_mm", state.since_reversal_mm);
@@ -82,6 +84,7 @@ struct Motion {
   SliderTable velocity_mm_s;       // NaN in a sweep of one sample
   SliderTable acceleration_mm_s2;  // NaN likewise
   SliderTable jerk_mm_s3;          // NaN likewise
+  SliderTable snap_mm_s4;          // NaN likewise
   SliderTable side;
   SliderTable since_reversal_s;
   SliderTable since_reversal_mm;

@@ -22,7 +22,7 @@ from hexdbb.model import Model
 from hexdbb.prediction import knowing
 from hexdbb.record import Record
 
-MOST_TRIED = 6
+MOST_TRIED = 8
 """So many effects get a fit of their own."""
 LEAST_READINGS = 200
 LEAST_SWEEPS = 2

@@ -11,7 +11,7 @@ from hexdbb import _core
 from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
 from hexdbb.discovery.result import Candidate
 from hexdbb.discovery.screen import Screened, screen
-from hexdbb.discovery.trial import Base, contributing, fitted_base, holm, try_effect
+from hexdbb.discovery.trial import Base, contributing, fitted_base, holm, try_effect, weighed
 from hexdbb.model import Model
 
 SHAPES = (-2.0, 2.0)
@@ -63,8 +63,17 @@ class Search:
         return ranked, sum(1 + len(screened.elements(name)) for name in best)
 
     def trials(self, chosen: Sequence[Screened], tried: int) -> list[Trial]:
-        """Fit some effects in earnest, the largest evidence first; p-values count all that were `tried`."""
+        """Fit some effects in earnest, the largest evidence first; p-values count all that were `tried`.
+
+        Neighbouring readings are as dependent as the fit leaves them that leaves them least so: what goes together
+        beyond that is what the others miss, and must not make their evidence incomparable.
+        """
         found = [self.trial(each.effect, each.elements, each.shape) for each in chosen]
+        least = min((trial.result.correlation for trial in found), default=1.0)
+        found = [
+            replace(trial, candidate=weighed(self.base, trial.candidate, least, trial.result.correlation))
+            for trial in found
+        ]
         corrected = {each.effect: each for each in holm([trial.candidate for trial in found], tried)}
         with_p = [replace(trial, candidate=corrected[trial.candidate.effect]) for trial in found]
         return sorted(with_p, key=lambda trial: -trial.candidate.bic_drop)
@@ -82,12 +91,12 @@ class Search:
         names = tuple(name for name in absent_effects(base.model) if name in self.names)
         return replace(self, base=base, names=names)
 
-    def without_needless(self, first: Trial, second: Trial) -> Trial:
-        """Give the first effect with those of its elements only that contribute beside the second."""
+    def without_needless(self, first: Trial, second: Trial) -> Trial | None:
+        """Give the first effect with those of its elements only that contribute beside the second; None without any."""
         candidate = first.candidate
         kept = contributing(self.base, second.candidate.model, second.result, candidate.effect, candidate.elements)
-        if kept == candidate.elements:
-            return first
+        if not kept or kept == candidate.elements:
+            return first if kept else None
         again = self.trial(candidate.effect, kept)
         return replace(again, candidate=replace(again.candidate, p_value=candidate.p_value))
 

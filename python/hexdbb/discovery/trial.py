@@ -88,27 +88,36 @@ def try_effect(
     """
     wider = with_effect(base.model, effect, elements, shape)
     fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
-    kept = contributing(base, fitted, result, effect, elements)
+    kept = contributing(base, fitted, result, effect, elements) or tuple(elements)
     if kept != tuple(elements):
         elements = kept
         wider = with_effect(base.model, effect, elements, shape)
         fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
-    count = int((wider.free & ~with_effect(base.model, effect, ()).free).sum())
-    readings = base.readings / result.correlation
-    drop = (base.squared - squared) / result.correlation
     candidate = Candidate(
         effect=effect,
         elements=tuple(elements),
         rms_after_um=result.rms_after_mm * 1e3,
-        chi_square_drop=drop,
-        bic_drop=drop - count * float(np.log(readings)),
-        p_value=float(stats.chi2.sf(max(drop, 0.0), count)),
+        chi_square_drop=base.squared - squared,
+        bic_drop=0.0,
+        p_value=1.0,
         share=min(max((base.squared - squared) / base.excess, 0.0), 1.0),
         values=_values(fitted, result, effect, elements),
         model=fitted,
     )
-    return candidate, result
+    return weighed(base, candidate, result.correlation), result
+
+
+def weighed(base: Base, candidate: Candidate, correlation: float, before: float = 1.0) -> Candidate:
+    """Give a candidate's evidence where so many neighbouring readings tell as much as one; `before`, so many did."""
+    values = int(candidate.model.free.sum() - base.model.free.sum())
+    drop = candidate.chi_square_drop * before / correlation
+    return replace(
+        candidate,
+        chi_square_drop=drop,
+        bic_drop=drop - values * float(np.log(base.readings / correlation)),
+        p_value=float(stats.chi2.sf(max(drop, 0.0), max(values, 1))),
+    )
 
 
 def holm(candidates: Sequence[Candidate], tried: int) -> list[Candidate]:
@@ -134,8 +143,7 @@ def contributing(
         weight[element] = float(values @ np.linalg.pinv(spread, hermitian=True) @ values)
         cost[element] = len(columns) * float(np.log(base.readings)) + CLEARLY
     part = SMALLEST_PART * max(weight.values())
-    kept = tuple(element for element in elements if weight[element] >= max(cost[element], part))
-    return kept or tuple(elements)
+    return tuple(element for element in elements if weight[element] >= max(cost[element], part))
 
 
 def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[FittedParameter, ...]:

@@ -6,7 +6,7 @@ evidence it is asked that it
 - explains a substantial share of what is unexplained, the more so the more values it brings, or leaves only noise;
 - predicts circles it was not fitted to as well as those it was: what stands in for the cause fits, but does not
   predict;
-- if it does not do so alone, does so together with one other effect.
+- if it does not do so alone, does so together with others, each of which takes a part.
 
 Then, whether others explain the same.
 """
@@ -16,6 +16,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal
+
+import numpy as np
 
 from hexdbb.diagnosis import HeldOut, foretold, held_out, refitter
 from hexdbb.discovery.lack_of_fit import LackOfFit
@@ -34,8 +36,14 @@ SUBSTANTIAL_LEFT_OUT = 0.3
 """The same on readings left out of the fit."""
 UNSEEN = 1.5
 """Readings left out of the fit may be missed by so much more than those in it."""
-COMPLETE = 0.97
-"""Share of the unexplained that two effects together must explain, where a little structure stays."""
+MOST_LEADERS = 3
+"""So many effects are tried as the first of several."""
+MOST_COMPANY = 4
+"""So many effects are looked for beside one."""
+LEAST_PART = 0.25
+"""Share of what is left that each of them must explain."""
+COMPLETE = 0.94
+"""Share of the unexplained that several effects together must explain, where a little structure stays."""
 STRONG = 10.0
 """Fall of BIC that counts as very strong evidence (Kass and Raftery 1995)."""
 SIGNIFICANT_P = 1e-3
@@ -61,12 +69,17 @@ def judge(search: Search, trials: Sequence[Trial]) -> Discovery:
     search.progress("confirming on readings left out of the fit")
     checked = _confirm(search.base, best.candidate)
     named = best if _accounts_for(search.base, best, checked) else None
-    if named is None or (named.lack.is_significant and len(named.candidate.elements) > 1):
-        named = _in_company(search, best, checked) or named
+    if named is None or named.lack.is_significant:
+        leaders = [trial for trial in trials[:MOST_LEADERS] if _is_evident(trial.candidate)]
+        named = _in_company(search, leaders, named) or named
     if named is None:
         return _outcome("unknown" if lack.is_significant else "none", search.base, lack, trials, checked)
-    trials = (named, *trials[1:])
-    alike = [trial.candidate for trial in trials[1:] if _explains_alike(trial.candidate, named.candidate)]
+    trials = (named, *(trial for trial in trials if trial.candidate.effect != named.candidate.effect))
+    alike = [
+        trial.candidate
+        for trial in trials[1:]
+        if named.candidate.effect == best.candidate.effect and _explains_alike(trial.candidate, best.candidate)
+    ]
     if not alike:
         return _outcome("effect", search.base, lack, trials, checked)
     search.progress("looking for a circle that tells them apart")
@@ -106,26 +119,58 @@ def _predicts(base: Base, trial: Trial, checked: HeldOut | None) -> bool:
     return expected is not None and checked.after_um <= UNSEEN * expected.expected_um
 
 
-def _in_company(search: Search, best: Trial, checked: HeldOut | None) -> Trial | None:
-    """Give the best effect, where a second one beside it leaves only noise: two faults of one size each explain half.
+def _in_company(search: Search, leaders: Sequence[Trial], alone: Trial | None) -> Trial | None:
+    """Give the effect that with others beside it leaves only noise: two faults of one size each explain half.
 
-    Elements that stood in for the second effect are left out.
+    Of the `leaders` that find such company it is the one whose company explains most with fewest values, or the one
+    that was convincing `alone` where it is in that company. Elements that stood in for the others are left out of it.
     """
-    if not _helps(best, checked):
+    found = [(leader, last) for leader in leaders if (last := _last_beside(search, leader)) is not None]
+    if not found:
         return None
-    search.progress("looking for a second effect beside it")
-    beside = search.beside(best.candidate)
-    ranked, tried = beside.ranked()
-    for second in beside.trials(ranked[:1], tried):
-        together = (search.base.squared - beside.base.squared) / search.base.excess
-        together += second.candidate.share * beside.base.excess / search.base.excess
-        if not _is_evident(second.candidate) or (second.lack.is_significant and together < COMPLETE):
+    leader, last = max(found, key=lambda each: _worth(search.base, each[1]))
+    search.progress("confirming them on readings left out of the fit")
+    checked = _confirm(search.base, last.candidate)
+    if not (_helps(last, checked) and _predicts(search.base, last, checked)):
+        return None
+    if alone is not None and alone.candidate.effect in _company(search.base, last):
+        leader = alone
+    return search.without_needless(leader, last)
+
+
+def _last_beside(search: Search, leader: Trial) -> Trial | None:
+    """Add effects beside one, each of which explains a part of what is left, until only noise is; give the last."""
+    last, left = leader, 1.0 - leader.candidate.share
+    for _ in range(MOST_COMPANY):
+        search.progress(f"looking for another effect beside {leader.candidate.choice}")
+        search = search.beside(last.candidate)
+        ranked, tried = search.ranked()
+        found = search.trials(ranked[:2], tried)
+        if not found or not _is_evident(found[0].candidate) or found[0].candidate.share < LEAST_PART:
             return None
-        search.progress("confirming both on readings left out of the fit")
-        both = _confirm(search.base, second.candidate)
-        if _helps(second, both) and _predicts(search.base, second, both):
-            return search.without_needless(best, second)
+        last = found[0]
+        left *= 1.0 - last.candidate.share
+        if left < 1.0 - COMPLETE or not last.lack.is_significant:
+            return last
     return None
+
+
+def _company(base: Base, last: Trial) -> set[str]:
+    """Effects that the model has by now and the base has not."""
+    parameters, had = last.candidate.model.parameters(), base.model.parameters()
+    free = {each for each, is_free in zip(had, base.model.free, strict=True) if is_free}
+    return {
+        each.effect
+        for each, is_free in zip(parameters, last.candidate.model.free, strict=True)
+        if is_free and each not in free
+    }
+
+
+def _worth(base: Base, last: Trial) -> float:
+    """Fall of BIC from the base to all effects together."""
+    squared = float(last.result.residual_mm @ last.result.residual_mm) / base.noise.sigma_mm**2
+    values = int(last.candidate.model.free.sum() - base.model.free.sum())
+    return base.squared - squared - values * float(np.log(base.readings))
 
 
 def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:
