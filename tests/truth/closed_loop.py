@@ -89,8 +89,7 @@ machine's own*: the same circles in a perfect set-up, gauge without noise and cu
 target*: circles whose RMS has fallen {rms_fall:g} times, and whose peak to valley {peak_fall:g} times, or to {over:g}
 times what the gauge alone shows. A cup out of a circle's plane by z makes its radius larger by z²/2R, by 0.75 µm for
 0.3 mm and a bar of 60 mm: no reading of one circle tells that from the machine, so it counts as an error here.
-*Found*: by `discover --auto`; in brackets added by hand, after the verdict that something is missing and no known
-effect explains it alone: faults of like size hide one another. {verdict}
+*Found*: by `discover --auto`. {verdict}
 
 ## Compensated repeatedly
 
@@ -127,7 +126,7 @@ Made by `{command}` in {minutes:.0f} minutes.
 
 def row(loop: Loop) -> str:
     """One machine after its first round."""
-    found = ", ".join([*loop.found.added, *(f"({each})" for each in loop.found.by_hand)]) or "nothing"
+    found = ", ".join(loop.found.added) or "nothing"
     found += "" if loop.found.is_complete else "; something is missing still"
     if not loop.rounds:
         return f"| {loop.seed} | {_pair(loop.before, 1)} | refused: {loop.refused} | | | | | {found} |"

@@ -25,9 +25,7 @@ from hexdbb.compensated_targets import CompensatedTargets
 from hexdbb.compensation import make_compensation
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import AutoStep, discover_all
-from hexdbb.discovery.auto import without_needless
 from hexdbb.errors import InputError
-from hexdbb.ledger import add_effect
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model, new_model
 from hexdbb.plan import Plan
@@ -44,7 +42,6 @@ PLAY_UM, PITCH_UM, PITCH_TWICE_UM = (5.0, 20.0), (2.0, 6.0), (0.5, 2.0)
 COMPLIANCE_UM_N = 0.4
 """10 um under the weight of the platform."""
 GAUGE = GaugeTruth(noise_um=0.5, resolution_um=0.1, range_um=2000.0)
-MOST_BY_HAND = 6
 MAX_CORRECTION_MM = 2.0
 """Where a leg stands steeply on its guideway, an error of 0.1 mm takes a correction of more than a millimetre."""
 
@@ -62,11 +59,10 @@ class CircleError:
 
 @dataclass(frozen=True)
 class Found:
-    """What was done to a model: effects added by `discover --auto` and by hand, and whether nothing is missing now."""
+    """What was done to a model: effects added by `discover --auto`, and whether nothing is missing now."""
 
     model: Model
     added: tuple[str, ...]
-    by_hand: tuple[str, ...]
     is_complete: bool
     rms_um: float
 
@@ -107,38 +103,19 @@ def silent(truth: TruthFile) -> TruthFile:
 
 
 def found_in(records: Sequence[Record], model: Model, say: Said) -> Found:
-    """Diagnose and discover until nothing is missing.
-
-    Where several faults of like size hide one another, discovery names none. A user then tries what stands first
-    (`hexdbb add`) and lets discovery go on; in the end what is not needed is taken out again. Only a last look that
-    finds nothing missing says that this was right.
-    """
+    """Diagnose, and discover until nothing is missing, as `hexdbb discover --auto` does."""
     say("diagnosing")
     diagnosis = diagnose(records, model, check_held_out=False)
-    model, added, by_hand = diagnosis.model, list[str](), list[str]()
-
-    def take(step: AutoStep) -> None:
-        nonlocal model, diagnosis
-        model, diagnosis = step.diagnosis.model, step.diagnosis
+    added: list[str] = []
+    for step in discover_all(records, diagnosis.model, progress=say):
+        if not isinstance(step, AutoStep):
+            return Found(diagnosis.model, tuple(added), step.verdict == "none", diagnosis.rms_after_um)
+        diagnosis = step.diagnosis
         if step.what == "add":
             added.append(step.choice)
         else:
-            (added if step.choice in added else by_hand).remove(step.choice)
-
-    while True:
-        for step in discover_all(records, model, progress=say):
-            if isinstance(step, AutoStep):
-                take(step)
-            else:
-                last = step
-        if last.verdict == "none" or not last.candidates or len(by_hand) == MOST_BY_HAND:
-            break
-        by_hand.append(last.candidates[0].choice)
-        say(f"adding {by_hand[-1]} by hand")
-        model, diagnosis = add_effect(records, model, by_hand[-1])
-    for step in without_needless(records, model, by_hand, progress=say):
-        take(step)
-    return Found(model, tuple(added), tuple(by_hand), last.verdict == "none", diagnosis.rms_after_um)
+            added.remove(step.choice)
+    raise AssertionError("the last look is always there")
 
 
 def drive_of(model: Model, machine: MachineFile) -> Drive:
