@@ -23,8 +23,8 @@ struct FitOptions {
   // Huber's loss: residuals beyond this many mm count linearly, so that a gauge glitch cannot bend the fit. 0: least
   // squares.
   double robust_mm = 0.0;
-  // A fit that only judges a model ends where a further step would change chi-square by less than a verdict hangs on; its
-  // covariance is to first order, and it says nothing of the machine's identifiability or the residual before.
+  // A fit that only judges a model ends where a further step would change chi-square by less than a verdict hangs on;
+  // its covariance is to first order, and it says nothing of the machine's identifiability or the residual before.
   bool judging = false;
   // Number of the capture each sample belongs to; neighbours within one may be correlated. Empty: all independent.
   Eigen::VectorXi sweep;
