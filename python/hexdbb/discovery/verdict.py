@@ -116,7 +116,7 @@ def _predicts(base: Base, trial: Trial, checked: HeldOut | None) -> bool:
     if checked is None or checked.after_um <= UNSEEN * level_um:
         return True
     expected = foretold(base.records, trial.candidate.model, level_um, MOST_FOLDS)
-    return expected is not None and checked.after_um <= UNSEEN * expected.expected_um
+    return expected is not None and not expected.extrapolates and checked.after_um <= UNSEEN * expected.expected_um
 
 
 def _in_company(search: Search, leaders: Sequence[Trial], alone: Trial | None) -> Trial | None:
@@ -126,16 +126,15 @@ def _in_company(search: Search, leaders: Sequence[Trial], alone: Trial | None) -
     that was convincing `alone` where it is in that company. Elements that stood in for the others are left out of it.
     """
     found = [(leader, last) for leader in leaders if (last := _last_beside(search, leader)) is not None]
-    if not found:
-        return None
-    leader, last = max(found, key=lambda each: _worth(search.base, each[1]))
-    search.progress("confirming them on readings left out of the fit")
-    checked = _confirm(search.base, last.candidate)
-    if not (_helps(last, checked) and _predicts(search.base, last, checked)):
-        return None
-    if alone is not None and alone.candidate.effect in _company(search.base, last):
-        leader = alone
-    return search.without_needless(leader, last)
+    for leader, last in sorted(found, key=lambda each: -_worth(search.base, each[1])):
+        is_in_it = alone is not None and alone.candidate.effect in _company(search.base, last)
+        needed = search.without_needless(alone if alone is not None and is_in_it else leader, last)
+        if needed is None:
+            continue
+        search.progress("confirming them on readings left out of the fit")
+        checked = _confirm(search.base, last.candidate)
+        return needed if _helps(last, checked) and _predicts(search.base, last, checked) else None
+    return None
 
 
 def _last_beside(search: Search, leader: Trial) -> Trial | None:
@@ -181,10 +180,13 @@ def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:
 
 
 def _told_by_others(base: Base, candidate: Candidate) -> bool:
-    """Whether some circles tell what matters on others: of a set-up without its circles, of few circles, nothing."""
+    """Whether some circles tell what matters on others: of a set-up without its circles, of few circles, nothing.
+
+    What the candidate takes away from that is no excuse: with enough values that no circle tells anything is explained.
+    """
     if base.model.info(candidate.effect).element_kind == "mount":
         return False
-    expected = foretold(base.records, candidate.model, base.noise.sigma_mm * 1e3, MOST_FOLDS)
+    expected = foretold(base.records, base.model, base.noise.sigma_mm * 1e3, MOST_FOLDS)
     return expected is not None and not expected.extrapolates
 
 
