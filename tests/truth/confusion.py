@@ -29,7 +29,7 @@ from hexdbb.errors import HexdbbError
 from hexdbb.model import new_model
 
 CLEAN_PER_SEED = 10
-PAIRS_PER_SEED = 5
+PAIRS_PER_SEED = 3
 HELD_OUT = 1.2
 """Error on readings left out of the fit, over the noise, that counts as predicted."""
 
