@@ -41,7 +41,7 @@ MOST_LEADERS = 3
 MOST_COMPANY = 4
 """So many effects are looked for beside one."""
 LEAST_PART = 0.25
-"""Share of what is left that each of them must explain."""
+"""Share of what is left that each of several must explain."""
 COMPLETE = 0.94
 """Share of the unexplained that several effects together must explain, where a little structure stays."""
 STRONG = 10.0
@@ -70,7 +70,7 @@ def judge(search: Search, trials: Sequence[Trial]) -> Discovery:
     checked = _confirm(search.base, best.candidate)
     named = best if _accounts_for(search.base, best, checked) else None
     if named is None or named.lack.is_significant:
-        leaders = [trial for trial in trials[:MOST_LEADERS] if _is_evident(trial.candidate)]
+        leaders = [trial for trial in trials[:MOST_LEADERS] if _is_evident(trial.candidate) and _takes_part(trial)]
         named = _in_company(search, leaders, named) or named
     if named is None:
         return _outcome("unknown" if lack.is_significant else "none", search.base, lack, trials, checked)
@@ -92,6 +92,10 @@ def judge(search: Search, trials: Sequence[Trial]) -> Discovery:
 
 def _is_evident(candidate: Candidate) -> bool:
     return candidate.bic_drop > STRONG and candidate.p_value < SIGNIFICANT_P
+
+
+def _takes_part(trial: Trial) -> bool:
+    return trial.candidate.share >= LEAST_PART
 
 
 def _explains_alike(other: Candidate, best: Candidate) -> bool:
@@ -145,7 +149,7 @@ def _last_beside(search: Search, leader: Trial) -> Trial | None:
         search = search.beside(last.candidate)
         ranked, tried = search.ranked()
         found = search.trials(ranked[:2], tried)
-        if not found or not _is_evident(found[0].candidate) or found[0].candidate.share < LEAST_PART:
+        if not found or not _is_evident(found[0].candidate) or not _takes_part(found[0]):
             return None
         last = found[0]
         left *= 1.0 - last.candidate.share
