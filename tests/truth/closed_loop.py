@@ -89,7 +89,7 @@ machine's own*: the same circles in a perfect set-up, gauge without noise and cu
 target*: circles whose RMS has fallen {rms_fall:g} times, and whose peak to valley {peak_fall:g} times, or to {over:g}
 times what the gauge alone shows. A cup out of a circle's plane by z makes its radius larger by z²/2R, by 0.75 µm for
 0.3 mm and a bar of 60 mm: no reading of one circle tells that from the machine, so it counts as an error here.
-*Found*: by `discover --auto`. {verdict}
+*Found*: by `discover --auto`. Its last verdict was {verdict}
 
 ## Compensated repeatedly
 
@@ -165,9 +165,9 @@ def page(loops: Sequence[Loop], shipped: Sequence[Loop], command: str, minutes: 
         rms_fall=RMS_FALL,
         peak_fall=PEAK_FALL,
         over=OVER_NOISE,
-        verdict="that nothing is missing"
+        verdict="always that nothing is missing."
         if is_complete
-        else "that nothing is missing, unless the table says otherwise",
+        else "that nothing is missing, unless the table says otherwise.",
         second_rows="\n".join(map(second_row, loops)),
         shipped_rows="\n".join(map(row, shipped)),
         command=command,

@@ -209,7 +209,7 @@ def _summary(outcomes: list[Outcome]) -> str:
 
 def _share(values: Iterator[bool | None]) -> str:
     listed = [bool(each) for each in values]
-    return f"{np.mean(listed):.0%} of {len(listed)}" if listed else ""
+    return f"{np.mean(listed):.1%} of {len(listed)}" if listed else ""
 
 
 def main() -> None:
