@@ -92,7 +92,7 @@ bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks
 	@$(STEP) "Configure the benchmarks" cmake --preset bench
 	@$(STEP) "Compile the benchmarks" cmake --build --preset bench
 	@PYTHONPATH=$(CURDIR) $(BIN)/python cpp/bench/report.py build/bench/cpp/bench/hexdbb_bench --output docs/benchmarks.md
-	@PYTHONPATH=$(CURDIR) $(BIN)/python cpp/bench/compensation_report.py build/bench/cpp/bench/hexdbb_compensation_bench --output docs/real-time.md
+	@$(BIN)/python cpp/bench/compensation_report.py build/bench/cpp/bench/hexdbb_compensation_bench --output docs/real-time.md
 
 .PHONY: closed-loop
 closed-loop: setup  ## compensation judged on unseen circles of machines of known truth; rewrites docs/closed-loop.md

@@ -7,12 +7,10 @@ Single calls are timed, so that the page can tell the tail; a busy machine makes
 from __future__ import annotations
 
 import argparse
-import json
-import subprocess
 import sys
 from pathlib import Path
 
-from report import processor
+from measured_by import compiler, median_rows, processor
 
 REPETITIONS = 5
 TITLES = {
@@ -62,18 +60,7 @@ itself: at 3000 mm/min and 2 ms of lag that is below 1 um.
 
 def results(program: Path) -> dict[str, dict[str, float]]:
     """Median row of each benchmark, by its name without the kind of time."""
-    command = [
-        str(program),
-        f"--benchmark_repetitions={REPETITIONS}",
-        "--benchmark_report_aggregates_only=true",
-        "--benchmark_format=json",
-    ]
-    output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return {
-        row["run_name"].removesuffix("/manual_time"): row
-        for row in json.loads(output)["benchmarks"]
-        if row["aggregate_name"] == "median"
-    }
+    return {name.removesuffix("/manual_time"): row for name, row in median_rows(program, REPETITIONS).items()}
 
 
 def page(rows: dict[str, dict[str, float]]) -> str:
@@ -87,10 +74,9 @@ def page(rows: dict[str, dict[str, float]]) -> str:
             targets.append(f"| {title} | {median:.0f} ns | {tail:.0f} ns | {tail / median:.1f} | {iterations} |")
         else:
             poses.append(f"| {title} | {row['cpu_time']:.0f} ns |")
-    compiler = subprocess.run(["c++", "--version"], check=True, capture_output=True, text=True).stdout.splitlines()[0]
     return PAGE.format(
         processor=processor(),
-        compiler=compiler,
+        compiler=compiler(),
         repetitions=REPETITIONS,
         targets="\n".join(targets),
         poses="\n".join(poses),

@@ -7,11 +7,7 @@ Times are medians of repetitions on a machine that may be busy: look at the rati
 from __future__ import annotations
 
 import argparse
-import json
-import os
-import platform
 import statistics
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -20,6 +16,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 from discovery_times import discovery_rows
+from measured_by import compiler, median_rows, processor
 from numpy.typing import NDArray
 from scipy.optimize import fsolve, least_squares
 
@@ -60,19 +57,9 @@ genhexkins forward 1455-1715 ns level and 4400-5200 ns tilted, inverse 195-240 n
 
 def engine_times_ns(program: Path) -> dict[str, float]:
     """Median CPU time of each benchmark of the C++ program."""
-    command = [
-        str(program),
-        f"--benchmark_repetitions={REPETITIONS}",
-        "--benchmark_report_aggregates_only=true",
-        "--benchmark_format=json",
-    ]
-    output = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    rows = json.loads(output)["benchmarks"]
     return {
-        row["run_name"]: row["cpu_time"]
-        / (row["cpu_time"] * 1e-9 * row["items_per_second"] if "items_per_second" in row else 1)
-        for row in rows
-        if row["aggregate_name"] == "median"
+        name: row["cpu_time"] / (row["cpu_time"] * 1e-9 * row["items_per_second"] if "items_per_second" in row else 1)
+        for name, row in median_rows(program, REPETITIONS).items()
     }
 
 
@@ -168,22 +155,12 @@ def _median_ns(work: Callable[[int], object], count: int, repetitions: int = REP
     return statistics.median(times)
 
 
-def processor() -> str:
-    """Name the processor and what the engine's dispatch can use of it."""
-    text = Path("/proc/cpuinfo").read_text() if Path("/proc/cpuinfo").exists() else ""
-    name = next((line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name")), "")
-    flags = next((line.split() for line in text.splitlines() if line.startswith("flags")), [])
-    vector = [flag for flag in ("sse2", "avx2", "fma", "avx512f") if flag in flags]
-    return f"{name or platform.machine()}, {os.cpu_count()} cores, {' '.join(vector)}"
-
-
 def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, float], discoveries: list[str]) -> str:
     """Lay out the page."""
-    compiler = subprocess.run(["c++", "--version"], check=True, capture_output=True, text=True).stdout.splitlines()[0]
     lines = [
         "# Benchmarks",
         "",
-        f"Machine: {processor()}. Compiler: {compiler}, `-O3` for any x86-64, AVX2 chosen at load time.",
+        f"Machine: {processor()}. Compiler: {compiler()}, `-O3` for any x86-64, AVX2 chosen at load time.",
         f"SciPy {scipy.__version__}. Medians of {REPETITIONS} repetitions, both sides in one run; by `make bench`.",
         "Every solution is to 1e-12 mm and allocates nothing.",
         "",

@@ -88,10 +88,6 @@ class Screen:
             left.remove(further.elements[-1])
         return replace(best, elements=tuple(each for each in self.elements(effect) if each in best.elements))
 
-    def single_elements(self, effect: str) -> list[Screened]:
-        """Each element alone."""
-        return [self.gain(effect, (element,)) for element in self.elements(effect)]
-
 
 def offered(projected: Floats, gradient: Floats, scale: Floats) -> tuple[Floats, NDArray[np.intp]]:
     """Fall of chi-square b' A^+ b that columns offer, and in how many directions the model does not imitate them.
