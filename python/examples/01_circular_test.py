@@ -8,7 +8,7 @@ from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model, save_model
 from hexdbb.plan import load_plan
 from hexdbb.plots import comparison_pages, save_figure
-from hexdbb.prediction import predict_reading_mm
+from hexdbb.samples import predict_reading_mm
 
 plan = load_plan("thesis")
 machine = plan.machine_file()

@@ -21,8 +21,7 @@ from tests.truth.timeline import Drive
 from tests.truth.unseen import unseen_plans
 
 from hexdbb.compare.circles import compare_circles
-from hexdbb.compensated_targets import CompensatedTargets
-from hexdbb.compensation import make_compensation
+from hexdbb.compensation import CompensatedTargets, make_compensation
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import AutoStep, discover_all
 from hexdbb.errors import InputError

@@ -10,13 +10,13 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.discovery import failing_effects
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.ledger import add_effect
 from hexdbb.ledger.history import step_json
 from hexdbb.ledger.words import PLACES, arrow

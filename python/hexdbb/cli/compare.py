@@ -9,7 +9,6 @@ import click
 from rich.console import Console
 from rich.progress import Progress
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
@@ -18,10 +17,11 @@ from hexdbb.compare import Comparison, compare
 from hexdbb.compare.tables import comparison_text
 from hexdbb.diagnosis import fit_mounts, noise_of
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import Model
-from hexdbb.prediction import predict_reading_mm, samples_of
+from hexdbb.predictors import Pushes
 from hexdbb.record import read_record
-from hexdbb.variables import Pushes
+from hexdbb.samples import predict_reading_mm, samples_of
 
 
 @click.command("compare")

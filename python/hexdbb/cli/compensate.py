@@ -9,7 +9,6 @@ import click
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compensation import (
@@ -25,6 +24,7 @@ from hexdbb.compensation import (
     write_text,
 )
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import Model
 from hexdbb.record import read_record
 

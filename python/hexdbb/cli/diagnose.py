@@ -11,18 +11,17 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option, own_effects
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis, diagnose
+from hexdbb.diagnosis.place_uncertainty import place_uncertainty
 from hexdbb.errors import InputError
-from hexdbb.identifiability import minimal_set
+from hexdbb.files.atomic_file import refuse_existing
+from hexdbb.identifiability import minimal_set, record_sensitivity
 from hexdbb.model import Model, load_model, new_model, parse_selection, save_model
-from hexdbb.place_uncertainty import place_uncertainty
-from hexdbb.prediction import knowing
 from hexdbb.record import Record, read_record
-from hexdbb.sensitivity import record_sensitivity
+from hexdbb.samples import knowing
 from hexdbb.units import shown_factor, shown_unit
 
 TOLD = 1e-4

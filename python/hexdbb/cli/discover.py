@@ -9,7 +9,6 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.add import added_json, print_added
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
@@ -17,6 +16,7 @@ from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.discovery import AutoStep, Candidate, Discovery, discover, discover_all
 from hexdbb.discovery.search import Progress
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import Model, save_model
 from hexdbb.record import Record, read_record
 

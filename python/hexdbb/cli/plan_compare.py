@@ -7,10 +7,10 @@ from pathlib import Path
 
 import click
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.plan_judgement import judge, noise_option
 from hexdbb.cli.plan_sheets import print_comparison
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
 from hexdbb.planning import spectrum_figure

@@ -15,11 +15,12 @@ from hexdbb.identifiability import (
     expected_uncertainties,
     minimal_set,
     observability,
+    plan_sensitivity,
+    with_every_effect,
 )
 from hexdbb.model import Model
 from hexdbb.plan import Plan
 from hexdbb.planning import Detectable, detectable_sizes
-from hexdbb.sensitivity import plan_sensitivity, with_every_effect
 from hexdbb.units import shown_factor, shown_unit
 
 ASSUMED_NOISE_UM = 0.5

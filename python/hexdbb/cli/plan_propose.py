@@ -8,15 +8,15 @@ from pathlib import Path
 import click
 from rich.console import Console
 
-from hexdbb.atomic_file import refuse_existing, replacing
 from hexdbb.cli.plan_judgement import Judgement, judge, noise_option, plan_noise_mm
 from hexdbb.cli.plan_sheets import print_circles, print_comparison
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing, replacing
+from hexdbb.files.validation import dump_toml, parse_toml
 from hexdbb.machine import SHIPPED_MACHINE, load_machine
 from hexdbb.model import new_model
 from hexdbb.plan import Plan, load_plan
 from hexdbb.planning import CRITERIA, GRIDS, Demands, Question, propose, unknowns_of
-from hexdbb.validation import dump_toml, parse_toml
 
 
 @click.command("propose", short_help="choose the circles that tell most")

@@ -8,10 +8,10 @@ import click
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from hexdbb.can_setup import Limits
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.plan_judgement import Judgement
 from hexdbb.identifiability import Expectation
+from hexdbb.machine import Limits
 from hexdbb.plan import Plan
 from hexdbb.planning import Clearances
 from hexdbb.units import shown_factor

@@ -11,12 +11,12 @@ from pathlib import Path
 import click
 
 from hexdbb.errors import InputError
+from hexdbb.files.validation import dump_toml, load_toml
 from hexdbb.machine import load_machine, shipped_machine
 from hexdbb.rig.bus import Rig
 from hexdbb.rig.faults import FAULTS, parse_fault
 from hexdbb.rig.socketcand import SocketcandServer
 from hexdbb.rig.truth import RANDOM_SEED, TruthFile, random_truth
-from hexdbb.validation import dump_toml, load_toml
 
 READY = "hexdbb rig: listening on 127.0.0.1:{port}"
 """The one line on stdout; programs that start the rig wait for it."""

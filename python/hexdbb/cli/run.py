@@ -15,7 +15,6 @@ import can
 import click
 from rich.console import Console
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.capture.clock import Clock, Deadlines, Lockstep
 from hexdbb.capture.display import LIVE_PERIOD_S, display
 from hexdbb.capture.realtime import real_time_process
@@ -27,6 +26,7 @@ from hexdbb.capture.transport import open_bus
 from hexdbb.cli.exits import reports_errors
 from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.plan import load_plan
 from hexdbb.record import Record
 from hexdbb.trajectory import Programme

@@ -12,8 +12,7 @@ from pathlib import Path
 
 from hexdbb import _core
 from hexdbb.capture.request import Progress, Request
-from hexdbb.compensated_targets import CompensatedTargets
-from hexdbb.compensation import read_compensation
+from hexdbb.compensation import CompensatedTargets, read_compensation
 
 
 def compensated(request: Request, path: Path, temperature_c: float | None, progress: Progress) -> Request:

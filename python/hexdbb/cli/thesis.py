@@ -11,14 +11,14 @@ from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table as Sheet
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.plan import load_plan
 from hexdbb.record import read_record
-from hexdbb.thesis.circular_test import CircularTest, joint_plane_test, plan_test
-from hexdbb.thesis.contours import reference_contours
-from hexdbb.thesis.estimator import ThesisEstimate, thesis_estimate_record
-from hexdbb.thesis.unknowns import UNKNOWNS
+from hexdbb.studies.thesis.circular_test import CircularTest, joint_plane_test, plan_test
+from hexdbb.studies.thesis.contours import reference_contours
+from hexdbb.studies.thesis.estimator import ThesisEstimate, thesis_estimate_record
+from hexdbb.studies.thesis.unknowns import UNKNOWNS
 from hexdbb.units import shown_factor, shown_unit
 
 MOST_ERRORS = ", ".join(UNKNOWNS)
@@ -63,13 +63,13 @@ def contours(
         refuse_existing(stem.with_name(f"{stem.name}{suffix}"), overwrite)
     test = _test(plan_name, identity)
     found = reference_contours(test, _names(errors)) if errors is not None else reference_contours(test)
-    from hexdbb.thesis.pages import write_text  # matplotlib takes a second to import
+    from hexdbb.studies.thesis.pages import write_text  # matplotlib takes a second to import
 
     write_text(table, found.to_csv())
     written = [table]
     if not no_plot:
         from hexdbb.plots import save_figure
-        from hexdbb.thesis.pictures import contours_figure
+        from hexdbb.studies.thesis.pictures import contours_figure
 
         written += save_figure(contours_figure(found), stem)
     click.echo(f"{len(found.unknowns)} contours: {', '.join(str(path) for path in written)}", err=True)
@@ -114,7 +114,7 @@ def tables() -> None:
     Example:
       hexdbb thesis tables > thesis-tables.md
     """
-    from hexdbb.thesis.tables_page import tables_page
+    from hexdbb.studies.thesis.tables_page import tables_page
 
     click.echo(tables_page(), nl=False)
 
@@ -135,7 +135,7 @@ def pages(directory: Path) -> None:
     Example:
       hexdbb thesis pages -o docs
     """
-    from hexdbb.thesis.pages import write_pages
+    from hexdbb.studies.thesis.pages import write_pages
 
     click.echo(f"written: {', '.join(str(path) for path in write_pages(directory))}", err=True)
 

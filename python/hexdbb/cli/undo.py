@@ -7,10 +7,10 @@ from pathlib import Path
 
 import click
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.ledger import undo
 from hexdbb.ledger.history import step_json
 from hexdbb.ledger.words import deed

@@ -11,13 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hexdbb import iso230
-from hexdbb.circle import Circle
+from hexdbb.compare import iso230
 from hexdbb.compare.both_ways import BothWays, both_ways
 from hexdbb.compare.harmonics import Harmonic, harmonics
+from hexdbb.compare.iso230 import FloatArray, Path
 from hexdbb.compare.quantities import Quantities, evaluate_quantities
 from hexdbb.compare.set_up import without_set_up_mm
-from hexdbb.iso230 import FloatArray, Path
+from hexdbb.plan import Circle
 from hexdbb.record import Record
 
 IndexArray = npt.NDArray[np.int64]

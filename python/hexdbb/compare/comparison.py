@@ -10,14 +10,14 @@ import numpy as np
 
 from hexdbb.compare.circles import CircleComparison, compare_circles, root_mean_square
 from hexdbb.compare.failures import Failures, failures
+from hexdbb.compare.iso230 import FloatArray
 from hexdbb.compare.json_form import comparison_html, comparison_json
 from hexdbb.compare.radial import RadialError, radial_errors
 from hexdbb.compare.worst import WorstPlace, worst_places
 from hexdbb.errors import InputError
-from hexdbb.frames import to_frame
-from hexdbb.iso230 import FloatArray
+from hexdbb.files.frames import to_frame
+from hexdbb.predictors import Carrier, Columns, Pushes, State, carriers, sample_columns
 from hexdbb.record import Record
-from hexdbb.variables import Carrier, Columns, Pushes, State, carriers, sample_columns
 
 WORST_COUNT = 5
 
@@ -82,7 +82,7 @@ def compare(
         For each record, the predicted reading of each of its samples, in mm.
     states : sequence of mappings, optional
         For each record, columns of the machine's state that are not in it: velocities and reversals of the sliders, as
-        `hexdbb.prediction.samples_of(...).state` gives them. Without them nothing is said of these.
+        `hexdbb.samples.samples_of(...).state` gives them. Without them nothing is said of these.
     pushes : sequence of Pushes, optional
         For each record, how its readings answer to pushes on the machine. Without them what depends on a slider is
         sought in the reading as it stands, and nothing is said of guideways and legs.

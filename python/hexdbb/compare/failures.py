@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.compare.circles import DIRECTION_NAMES
-from hexdbb.iso230 import FloatArray
-from hexdbb.variables.columns import SLIDERS, Columns, codes
+from hexdbb.compare.iso230 import FloatArray
+from hexdbb.predictors.columns import SLIDERS, Columns, codes
 
 ARC_DEG = 10.0
 WORST_PART = 0.1
@@ -79,7 +79,7 @@ def failures(columns: Columns) -> Failures:
     Parameters
     ----------
     columns : dict of str to (n,) arrays
-        As `hexdbb.variables.sample_columns` gives them.
+        As `hexdbb.predictors.sample_columns` gives them.
     """
     residual_um = columns["residual_um"]
     worst = _worst(columns)

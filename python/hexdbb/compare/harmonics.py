@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexdbb.iso230 import FloatArray
+from hexdbb.compare.iso230 import FloatArray
 
 HIGHEST_ORDER = 12
 

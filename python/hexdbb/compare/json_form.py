@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from hexdbb import iso230
+from hexdbb.compare import iso230
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
 from hexdbb.compare.failures import Failures
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities
 from hexdbb.compare.radial import RadialError
-from hexdbb.frames import html_table
-from hexdbb.variables import sentence
+from hexdbb.files.frames import html_table
+from hexdbb.predictors import sentence
 
 if TYPE_CHECKING:
     from hexdbb.compare.comparison import Comparison

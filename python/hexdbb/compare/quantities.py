@@ -1,6 +1,6 @@
 """Which ISO 230-4 quantities a comparison states, under which name and symbol: one table for JSON, text and plots.
 
-Definitions and edition are in `hexdbb.iso230`. A quantity that cannot be evaluated (one direction only, a capture that
+Definitions and edition are in `iso230`. A quantity that cannot be evaluated (one direction only, a capture that
 was cut short) is None, never 0.
 """
 
@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from hexdbb import iso230
-from hexdbb.iso230 import FloatArray, Path
+from hexdbb.compare import iso230
+from hexdbb.compare.iso230 import FloatArray, Path
 
 UM_PER_MM = 1000.0
 """Quantities are kept in mm and shown in micrometres."""

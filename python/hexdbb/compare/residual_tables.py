@@ -12,7 +12,7 @@ from rich.table import Table
 
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, root_mean_square
 from hexdbb.compare.quantities import UM_PER_MM
-from hexdbb.variables import sentence, telling
+from hexdbb.predictors import sentence, telling
 
 if TYPE_CHECKING:
     from hexdbb.compare.comparison import Comparison

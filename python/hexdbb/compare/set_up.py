@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.iso230 import FloatArray
+from hexdbb.compare.iso230 import FloatArray
 
 STEPS = 5
 """Each leaves c / R of what the one before it has left."""

@@ -8,7 +8,7 @@ from rich import box
 from rich.console import Group, RenderableType
 from rich.table import Table
 
-from hexdbb import iso230
+from hexdbb.compare import iso230
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
 from hexdbb.compare.comparison import Comparison
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantity

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis.heldout import MOST_FOLDS, folds
 from hexdbb.model import Model
-from hexdbb.prediction import samples_of
 from hexdbb.record import Record
+from hexdbb.samples import samples_of
 
 Floats = NDArray[np.float64]
 

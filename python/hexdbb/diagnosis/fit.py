@@ -17,11 +17,10 @@ from hexdbb.diagnosis.result import Diagnosis, prior_sigmas, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.step import ledger_step
 from hexdbb.errors import InputError, RunError
-from hexdbb.measured import Measured, measured
+from hexdbb.identifiability.redundancy import KNOWN_PART, sentences
 from hexdbb.model import Model
-from hexdbb.prediction import knowing, residual_mm
 from hexdbb.record import Record
-from hexdbb.redundancy import KNOWN_PART, sentences
+from hexdbb.samples import Measured, knowing, measured, residual_mm
 
 Floats = NDArray[np.float64]
 

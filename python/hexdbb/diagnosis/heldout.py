@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.measured import Measured, measured
 from hexdbb.model import Model
 from hexdbb.record import Record
+from hexdbb.samples import Measured, measured
 
 MOST_FOLDS = 7
 

@@ -11,8 +11,8 @@ from hexdbb import _core
 from hexdbb.diagnosis.fit import evaluate_fit
 from hexdbb.diagnosis.noise import noise_of
 from hexdbb.model import Model, MountKey, new_term
-from hexdbb.prediction import unseen_mounts
 from hexdbb.record import Record
+from hexdbb.samples import unseen_mounts
 from hexdbb.units import shown_factor, shown_unit
 
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from hexdbb.circle import LEAST_NOISE_MM
+from hexdbb.plan import LEAST_NOISE_MM
 from hexdbb.record import Record
 
 Floats = NDArray[np.float64]

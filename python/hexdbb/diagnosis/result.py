@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from hexdbb.diagnosis.heldout import HeldOut
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.diagnosis.tables import value_columns, values_html
-from hexdbb.frames import to_frame
+from hexdbb.files.frames import to_frame
+from hexdbb.identifiability.redundancy import KNOWN_PART
 from hexdbb.model import Model
-from hexdbb.redundancy import KNOWN_PART
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.frames import html_table
+from hexdbb.files.frames import html_table
 from hexdbb.model import Model
 from hexdbb.units import shown_factor, shown_unit
 

@@ -20,8 +20,8 @@ from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.search import Progress
 from hexdbb.ledger import add_effect, held_at_zero, remove_effect
 from hexdbb.model import Model
-from hexdbb.prediction import knowing
 from hexdbb.record import Record
+from hexdbb.samples import knowing
 
 MOST_STEPS = 20
 """Effects added and removed at most, lest two take turns."""

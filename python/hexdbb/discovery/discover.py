@@ -19,8 +19,8 @@ from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.discovery.verdict import judge
 from hexdbb.errors import InputError
 from hexdbb.model import Model
-from hexdbb.prediction import knowing
 from hexdbb.record import Record
+from hexdbb.samples import knowing
 
 MOST_TRIED = 8
 """So many effects get a fit of their own."""

@@ -18,14 +18,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.circle import Circle
 from hexdbb.discovery.result import Candidate, NextTest
 from hexdbb.discovery.trial import Base
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import Model
-from hexdbb.prediction import samples_of
+from hexdbb.plan import Circle
 from hexdbb.record import Record
+from hexdbb.samples import samples_of
 
 Floats = NDArray[np.float64]
 

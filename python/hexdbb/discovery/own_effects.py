@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from hexdbb.effects import UserEffect, UserEffectError, sample_state, tabulate
 from hexdbb.model import Model
-from hexdbb.prediction import knowing, samples_of
 from hexdbb.record import Record
+from hexdbb.samples import knowing, samples_of
 
 
 def failing_effects(records: Sequence[Record], model: Model, names: Sequence[str]) -> dict[str, UserEffectError]:

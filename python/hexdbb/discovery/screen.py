@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis import Noise
-from hexdbb.measured import Measured, measured
 from hexdbb.model import Model, Parameter, new_term
 from hexdbb.record import Record
+from hexdbb.samples import Measured, measured
 
 Floats = NDArray[np.float64]
 

@@ -17,9 +17,9 @@ from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.discovery.result import Candidate, FittedParameter
 from hexdbb.discovery.screen import shaped
-from hexdbb.measured import Measured, measured
 from hexdbb.model import Model, new_term
 from hexdbb.record import Record
+from hexdbb.samples import Measured, measured
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]

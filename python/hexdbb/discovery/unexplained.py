@@ -1,6 +1,6 @@
 """Which variable carries what is left: for a fault no known effect explains, so that its finder knows what to write.
 
-The study of variables (`hexdbb.variables`) put to a fitted model's residual: the model's own free values may imitate
+The study of variables (`hexdbb.predictors`) put to a fitted model's residual: the model's own free values may imitate
 part of any variable, and noise is not there to be carried.
 """
 
@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from hexdbb.diagnosis import Noise
 from hexdbb.discovery.result import Structure
 from hexdbb.model import Model
-from hexdbb.prediction import samples_of
+from hexdbb.predictors import Carrier, Pushes, carriers, sample_columns, sentence, telling
 from hexdbb.record import Record
-from hexdbb.variables import Carrier, Pushes, carriers, sample_columns, sentence, telling
+from hexdbb.samples import samples_of
 
 Floats = NDArray[np.float64]
 

@@ -58,7 +58,7 @@ class SampleState:
 
 
 def sample_state(samples: _core.Samples, machine: MachineFile) -> SampleState:
-    """Give the state of samples, whose columns must all be there (`hexdbb.prediction.samples_of` fills them)."""
+    """Give the state of samples, whose columns must all be there (`hexdbb.samples.samples_of` fills them)."""
     known = samples.state
     sliders_mm = samples.sliders_mm
     position_mm, rotation, _ = forward(machine, sliders_mm)

@@ -21,7 +21,7 @@ from hexdbb.effects.handbook import effect_infos, handbook, shown_size
 from hexdbb.kinematics import engine_machine, inverse
 from hexdbb.machine import MachineFile
 from hexdbb.plan import load_plan
-from hexdbb.state import planned_columns
+from hexdbb.samples.state import planned_columns
 
 Floats = NDArray[np.float64]
 

@@ -17,8 +17,8 @@ from hexdbb.diagnosis.heldout import Refit, as_it_is
 from hexdbb.errors import InputError
 from hexdbb.ledger.choice import held_at_zero, with_effect
 from hexdbb.model import Model, Size, split_choice
-from hexdbb.prediction import knowing, residual_mm
 from hexdbb.record import Record
+from hexdbb.samples import knowing, residual_mm
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from hexdbb.frames import html_table
+from hexdbb.files.frames import html_table
 from hexdbb.ledger.words import arrow, deed, sentence
 from hexdbb.model import LedgerStep, Model
 

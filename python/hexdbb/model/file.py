@@ -10,8 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
-from hexdbb.atomic_file import replacing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import replacing
+from hexdbb.files.validation import dump_toml, load_toml
 from hexdbb.machine import MachineFile
 from hexdbb.model.earlier import Describe, earlier_entry, earlier_state
 from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
@@ -21,7 +22,6 @@ from hexdbb.model.own import OwnEffect, OwnEffects
 from hexdbb.model.shown import shown_value
 from hexdbb.model.terms import MountKey, Parameter, Term
 from hexdbb.units import shown_factor, shown_unit
-from hexdbb.validation import dump_toml, load_toml
 
 
 def load_model(path: Path | str, effects: Iterable[OwnEffect] = ()) -> Model:

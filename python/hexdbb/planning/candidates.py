@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from math import cos, radians, sin
 
-from hexdbb.circle import Circle
 from hexdbb.machine import MachineFile
-from hexdbb.plan import Plan
+from hexdbb.plan import Circle, Plan
 from hexdbb.planning.clearances import Demands, circle_clearances
 
 Triple = tuple[float, float, float]

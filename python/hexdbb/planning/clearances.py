@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.circle import Circle
+from hexdbb.identifiability.redundancy import LEVER_MM
 from hexdbb.kinematics import engine_machine, inverse, rotation_from_rpy
 from hexdbb.machine import MachineFile
-from hexdbb.redundancy import LEVER_MM
+from hexdbb.plan import Circle
 from hexdbb.trajectory.runs import FEED_IN_MM
 
 Floats = NDArray[np.float64]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.sensitivity import Sensitivity
+from hexdbb.identifiability import Sensitivity
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
@@ -50,7 +50,7 @@ def detectable_sizes(sensitivity: Sensitivity, noise_mm: float) -> Mapping[str, 
     Parameters
     ----------
     sensitivity : Sensitivity
-        Of a model with all effects that are asked for (`hexdbb.sensitivity.with_every_effect`).
+        Of a model with all effects that are asked for (`hexdbb.identifiability.sensitivity.with_every_effect`).
     noise_mm : float
         Standard deviation of one reading.
     """

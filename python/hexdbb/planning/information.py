@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
+from hexdbb.identifiability import plan_sensitivity, with_every_effect
 from hexdbb.model import Model, Parameter
 from hexdbb.plan import Mount, Plan
 from hexdbb.planning.candidates import Candidate
-from hexdbb.sensitivity import plan_sensitivity, with_every_effect
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

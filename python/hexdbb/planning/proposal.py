@@ -13,10 +13,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexdbb.circle import Circle, Mount
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
-from hexdbb.plan import Plan
+from hexdbb.plan import Circle, Mount, Plan
 from hexdbb.planning.candidates import Candidate, Grid, grid_candidates, neighbours, other_radii, within_reach
 from hexdbb.planning.clearances import Demands
 from hexdbb.planning.criteria import Criterion, criterion

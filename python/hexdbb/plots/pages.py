@@ -17,10 +17,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
-from hexdbb import iso230
-from hexdbb.atomic_file import replacing
-from hexdbb.circle import Circle
-from hexdbb.compare import UM_PER_MM, CircleComparison, Comparison
+from hexdbb.compare import UM_PER_MM, CircleComparison, Comparison, iso230
+from hexdbb.files.atomic_file import replacing
+from hexdbb.plan import Circle
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
 from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles

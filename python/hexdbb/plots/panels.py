@@ -10,7 +10,7 @@ from matplotlib.transforms import Bbox
 
 from hexdbb.compare import QUANTITIES, UM_PER_MM, CircleComparison
 from hexdbb.compare.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
-from hexdbb.iso230 import FloatArray, Path
+from hexdbb.compare.iso230 import FloatArray, Path
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
 
 SMOOTHED_OVER_DEG = 3

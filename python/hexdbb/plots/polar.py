@@ -18,7 +18,7 @@ from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.compare import UM_PER_MM, CircleComparison
 from hexdbb.compare.circles import DIRECTION_NAMES
-from hexdbb.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
+from hexdbb.compare.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
 from hexdbb.plots.magnification import Scale
 
 MEASURED_COLOURS = {1: "#56B4E9", -1: "#E69F00"}

@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 
 from hexdbb.compare import UM_PER_MM, Comparison
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison
-from hexdbb.iso230 import FloatArray
+from hexdbb.compare.iso230 import FloatArray
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS
-from hexdbb.variables import Carrier
-from hexdbb.variables.carriers import LEAST_SHARE
+from hexdbb.predictors import Carrier
+from hexdbb.predictors.carriers import LEAST_SHARE
 
 COLUMNS = 4
 MOST_VARIABLES = 16

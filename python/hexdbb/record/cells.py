@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hexdbb.errors import InputError
+from hexdbb.files.validation import format_value
 from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Origin
-from hexdbb.validation import format_value
 
 
 def line_of_row(path: Path, row: int) -> int:

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.validation import format_name, format_value, without_unit
+from hexdbb.files.validation import format_name, format_value, without_unit
 
 Columns = dict[str, NDArray[Any]]
 

@@ -19,10 +19,10 @@ from typing import Any, BinaryIO, Self
 import numpy as np
 import pyarrow as pa
 
-from hexdbb.atomic_file import refuse_existing, sync_directory
-from hexdbb.circle import Circle, Gauge, Mount
 from hexdbb.errors import InputError, RunError
+from hexdbb.files.atomic_file import refuse_existing, sync_directory
 from hexdbb.machine import MachineFile
+from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record.columns import REQUIRED_COLUMNS, Columns, Origin, normalise
 from hexdbb.record.formats import write_record
 from hexdbb.record.record import Record

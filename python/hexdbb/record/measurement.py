@@ -6,9 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from hexdbb.circle import Gauge
-from hexdbb.plan import Circles, Mounts, check_ids
-from hexdbb.validation import FileModel
+from hexdbb.files.validation import FileModel
+from hexdbb.plan import Circles, Gauge, Mounts, check_ids
 
 
 class Measurement(FileModel):

@@ -7,8 +7,8 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from hexdbb.atomic_file import refuse_existing, replacing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing, replacing
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import Origin
 from hexdbb.record.record import Record

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.circle import Circle, Gauge, Mount
 from hexdbb.errors import InputError
+from hexdbb.files.validation import dump_toml, format_value
 from hexdbb.machine import MachineFile
+from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, Origin, normalise
 from hexdbb.record.measurement import Measurement
-from hexdbb.validation import dump_toml, format_value
 
 DIMENSIONS = ("base", "platform", "legs", "sliders")
 """Sections of a machine file that make it this machine and no other."""

@@ -14,11 +14,11 @@ from pydantic import BaseModel, ValidationError
 
 from hexdbb import __version__
 from hexdbb.errors import InputError
+from hexdbb.files.validation import dump_toml, format_location, format_value, parse_toml
 from hexdbb.machine import MachineFile
 from hexdbb.record.columns import Columns
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
-from hexdbb.validation import dump_toml, format_location, format_value, parse_toml
 
 KEY, MEASUREMENT_KEY, MACHINE_KEY = "hexdbb", "hexdbb.measurement", "hexdbb.machine"
 FORMAT: Final = "hexdbb.record/1"

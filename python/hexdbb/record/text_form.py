@@ -12,8 +12,9 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.csv
 
-from hexdbb.atomic_file import refuse_existing, replacing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing, replacing
+from hexdbb.files.validation import dump_toml, format_name, load_toml
 from hexdbb.machine import machine_beside
 from hexdbb.record.cells import first_bad_cell, line_of_row
 from hexdbb.record.checks import check_record
@@ -22,7 +23,6 @@ from hexdbb.record.laps import counted_laps
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
 from hexdbb.record.tables import to_columns
-from hexdbb.validation import dump_toml, format_name, load_toml
 
 
 def read_text_form(path: Path) -> Record:

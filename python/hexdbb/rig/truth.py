@@ -21,11 +21,11 @@ from pydantic import (
     model_validator,
 )
 
+from hexdbb.files.validation import BadValueError, FileModel, NotNegative, Number, Positive, StrictModel, Vector3
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array, GeometryErrors, true_geometry
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
 from hexdbb.rig.plant import Machine, Point, SetupErrors
-from hexdbb.validation import BadValueError, FileModel, NotNegative, Number, Positive, StrictModel, Vector3
 
 Vector6 = Annotated[tuple[Number, Number, Number, Number, Number, Number], Field(strict=False)]
 Matrix3 = Annotated[tuple[Vector3, Vector3, Vector3], Field(strict=False)]

@@ -14,10 +14,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.can_setup import Limits
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse, status_name
-from hexdbb.machine import MachineFile
+from hexdbb.machine import Limits, MachineFile
 from hexdbb.trajectory.poses import Array, PosePath
 from hexdbb.trajectory.time_law import PathLimits
 

@@ -1,7 +1,7 @@
 """Where the sliders must be told to go for the platform to take poses: what a table of targets is computed with.
 
 `NominalTargets` is the machine as it should be: inverse kinematics in closed form. A controller that compensates is
-another (`hexdbb.compensated_targets`). Poses come in order of motion, a row a cycle, because what a slider must be told
+another (`hexdbb.compensation`). Poses come in order of motion, a row a cycle, because what a slider must be told
 may depend on the side it comes from.
 """
 

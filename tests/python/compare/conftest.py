@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexdbb.circle import Circle, Gauge, Mount
 from hexdbb.machine import shipped_machine
+from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record import Record
 
 SAMPLES_PER_LAP = 720

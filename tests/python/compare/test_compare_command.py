@@ -15,8 +15,8 @@ from hexdbb import kinematics
 from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model, save_model
 from hexdbb.plan import Plan, load_plan
-from hexdbb.prediction import predict_reading_mm
 from hexdbb.record import Record, write_record
+from hexdbb.samples import predict_reading_mm
 
 NOISE_UM = 0.5
 SAMPLES_PER_LAP = 360

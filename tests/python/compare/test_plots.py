@@ -17,8 +17,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from hexdbb.compare import Comparison, compare
+from hexdbb.compare.iso230 import even_angles, make_path
 from hexdbb.errors import RunError
-from hexdbb.iso230 import even_angles, make_path
 from hexdbb.plots import choose_scale, comparison_pages, save_figure
 from hexdbb.plots.magnification import LARGEST_SHARE_OF_RADIUS, SERIES
 from hexdbb.plots.polar import curve, draw_polar, drawn_paths, largest_drawn_mm

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.harmonics import harmonics
+from hexdbb.predictors.columns import halves
 from hexdbb.record import Record
-from hexdbb.variables.columns import halves
 
 MakeRecord = Callable[..., Record]
 NOISE_MM = 0.0005

@@ -12,8 +12,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from hexdbb.cli import cli
+from hexdbb.cli.schemas import json_schema
 from hexdbb.errors import InputError
-from hexdbb.json_schemas import json_schema
 from hexdbb.model import load_model, new_model, save_model
 from hexdbb.record import Record, write_record
 

@@ -15,8 +15,8 @@ from hexdbb.kinematics import inverse
 from hexdbb.ledger import add_effect, undo
 from hexdbb.model import Model, load_model, new_model, save_model
 from hexdbb.plan import Circle
-from hexdbb.prediction import residual_mm
 from hexdbb.record import Record
+from hexdbb.samples import residual_mm
 
 MINE = """
 import numpy as np

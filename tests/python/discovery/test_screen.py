@@ -12,8 +12,8 @@ from hexdbb.diagnosis import Noise
 from hexdbb.discovery.screen import Screen, screen
 from hexdbb.discovery.search import absent_effects
 from hexdbb.model import Model, Parameter, new_model, new_term
-from hexdbb.prediction import knowing, samples_of
 from hexdbb.record import Record
+from hexdbb.samples import knowing, samples_of
 
 NOISE = Noise(0.5e-3, "stated")
 TRIED = ("backlash", "pitch_cyclic", "straightness", "gravity_sag", "servo_lag", "sample_delay")

@@ -11,8 +11,8 @@ from hexdbb.diagnosis import noise_of
 from hexdbb.discovery import Candidate
 from hexdbb.discovery.trial import fitted_base, holm, try_effect
 from hexdbb.model import new_model
-from hexdbb.prediction import knowing
 from hexdbb.record import Record
+from hexdbb.samples import knowing
 
 
 def candidate(record: Record, p_value: float) -> Candidate:

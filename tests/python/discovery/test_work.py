@@ -11,7 +11,7 @@ from hexdbb.diagnosis import noise_of
 from hexdbb.discovery import discover
 from hexdbb.discovery.trial import Base, fitted_base, try_effect
 from hexdbb.model import new_model
-from hexdbb.prediction import knowing
+from hexdbb.samples import knowing
 
 MOST_STEPS = 20
 

@@ -12,15 +12,15 @@ import hexdbb.rig
 from hexdbb.machine import shipped_machine
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
-from hexdbb.prediction import predict_reading_mm
 from hexdbb.record import SLIDER_COLUMNS, Record
 from hexdbb.rig.geometry import true_geometry
 from hexdbb.rig.plant import Mounted, Plant
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import predict_reading_mm
 
 MACHINE = shipped_machine()
 SAMPLES = 72
-ALLOWED = ("hexdbb.rig", "hexdbb.errors", "hexdbb.machine", "hexdbb.validation")
+ALLOWED = ("hexdbb.rig", "hexdbb.errors", "hexdbb.machine", "hexdbb.files.validation")
 PRODUCT_OF_ERRORS_MM = 1e-4
 """Errors of 0.1 mm and 1 mrad do not commute; their product is what the order of the transforms may change."""
 

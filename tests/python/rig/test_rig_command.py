@@ -15,9 +15,9 @@ import pytest
 from click.testing import CliRunner
 
 from hexdbb.cli import cli
+from hexdbb.files.validation import load_toml
 from hexdbb.machine import shipped
 from hexdbb.rig.truth import TruthFile, random_truth
-from hexdbb.validation import load_toml
 
 RIG = [sys.executable, "-c", "from hexdbb.cli import main; main()", "rig"]
 

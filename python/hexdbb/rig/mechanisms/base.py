@@ -19,9 +19,9 @@ from typing import Annotated, Any, ClassVar, Protocol, Self
 import numpy as np
 from pydantic import Field
 
+from hexdbb.files.validation import StrictModel
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array
-from hexdbb.validation import StrictModel
 
 Axis = Annotated[int, Field(ge=1, le=6)]
 """A slider or a leg, as users count."""

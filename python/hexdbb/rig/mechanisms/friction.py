@@ -14,10 +14,10 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Positive
 from hexdbb.machine import MachineFile
 from hexdbb.rig.mechanisms.base import Mechanism, Motion, Push, Window
 from hexdbb.rig.mechanisms.transmission import SliderTable
-from hexdbb.validation import NotNegative, Positive
 
 
 class ReversalSpike(SliderTable):

@@ -13,10 +13,10 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Number, Positive
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array, rotation_z
 from hexdbb.rig.mechanisms.base import Guideway, Mechanism, MechanismTable, Momentary, Motion, Push
-from hexdbb.validation import NotNegative, Number, Positive
 
 Shape = Callable[[Motion, Array], Array]
 """Displacement (n,) mm of the joint of a slider at (n,) mm, in the course of a motion."""

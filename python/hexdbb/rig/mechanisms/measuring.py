@@ -12,9 +12,9 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from hexdbb.files.validation import NotNegative, Number, Positive, Vector3
 from hexdbb.machine import MachineFile
 from hexdbb.rig.mechanisms.base import Mechanism, MechanismTable, Momentary, Motion, Push, Window
-from hexdbb.validation import NotNegative, Number, Positive, Vector3
 
 Identity = Annotated[int, Field(ge=0)]
 

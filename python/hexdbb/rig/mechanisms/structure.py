@@ -11,11 +11,11 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Number, Positive, Vector3
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array
 from hexdbb.rig.mechanisms.base import Axis, Mechanism, MechanismTable, Momentary, Motion, Push
 from hexdbb.rig.mechanisms.transmission import SliderTable
-from hexdbb.validation import NotNegative, Number, Positive, Vector3
 
 
 def warmed(motion: Motion, time_constant_s: float) -> Array:

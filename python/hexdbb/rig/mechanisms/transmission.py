@@ -13,10 +13,10 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Number, Positive
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array
 from hexdbb.rig.mechanisms.base import Axis, Mechanism, MechanismTable, Momentary, Motion, Push
-from hexdbb.validation import NotNegative, Number, Positive
 
 
 class SliderTable(MechanismTable):

@@ -1,0 +1,63 @@
+"""Sines of a variable: a period found by Fourier transform on one half of the samples, judged on the other.
+
+Values lie unevenly, so that they are summed in cells and transformed at once (Press and Rybicki 1989, without the
+spreading: a cell is short against the shortest period sought); the best of the grid is then refined by least squares.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexdbb.predictors.columns import FloatArray
+
+CELLS = 2**16
+OVERSAMPLED = 4
+REFINED = 17
+PER_CELL = 0.25
+"""Highest frequency in turns a cell."""
+LEAST_TURNS = 2.0
+"""A sine must turn so often over the values."""
+
+
+def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float) -> float | None:
+    """Frequency whose sine takes most of a residual given at uneven places.
+
+    Parameters
+    ----------
+    weighted : ndarray, shape (n,)
+        Residual times what it answers to a push.
+    values : ndarray, shape (n,)
+    highest : float
+        Highest frequency sought, in turns per unit of `values`.
+
+    Returns
+    -------
+    float or None
+        None where no frequency lies between two turns over all values and the highest.
+    """
+    spread = float(np.ptp(values))
+    if spread <= 0.0:
+        return None
+    cell = np.minimum(((values - values.min()) / spread * CELLS).astype(np.intp), CELLS - 1)
+    padded = OVERSAMPLED * CELLS
+    power = np.abs(np.fft.rfft(np.bincount(cell, weighted, CELLS), padded)) ** 2
+    frequency = np.arange(len(power)) * CELLS / padded / spread
+    allowed = (frequency >= LEAST_TURNS / spread) & (frequency <= min(highest, PER_CELL * CELLS / spread))
+    if not allowed.any():
+        return None
+    coarse = float(frequency[allowed][int(np.argmax(power[allowed]))])
+    near = coarse + np.linspace(-0.5, 0.5, REFINED) / spread / OVERSAMPLED
+    turns = 2.0 * np.pi * np.outer(values, near)
+    strength = (weighted @ np.cos(turns)) ** 2 + (weighted @ np.sin(turns)) ** 2
+    return float(near[int(np.argmax(strength))])
+
+
+def folded_hz(frequency_hz: float, rate_hz: float) -> float:
+    """Frequency as which another shows that is sampled at a rate."""
+    return abs(frequency_hz - rate_hz * round(frequency_hz / rate_hz))
+
+
+def waves(weight: FloatArray, values: FloatArray, frequency: float) -> FloatArray:
+    """Cosine and sine of a frequency times a weight, shape (n, 2)."""
+    turns = 2.0 * np.pi * frequency * values
+    return np.column_stack([weight * np.cos(turns), weight * np.sin(turns)])

@@ -1,0 +1,159 @@
+"""The thesis' estimator: linear least squares on reference contours, equations (5.4)-(5.10).
+
+Model: the measured contour is a sum of reference contours, b = A x + r, column k of A being the contour of error k.
+Formula: A'A x = A'b, equation (5.4), written out in (5.10); x is in multiples of the unit errors.
+Assumptions users get wrong: errors are so small that contours add (docs/thesis-tables.md shows up to where), no error
+beside the chosen ones exists, the cup stands where planned, and A'A is not singular. No uncertainty comes out of it.
+`hexdbb.diagnosis` assumes none of these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.errors import InputError
+from hexdbb.identifiability.redundancy import echelon
+from hexdbb.record import Record
+from hexdbb.studies.thesis.circular_test import CircularTest, record_test
+from hexdbb.studies.thesis.unknowns import Unknown, find_unknowns
+
+Floats = NDArray[np.float64]
+
+SINGULAR = 1e-7
+"""A'A counts as singular where A's smallest singular value is below this part of its largest: A'A squares the ratio,
+and 1e-14 is where double precision ends. Taken of the derivatives: contours of finite unit errors are never quite
+dependent, because what they differ by in second order passes for information."""
+SMALL = 1e-3
+"""Coefficients below this part of the largest are left out of a sentence."""
+
+
+@dataclass(frozen=True)
+class ThesisEstimate:
+    """Values of the chosen errors."""
+
+    unknowns: tuple[Unknown, ...]
+    values: Floats
+    """mm and rad, shape (errors,); of the smallest norm (in unit errors) where A'A is singular."""
+    determined: NDArray[np.bool_]
+    """Which values the contour determines; all of them unless A'A is singular."""
+    rank: int
+    condition: float
+    """Of A over its rank; that of A'A is the square."""
+    dependent: tuple[str, ...]
+    """Which columns are combinations of which others, one sentence each."""
+    rms_before_mm: float
+    rms_after_mm: float
+    """Of the contour, and of what the estimate leaves of it."""
+
+
+def thesis_estimate(
+    test: CircularTest, contour_mm: Floats, errors: Sequence[str], *, minimum_norm: bool = False
+) -> ThesisEstimate:
+    """Estimate errors from a contour the thesis' way.
+
+    Parameters
+    ----------
+    test : CircularTest
+        Where the contour was taken.
+    contour_mm : ndarray, shape (n,)
+        Radial deviation: reading minus the nominal machine's.
+    errors : sequence of str
+        Short names of the errors taken to exist.
+    minimum_norm : bool
+        Where A'A is singular, give the solution of smallest norm instead of refusing.
+
+    Raises
+    ------
+    InputError
+        An unknown name, a contour of another length, fewer samples than errors, or a singular A'A, naming the columns
+        that coincide.
+    """
+    chosen = find_unknowns(errors)
+    if np.shape(contour_mm) != (test.samples.size,):
+        raise InputError(
+            f"{test.origin}: contour of shape {np.shape(contour_mm)} (expected ({test.samples.size},), one a sample)"
+        )
+    if test.samples.size < len(chosen):
+        raise InputError(f"{test.origin}: {test.samples.size} samples for {len(chosen)} errors (expected no fewer)")
+    sizes = np.array([each.unit_size for each in chosen])
+    matrix = test.first_order[:, [each.column for each in chosen]] * sizes
+    known = _core.identifiability(matrix, relative=SINGULAR)
+    dependent = tuple(coinciding(known.unidentifiable, chosen))
+    if dependent and not minimum_norm:
+        raise InputError(
+            f"{test.origin}: A'A of equation (5.4) is singular, rank {known.rank} of {len(chosen)}: "
+            + "; ".join(dependent)
+            + " (expected errors whose contours are independent: leave these out)"
+        )
+    amounts = _minimum_norm(matrix, contour_mm, known) if dependent else _normal_equations(matrix, contour_mm)
+    return ThesisEstimate(
+        unknowns=tuple(chosen),
+        values=amounts * sizes,
+        determined=np.asarray((np.abs(known.unidentifiable) <= SINGULAR).all(axis=1)),
+        rank=known.rank,
+        condition=known.condition,
+        dependent=dependent,
+        rms_before_mm=_rms(contour_mm),
+        rms_after_mm=_rms(contour_mm - matrix @ amounts),
+    )
+
+
+def thesis_estimate_record(record: Record, errors: Sequence[str], *, minimum_norm: bool = False) -> ThesisEstimate:
+    """Estimate errors from a record the thesis' way: all its samples, one fixing of the cup.
+
+    Raises
+    ------
+    InputError
+        As `thesis_estimate` and `record_test`.
+    """
+    test = record_test(record)
+    return thesis_estimate(test, record.reading_mm - test.nominal_mm, errors, minimum_norm=minimum_norm)
+
+
+def coinciding(null_space: Floats, chosen: Sequence[Unknown]) -> list[str]:
+    """Say which reference contours are combinations of which others.
+
+    Parameters
+    ----------
+    null_space : ndarray, shape (errors, k)
+        Directions that change no contour, in unit errors, as columns.
+    chosen : sequence of Unknown
+    """
+    if not null_space.shape[1]:
+        return []
+    rows, pivots = echelon(null_space)
+    said = []
+    for row, pivot in sorted(zip(rows, pivots, strict=True), key=lambda each: each[1]):
+        terms = [
+            (float(-amount), chosen[k].name)
+            for k, amount in enumerate(row)
+            if k != pivot and abs(amount) > SMALL * np.abs(row).max()
+        ]
+        name = chosen[pivot].name
+        said.append(f"{name} = {_combination(terms)}" if terms else f"{name} leaves no trace")
+    return said
+
+
+def _combination(terms: Sequence[tuple[float, str]]) -> str:
+    (first, name), *others = terms
+    more = (f" {'-' if amount < 0 else '+'} {abs(amount):.3f} {other}" for amount, other in others)
+    return f"{first:.3f} {name}{''.join(more)}"
+
+
+def _normal_equations(matrix: Floats, contour_mm: Floats) -> Floats:
+    # Equation (5.10)
+    return np.asarray(np.linalg.solve(matrix.T @ matrix, matrix.T @ contour_mm))
+
+
+def _minimum_norm(matrix: Floats, contour_mm: Floats, known: _core.Identifiability) -> Floats:
+    seen = known.identifiable
+    return np.asarray(seen @ _normal_equations(matrix @ seen, contour_mm))
+
+
+def _rms(values: Floats) -> float:
+    return float(np.sqrt(np.mean(np.square(values))))
