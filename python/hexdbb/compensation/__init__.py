@@ -2,6 +2,7 @@
 
 from hexdbb.compensation.file import (
     MAX_CORRECTION_MM,
+    POSE_COLUMNS,
     REVERSAL_TRAVEL_MM,
     SUFFIX,
     PathTargets,
@@ -17,6 +18,7 @@ from hexdbb.compensation.targets import CompensatedTargets, sides, uniform_smoot
 
 __all__ = [
     "MAX_CORRECTION_MM",
+    "POSE_COLUMNS",
     "REVERSAL_TRAVEL_MM",
     "SUFFIX",
     "CompensatedTargets",

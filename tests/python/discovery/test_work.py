@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from tests.truth.cases import case
 
-from hexdbb import _core, measured
+from hexdbb import _core
 from hexdbb.diagnosis import noise_of
 from hexdbb.discovery import discover
 from hexdbb.discovery.trial import Base, fitted_base, try_effect
 from hexdbb.model import new_model
 from hexdbb.samples import knowing
+from hexdbb.samples import table as measured
 
 MOST_STEPS = 20
 
