@@ -22,8 +22,8 @@ Bitrate = Literal[10_000, 20_000, 50_000, 125_000, 250_000, 500_000, 800_000, 1_
 
 DEFAULTS = shipped_can()
 CYCLE_RATE_MAX_HZ = 1000.0
-"""Limits the SYNC rate: seven nodes' frames fill 1 Mbit/s well below this rate (the bus load is checked on its own), so
-a larger value is a mistake, such as a rate in another unit."""
+"""Limits the SYNC rate: the frames of seven nodes fill 1 Mbit/s below this rate (bus load is checked on its own), so a
+larger value is a mistake, such as a rate in another unit."""
 
 
 class Limits(StrictModel):

@@ -76,7 +76,7 @@ class MachineFile(FileModel):
     """
 
     schema_id: Literal["hexdbb.machine/1"] = Field(default="hexdbb.machine/1", alias="schema")
-    """Kind and version of the file; required."""
+    """Kind and version of the file."""
     name: Annotated[str, Field(min_length=1)]
     """Name of the machine, for people."""
     base: Base
@@ -88,7 +88,7 @@ class MachineFile(FileModel):
     sliders: Sliders
     """Six sliders, two on each guideway."""
     can: CanSetup | None = None
-    """Drives and gauge on the bus; needed to measure only."""
+    """Drives and gauge on the bus; absent means the defaults below. Fits use none of it."""
 
     def __repr__(self) -> str:
         least, largest = self.sliders.travel_mm

@@ -37,9 +37,9 @@ class Circle(StrictModel):
     ball_offset_mm: Vector3
     """Position of the centre ball (x, y, z), platform frame."""
     plane_rpy_deg: Vector3 = (0.0, 0.0, 0.0)
-    """Roll, pitch, yaw of the circle's plane; zero is horizontal. Any angles; no wrapping."""
+    """Roll, pitch, yaw of the circle's plane; zero is horizontal. Not limited to one turn."""
     platform_rpy_deg: Vector3 = (0.0, 0.0, 0.0)
-    """Roll, pitch, yaw of the platform, held during the circle. Any angles; no wrapping."""
+    """Roll, pitch, yaw of the platform, held during the circle. Not limited to one turn."""
     feeds_mm_min: Feeds | None = None
     """Feeds of this circle in place of the plan's."""
     directions: Directions | None = None

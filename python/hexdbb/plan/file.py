@@ -51,7 +51,7 @@ class Plan(FileModel):
     """Validated plan file; constructed under the file's own keys (`mount`, `circle`). A notebook shows its runs."""
 
     schema_id: Literal["hexdbb.plan/1"] = Field(default="hexdbb.plan/1", alias="schema")
-    """Kind and version of the file; required."""
+    """Kind and version of the file."""
     machine: Annotated[str, Field(min_length=1)]
     """Path of the machine file relative to the plan file, or the name of the shipped one, `sp120`."""
     feeds_mm_min: Feeds

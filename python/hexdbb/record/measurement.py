@@ -14,7 +14,7 @@ class Measurement(FileModel):
     """A validated measurement file; constructed and read under the file's own keys (`mount`, `circle`)."""
 
     schema_id: Literal["hexdbb.measurement/1"] = Field(default="hexdbb.measurement/1", alias="schema")
-    """Kind and version of the file; required."""
+    """Kind and version of the file."""
     machine: Annotated[str, Field(min_length=1)]
     """Path of the machine file relative to this file, or the name of the shipped one, `sp120`."""
     complete: bool | None = None
