@@ -81,7 +81,8 @@ class Plan(FileModel):
 
     def __repr__(self) -> str:
         name = self.path.name if self.path is not None else "plan"
-        counts = f"{len(self.circles)} circles, {len(self.mounts)} mounts, {len(self.runs())} runs"
+        nouns = {"circle": self.circles, "mount": self.mounts, "run": self.runs()}
+        counts = ", ".join(f"{len(each)} {noun}{'s' * (len(each) != 1)}" for noun, each in nouns.items())
         return f"<Plan {name}: machine {self.machine}, {counts}, {self.overshoot_deg:g}° overshoot>"
 
     def _repr_html_(self) -> str:

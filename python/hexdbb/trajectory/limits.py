@@ -27,10 +27,14 @@ PROBE_DEG = 1.0
 """Angle between two samples where the path is one turn: 360 / (PROBES - 1)."""
 LIMIT_FRACTIONS = (0.4, 0.25, 0.15, 0.1)
 """Fractions of the sliders' limits that moves between captures may use; the first is taken with which every row is
-within the limits. The remainder is left to corrections: of the position loop, and of a compensation, which follows every
-turn of a screw."""
+within the limits. The remainder is left to corrections: of the position loop, and of a compensation, which follows
+every turn of a screw."""
 
 Made = TypeVar("Made")
+SLOPE_MIN = 1e-9
+"""Limits slopes from below (mm per mm, 1/mm), so that a path along which no slider moves does not divide by zero; a
+path that moves a slider has slopes above 1e-3."""
+
 RowName = Callable[[int], str]
 """Returns the name of a row of a table for an error message."""
 
@@ -54,7 +58,23 @@ def check_reach(status: NDArray[np.integer], row_name: RowName) -> None:
 
 
 def check_motion(sliders_mm: Array, cycle_s: float, limits: Limits, row_name: RowName) -> None:
-    """Check targets (n, 6), mm; raise `TooFastError` where a slider would exceed its velocity, acceleration or jerk."""
+    """Check the velocity, acceleration and jerk of slider targets by differences.
+
+    Parameters
+    ----------
+    sliders_mm : ndarray, shape (n, 6)
+        Targets, mm, one row per cycle.
+    cycle_s : float
+        Time between two rows, s.
+    limits : Limits
+    row_name : callable
+        Names a row in errors.
+
+    Raises
+    ------
+    TooFastError
+        Names the first row that exceeds a limit, the slider, the value and the limit.
+    """
     rate = sliders_mm
     bounds = (
         ("velocity", "mm/s", limits.velocity_mm_s),
@@ -91,6 +111,22 @@ def fastest_within_limits(fractions: Sequence[float], make: Callable[[float], Ma
 def path_limits(path: PosePath, machine: MachineFile, limit_fraction: float, row_name: RowName) -> PathLimits:
     """Compute limits along a path that keep every slider within a fraction of its own limits.
 
+    Each of the two terms of the acceleration, and of the jerk, gets one half of its limit.
+
+    Parameters
+    ----------
+    path : PosePath
+    machine : MachineFile
+        Its motion limits hold.
+    limit_fraction : float
+        Fraction of the limits to use, 0 to 1.
+    row_name : callable
+        Names a sample of the path in errors.
+
+    Returns
+    -------
+    PathLimits
+
     Raises
     ------
     InputError
@@ -103,13 +139,12 @@ def path_limits(path: PosePath, machine: MachineFile, limit_fraction: float, row
     step_mm = path.length_mm / (PROBES - 1)
     slope = float(np.abs(np.diff(sliders_mm, axis=0)).max()) / step_mm
     bend = float(np.abs(np.diff(sliders_mm, n=2, axis=0)).max()) / step_mm**2
-    tiny = 1e-9
     velocity = min(
-        limit_fraction * limits.velocity_mm_s / max(slope, tiny),
-        float(np.sqrt(limit_fraction * limits.acceleration_mm_s2 / 2.0 / max(bend, tiny))),
+        limit_fraction * limits.velocity_mm_s / max(slope, SLOPE_MIN),
+        float(np.sqrt(limit_fraction * limits.acceleration_mm_s2 / 2.0 / max(bend, SLOPE_MIN))),
     )
     return PathLimits(
         velocity,
-        limit_fraction * limits.acceleration_mm_s2 / 2.0 / max(slope, tiny),
-        limit_fraction * limits.jerk_mm_s3 / 2.0 / max(slope, tiny),
+        limit_fraction * limits.acceleration_mm_s2 / 2.0 / max(slope, SLOPE_MIN),
+        limit_fraction * limits.jerk_mm_s3 / 2.0 / max(slope, SLOPE_MIN),
     )
