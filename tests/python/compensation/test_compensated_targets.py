@@ -101,7 +101,7 @@ def test_ways_slow_down_for_a_pitch_error_that_the_circles_feed_allows() -> None
     pitch[:, 2] = 0.02
     targets, plan = targets_of(model_of(pitch_cyclic=pitch.ravel())), fast_plan(754.0)
     slowed, nominal = programme_of(targets, plan), plan_programme(plan, MACHINE, CYCLE_S, "plan")
-    assert slowed.share < nominal.share
+    assert slowed.limit_fraction < nominal.limit_fraction
     assert slowed.table.capture.sum() == nominal.table.capture.sum()
 
 
