@@ -13,7 +13,7 @@ from pathlib import Path
 import can
 import pytest
 
-from hexdbb.capture.cia402 import State, state_of
+from hexdbb.capture.cia402 import DriveState, state_of
 
 PLAN = """
 schema = "hexdbb.plan/1"
@@ -111,7 +111,7 @@ class RigProcess:
         assert self.process.stdout is not None
         self.process.stdout.close()
 
-    def states(self, nodes: list[int]) -> list[State]:
+    def states(self, nodes: list[int]) -> list[DriveState]:
         return [state_of(self.read(node, 0x6041, "H")) for node in nodes]
 
     def velocities(self, nodes: list[int]) -> list[int]:
