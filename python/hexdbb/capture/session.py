@@ -128,7 +128,6 @@ class _Run:
         self.progress.stage = "reading axis positions"
         present_mm = np.array(self.axes.read_positions()) / self.counts_per_mm
         self.axes.check_homed()
-        self.progress.stage = "computing the approach"
         programme, journal = self.loop.hold_while(
             lambda: self._with_approach(present_mm), [Command.DISABLE_VOLTAGE] * 6
         )

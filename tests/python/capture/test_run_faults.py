@@ -78,7 +78,7 @@ def test_fault_while_capturing(
         others = [drive for drive in DRIVES if drive != node]
         assert rig.states(others) == [DriveState.QUICK_STOP_ACTIVE] * len(others)
         assert rig.velocities(others) == [0] * len(others)
-        assert "nobody on the bus" not in re.sub(rf"node {node}: .*", "", rig.log.read_text())
+        assert "no client on the bus" not in re.sub(rf"node {node}: .*", "", rig.log.read_text())
     assert done.returncode == 1, done.stderr
     message = done.stderr.splitlines()[-1]
     assert re.match(f"error: {cause}", message)
@@ -165,7 +165,7 @@ def test_interrupted_run_stops_and_keeps(
         _, said = process.communicate(timeout=30)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
         assert rig.velocities(DRIVES) == [0] * 6
-        assert "nobody on the bus" not in rig.log.read_text()
+        assert "no client on the bus" not in rig.log.read_text()
     assert process.returncode == 1
     assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
     record = read_record(tmp_path / "run.parquet")
@@ -194,7 +194,7 @@ def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
         limited = ["bash", "-c", 'ulimit -f 1000; exec "$@"', "bash", *line]
         done = subprocess.run(limited, capture_output=True, text=True, timeout=120)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
-        assert "nobody on the bus" not in rig.log.read_text()
+        assert "no client on the bus" not in rig.log.read_text()
     assert done.returncode == 1
     journal = tmp_path / "run.parquet.journal"
     said = done.stderr.splitlines()[-1]
@@ -214,7 +214,7 @@ def test_killed_controller_leaves_standing_axes_and_a_journal_to_recover(
         process.kill()
         process.wait(timeout=10)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
-        assert len(re.findall(r"node \d: stands at .* QUICK_STOP_ACTIVE", rig.log.read_text())) == 6
+        assert len(re.findall(r"node \d: stopped at .* QUICK_STOP_ACTIVE", rig.log.read_text())) == 6
     record = recover(tmp_path / "run.parquet.journal")
     assert not record.complete
     assert len(record) > 50
