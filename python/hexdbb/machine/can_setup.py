@@ -1,7 +1,6 @@
 """The `[can]` section of a machine file: which node is which, the encoder scale, supervision times and motion limits.
 
 Assumption: six CiA 402 drives, one per slider in slider order, and one CiA 404 gauge on one classical CAN bus.
-The timeout of SDO requests is not a key but a constant: `hexdbb.capture.sdo.SDO_TIMEOUT_S`.
 Source: CiA 301 (bit rates, node ids 1 to 127), CiA 402, CiA 404.
 """
 

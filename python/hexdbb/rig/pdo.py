@@ -78,7 +78,7 @@ class Pdo:
         return self._codec.size
 
     def pack(self) -> bytes:
-        """Give the frame's data from the mapped entries' values."""
+        """Return the data of the frame, packed from the values of the mapped entries."""
         return self._codec.pack(*[entry.value for entry in self.entries if entry is not None])
 
     def unpack(self, data: bytes) -> None:

@@ -1,4 +1,4 @@
-"""What is known without a rig: bus arithmetic, layouts, bus names, cycle times, the statusword, deadlines."""
+"""Parts that need no rig: bus load, PDO layouts, bus names, cycle times, statusword, deadlines."""
 
 from __future__ import annotations
 

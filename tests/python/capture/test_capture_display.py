@@ -1,4 +1,4 @@
-"""What the user sees: a live bar with two lines on a terminal, plain lines elsewhere, notes in both."""
+"""The display: a live bar with two lines on a terminal, plain lines elsewhere, notes in both."""
 
 from __future__ import annotations
 

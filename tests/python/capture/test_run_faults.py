@@ -1,7 +1,7 @@
 """Every fault stops all six axes together and keeps what was captured; seen in the rig itself, over its bus.
 
-The rig runs as one process, `hexdbb-run` as another. After the run the drives are asked where they are; a drive that
-had not been stopped by then would have been stopped by the rig when its controller left, which its log would say.
+The rig runs as one process, `hexdbb-run` as another. After the run the states of the drives are read; a drive that was
+not stopped by then is stopped by the rig when its controller disconnects, which its log shows.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ DRIVES = list(range(1, 7))
 STOPPED = "all six axes stopped"
 SILENT = "does not answer, standstill not confirmed"
 FAULTS = [
-    # kind of fault, its node, what names the cause, what is said of the axes
+    # kind of fault, its node, message of the cause, message about the axes
     ("drive-fault:3={time}=0x2310", 3, r"node 3 \(slider 3\): object 6041:00 is \w+h, fault.*EMCY 2310h", STOPPED),
     (
         "following-error:1",
@@ -53,7 +53,7 @@ FAULTS = [
 
 
 def incomplete(path: Path) -> Record:
-    """Read the record a fault left, and see that it holds good samples up to about the fault, and says that it ends."""
+    """Read the record after a fault; check that it holds good samples up to the fault and is marked incomplete."""
     record = read_record(path)
     assert not record.complete
     assert not path.with_name(path.name + ".journal").exists()

@@ -1,4 +1,4 @@
-"""What a run records, from `hexdbb-run` through real CAN frames to the file: pairing, angles, times, both paces."""
+"""The record of a run, from `hexdbb-run` through real CAN frames to the file: pairing, angles, times, both paces."""
 
 from __future__ import annotations
 
