@@ -149,7 +149,7 @@ def unseen_plan(fast: dict[str, object]) -> Plan:
 
 
 def faulty_truth() -> TruthFile:
-    """A random machine with play, a pitch error and legs that give way.
+    """Return a random machine with play, a pitch error and compliant legs.
 
     Its drives reach their targets: at `RATE_HZ`, a lag of 2 ms would cut the corners of the circles by 0.7 um.
     """
