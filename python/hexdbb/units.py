@@ -24,3 +24,8 @@ def shown_unit(engine_unit: str) -> str:
 def shown_factor(engine_unit: str) -> float:
     """Give the factor from `engine_unit` to the unit shown."""
     return SHOWN.get(engine_unit, (engine_unit, 1.0))[1]
+
+
+def printed_unit(shown: str) -> str:
+    """Return a unit as printed for people: `um` and `urad` of files and JSON become µm and µrad."""
+    return shown.replace("um", "µm").replace("urad", "µrad")

@@ -13,7 +13,7 @@ import numpy as np
 
 from hexdbb.errors import InputError
 from hexdbb.plan import Circle, Mount, Plan, load_plan
-from hexdbb.planning.clearances import Demands, circle_clearances
+from hexdbb.planning.clearances import RequiredClearances, circle_clearances
 
 BARS_MM = (60.0, 80.0, 100.0, 120.0)
 CIRCLES_PER_BAR = 5
@@ -34,7 +34,7 @@ def unseen_plans() -> tuple[Plan, ...]:
 
 def _plan(bar_mm: float) -> Plan:
     known = load_plan("standard")
-    machine, draw, demands = known.machine_file(), np.random.default_rng([SEED, int(bar_mm)]), Demands()
+    machine, draw, demands = known.machine_file(), np.random.default_rng([SEED, int(bar_mm)]), RequiredClearances()
     circles: list[Circle] = []
     mounts: list[Mount] = []
     for _ in range(MOST_TRIALS):
