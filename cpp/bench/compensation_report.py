@@ -1,7 +1,7 @@
 """Run the benchmark of the compensator and write its page, docs/real-time.md.
 
 Usage: compensation_report.py BENCHMARK_PROGRAM [-o docs/real-time.md]
-Single calls are timed, so that the page can tell the tail; a busy machine makes it longer, not shorter.
+Single calls are timed, so that the page can report the tail; a busy machine makes it longer, not shorter.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ PAGE = """\
 # Real time
 
 `Compensator::sliders` and `Compensator::pose` (C: `hexdbb_sliders_from_pose`, `hexdbb_pose_from_sliders`) are made for
-the cycle of a motion controller: after creation they allocate nothing, throw nothing, lock nothing, call no system, and
-take at most four inverse solutions (`kMaxIterations`), each in closed form. What is claimed is tested:
+the cycle of a motion controller: after creation they do not allocate, throw, lock or make system calls, and they
+need at most four inverse solutions (`kMaxIterations`), each in closed form. Each claim is tested:
 
 | claim | test |
 |---|---|
 | no allocation in 100,000 calls of each, every effect in force | `test_no_allocation.cpp` counts `new` and `malloc` |
-| no system call, hence no lock that waits | `test_real_time.cpp`: 100,000 calls under seccomp's strict mode |
-| no exception | declared `noexcept`; a pose that is no number or out of reach is a status |
+| no system call, hence no waiting lock | `test_real_time.cpp`: 100,000 calls under seccomp's strict mode |
+| no exception | declared `noexcept`; a pose that is not a number or out of reach is reported as a status |
 | continuous over reversals, standing still with the machine | `test_compensation.cpp` |
 
 ## Time of a call
 Machine: {processor}. Compiler: {compiler}, `-O3` for any x86-64, AVX2 chosen at load time.
-A circle of 90 mm at 3000 mm/min, a pose a millisecond, platform tilted; single calls timed, the clock's own time taken
-off. Medians of {repetitions} repetitions; made by `make bench`. To reach: 300 ns, and 99.9 % of calls within five times
-the median.
+A circle of 90 mm at 3000 mm/min, one pose per millisecond, platform tilted; single calls timed, the time of the clock
+itself subtracted. Medians of {repetitions} repetitions; made by `make bench`. Target: 300 ns, and 99.9 % of calls
+within five times the median.
 
 | work | median | 99.9 % within | tail / median | iterations, at most |
 |---|---|---|---|---|
@@ -53,18 +53,18 @@ the median.
 {poses}
 
 The C interface adds the three rotations of roll, pitch and yaw: some tens of ns.
-A lag in proportion to speed is corrected with the controller's velocities, which leave out those of the correction
-itself: at 3000 mm/min and 2 ms of lag that is below 1 um.
+A lag proportional to speed is corrected with the controller's velocities, which do not include that of the
+correction itself: at 3000 mm/min and 2 ms of lag the error is below 1 µm.
 """
 
 
 def results(program: Path) -> dict[str, dict[str, float]]:
-    """Median row of each benchmark, by its name without the kind of time."""
+    """Return the median row of each benchmark, by its name without the kind of time."""
     return {name.removesuffix("/manual_time"): row for name, row in median_rows(program, REPETITIONS).items()}
 
 
 def page(rows: dict[str, dict[str, float]]) -> str:
-    """Lay out the page."""
+    """Return the page as Markdown."""
     targets, poses = [], []
     for name, row in rows.items():
         title = TITLES.get(name, name)

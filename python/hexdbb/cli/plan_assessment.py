@@ -68,7 +68,7 @@ class PlanAssessment:
 
 
 def plan_noise_mm(plan: Plan, noise_um: float | None) -> float:
-    """Return the noise of one reading to plan for, mm: as given, else as stated by the gauge, else assumed and reported."""
+    """Return the noise of one reading, mm: as given, else as stated by the gauge, else assumed and reported."""
     if noise_um is not None:
         return noise_um / 1000.0
     stated = plan.gauge.stated_noise_mm

@@ -72,12 +72,10 @@ def print_assessment(assessment: PlanAssessment) -> None:
         known = _identifiable(expected.get(effect, []))
         rows.append((effect, *known, shown, printed_unit(size.unit), _digits(100.0 * size.kept, 2)))
     title = f"expected at {assessment.noise_um:.2f} µm of noise, {assessment.readings:,.0f} readings"
-    print_table(
-        ("effect", "identified", "± 1 sigma", "detectable", "unit", "own %"), rows, title=title, names=1
-    )
+    print_table(("effect", "identified", "± 1 sigma", "detectable", "unit", "own %"), rows, title=title, names=1)
     click.echo(
-        "identified: values determined on their own; own %: part of an effect that no other value explains; detectable:\n"
-        "smallest size at which that part has an RMS of three times the noise; never: other values explain all of it"
+        "identified: values determined on their own; own %: part of an effect that no other value explains;\n"
+        "detectable: smallest size at which that part has an RMS of three times the noise; never: it has no such part"
     )
     if seen.unidentifiable:
         click.echo("\nNot identifiable with this plan, to first order:")

@@ -6,7 +6,7 @@ count: at the tool cup against the base's xy plane, at the centre ball against t
 
 Singular poses: with u the unit vector of a leg from slider to platform joint, r = R Q the joint's lever arm and d the
 guideway, the leg's fixed length gives (d.u) ds = u.v + (r x u).w (thesis 2.6, differentiated). The condition of the six
-rows [u, (r x u)/LEVER] / (d.u) says how unequally slider motion becomes platform motion.
+rows [u, (r x u)/LEVER] / (d.u) measures how unequally slider motion becomes platform motion.
 """
 
 from __future__ import annotations

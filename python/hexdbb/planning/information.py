@@ -63,7 +63,7 @@ class Information:
 
 @dataclass(frozen=True)
 class PlannedUnknowns:
-    """The values that a plan is to determine, and those that stand beside them."""
+    """The values that a plan is to determine, and the nuisance values fitted with them."""
 
     model: Model
     """With every effect of the catalogue."""

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.truth.unseen import unseen_plans
+from tests.truth.held_out import held_out_plans
 
 from hexdbb.compensation import make_compensation, write_compensation
 from hexdbb.files.validation import dump_toml
@@ -110,7 +110,8 @@ def test_more_correction_than_the_file_allows_is_refused_by_place_and_slider(fol
     done = command("hexdbb-run", "--compensation", "sp120.hexcomp", "-o", "a.parquet", folder=folder)
     assert done.returncode == 2
     line = (
-        r"error: thesis: circle 0, .*: slider \d: correction of \d+\.\d µm \(expected at most 100 µm, the limit in sp120.hexcomp"
+        r"error: thesis: circle 0, .*: slider \d: correction of \d+\.\d µm"
+        r" \(expected at most 100 µm, the limit in sp120.hexcomp"
     )
     assert re.match(line, done.stderr), done.stderr
     assert not (folder / "a.parquet").exists()
@@ -144,7 +145,7 @@ def closed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def unseen_plan(fast: dict[str, object]) -> Plan:
     """Three circles of a bar of 80 mm at other heights and tilts."""
-    plan = unseen_plans()[1]
+    plan = held_out_plans()[1]
     return plan.model_copy(update={**fast, "mounts": plan.mounts[:3], "circles": plan.circles[:3]})
 
 

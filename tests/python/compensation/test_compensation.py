@@ -235,17 +235,17 @@ def test_the_reference_temperature_is_that_of_the_records_first_sample(warmed: P
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (("--reference", "other.parquet"), "other.parquet: the model was not fitted to it"),
         (("--reference", "gone.parquet"), "gone.parquet: no such file"),
         (("--reference", "warm.parquet", "--reference-temperature-c", "20"), "expected one of them"),
     ],
 )
-def test_a_wrong_reference_is_refused(warmed: Path, words: tuple[str, ...], said: str) -> None:
+def test_a_wrong_reference_is_refused(warmed: Path, words: tuple[str, ...], message: str) -> None:
     done = hexdbb("compensate", "model.toml", *words, "-o", "b.hexcomp", folder=warmed)
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
     assert done.stderr.count("\n") == 1
     assert not (warmed / "b.hexcomp").exists()
 
