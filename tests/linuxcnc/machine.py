@@ -13,7 +13,7 @@ import numpy as np
 from tests.truth.plans import PACE, discovery_plan
 from tests.truth.simulate import simulate
 
-from hexdbb.compensation import make_compensation, write_text
+from hexdbb import compensation
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.model import default_effects, new_model
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
@@ -52,5 +52,5 @@ def write_compensation(truth: TruthFile, path: Path) -> Diagnosis:
     record = simulate(truth, discovery_plan(), pace=PACE)
     geometry = [effect for effect, is_free in default_effects(record.machine).items() if is_free]
     found = diagnose([record], new_model(record.machine, [*geometry, *EFFECTS]))
-    write_text(make_compensation(found.model).text(), path)
+    compensation.write_compensation(compensation.make_compensation(found.model), path)
     return found

@@ -60,3 +60,15 @@ def sync_directory(directory: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a UTF-8 text file whole or not at all, replacing an existing one; line ends stay as given.
+
+    Raises
+    ------
+    RunError
+        The file cannot be written.
+    """
+    with replacing(path) as temporary:
+        temporary.write_bytes(text.encode())
