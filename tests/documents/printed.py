@@ -1,8 +1,8 @@
 """Whether a command printed what a page shows.
 
 ``...`` alone on a line stands for any number of lines, at the end of a line for its rest. White space may differ.
-Numbers may differ by one unit of their last place or by `RELATIVE`: another processor sums in another order, and a fit ends an
-iteration earlier. Speeds of the computer are not compared.
+Numbers may differ by one unit of their last place or by `RELATIVE`: another processor sums in another order, and a fit
+ends an iteration earlier. Speeds of the computer are not compared.
 """
 
 from __future__ import annotations
