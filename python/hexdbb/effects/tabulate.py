@@ -59,6 +59,11 @@ def add_own(effect: UserEffect, engine: _core.Model, samples: _core.Samples, mac
     _tabulated(effect, sample_state(samples, machine), must_vary=False).add_to(engine)
 
 
+def evaluated(effect: UserEffect, samples: object) -> Tabulated:
+    """Evaluate for a table of samples."""
+    return _tabulated(effect, samples, must_vary=False)  # type: ignore[arg-type]
+
+
 def tabulate(effects: Sequence[UserEffect], state: SampleState) -> tuple[list[Tabulated], list[UserEffectError]]:
     """Evaluate users' effects; one that fails does not hold up the others.
 

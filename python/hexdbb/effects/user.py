@@ -15,9 +15,10 @@ from typing import Any
 from hexdbb import _core
 from hexdbb.effects.sample_state import SampleState
 from hexdbb.effects.shapes import SHAPES
-from hexdbb.effects.tabulate import add_own
+from hexdbb.effects.tabulate import add_own, evaluated
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
+from hexdbb.model import Tabulated
 
 Basis = Callable[[SampleState], Any]
 
@@ -63,6 +64,17 @@ class UserEffect:
             ],
             ports=[self.port],
         )
+
+    def tabulated(self, samples: Any) -> Tabulated:
+        """Evaluate it for a table of samples.
+
+        Raises
+        ------
+        UserEffectError
+            Its function raises, or gives a wrong shape or a value that is not finite.
+        """
+        found = evaluated(self, samples)
+        return Tabulated(self.info(), found.values, found.ports, found.per_unit)
 
     def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
         """Append it, values zero, to a model that is to predict these samples, or a part of them.

@@ -3,7 +3,7 @@
 from hexdbb.model.file import load_model, save_model
 from hexdbb.model.ledger import LedgerStep, Size, State
 from hexdbb.model.model import Model, default_effects, effect_info, new_model
-from hexdbb.model.own import OwnEffect, OwnEffects
+from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate, Tabulated
 from hexdbb.model.selection import parse_selection, split_choice
 from hexdbb.model.terms import MountKey, Parameter, Term, new_term
 
@@ -16,6 +16,8 @@ __all__ = [
     "Parameter",
     "Size",
     "State",
+    "Tabulate",
+    "Tabulated",
     "Term",
     "default_effects",
     "effect_info",

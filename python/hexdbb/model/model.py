@@ -19,7 +19,7 @@ from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine
 from hexdbb.machine import MachineFile
 from hexdbb.model.ledger import LedgerStep, State
-from hexdbb.model.own import OwnEffect, OwnEffects
+from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate
 from hexdbb.model.terms import Floats, MountKey, Parameter, Term, new_term
 
 
@@ -96,7 +96,7 @@ class Model:
         """Give the same model, in which effects of the user's own may stand too."""
         return replace(self, own_effects={**self.own_effects, **{each.name: each for each in effects}})
 
-    def engine(self, samples: _core.Samples | None = None) -> _core.Model:
+    def engine(self, samples: _core.Samples | Tabulate | None = None) -> _core.Model:
         """Give the engine's form of the model.
 
         Parameters
@@ -116,8 +116,10 @@ class Model:
                 engine.add(term.effect, max(len(self.mounts), 1))
             elif samples is None:
                 raise InputError(f"{term.effect}: an effect of your own is known in measured samples only, not here")
-            else:
+            elif isinstance(samples, _core.Samples):
                 own.add_to(engine, samples, self.machine)
+            else:
+                samples(own).add_to(engine)
         engine.values = self.values
         return engine
 
