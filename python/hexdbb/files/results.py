@@ -20,7 +20,6 @@ under `TYPE_CHECKING` alone: they are read when the program runs.
 from __future__ import annotations
 
 import math
-from functools import cache
 from typing import Annotated, Any, ClassVar
 
 from pydantic import ConfigDict, Field, TypeAdapter
@@ -30,6 +29,8 @@ DRAFT = "https://json-schema.org/draft/2020-12/schema"
 NotNegative = Annotated[float, Field(ge=0.0)]
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 Count = Annotated[int, Field(ge=0)]
+
+_ADAPTERS: dict[type, TypeAdapter[Any]] = {}
 
 
 class JsonPart:
@@ -72,9 +73,11 @@ def number_or_none(value: float) -> float | None:
     return None if math.isnan(value) else float(value)
 
 
-@cache
-def _adapter(kind: Any) -> TypeAdapter[Any]:
-    return TypeAdapter(kind)
+def _adapter(kind: type[JsonResult]) -> TypeAdapter[Any]:
+    """Return the type's adapter, which takes some milliseconds to make."""
+    if kind not in _ADAPTERS:
+        _ADAPTERS[kind] = TypeAdapter(kind)
+    return _ADAPTERS[kind]
 
 
 def _without_titles(schema: Any) -> Any:
