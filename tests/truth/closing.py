@@ -31,6 +31,7 @@ from hexdbb.plan import Plan
 from hexdbb.record import Record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import GaugeTruth, TruthFile, random_truth
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 Said = Callable[[str], None]
@@ -133,7 +134,7 @@ def drive_of(model: Model, machine: MachineFile) -> Drive:
 
 def circle_errors(record: Record) -> Iterator[CircleError]:
     """Give the radial error of every circle of a record."""
-    for circle in compare_circles(record, record.name, np.zeros(len(record))):
+    for circle in compare_circles(Samples.of([record]), np.zeros(len(record))):
         radial_mm = circle.radial_mm
         if radial_mm is None:
             raise InputError(f"circle {circle.circle.id}: not a full circle (expected one)")

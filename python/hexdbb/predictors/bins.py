@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from hexdbb.predictors.variable import FloatArray
-from hexdbb.predictors.variable import Variable
+from hexdbb.predictors.variable import FloatArray, Variable
 
 PLACE_MM = 3.0
 """Width of a bin on a guideway: narrower than the dents and bends sought, some of a screw's lead of 5 mm."""

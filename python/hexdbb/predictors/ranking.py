@@ -27,7 +27,7 @@ from hexdbb.predictors.variable import FloatArray, Variable, variables
 from hexdbb.samples import Samples
 
 SHORTEST_PERIOD_MM = 0.5
-"""Shortest period sought along a guideway: a tenth of the screw's lead. Shorter ones alias with the samples' spacing."""
+"""Shortest period sought along a guideway: a tenth of the screw's lead; shorter ones alias with the sampling."""
 SINE_VALUES = 3
 """Amplitude, phase and period."""
 

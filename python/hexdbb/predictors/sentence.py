@@ -45,4 +45,6 @@ def _period(predictor: Predictor) -> str:
         return f" every {predictor.period:.4g} {predictor.unit}"
     mains = [f"{each:g}" for each in MAINS_HZ if abs(folded_hz(each, predictor.sampled_hz) - frequency_hz) < NEAR_HZ]
     as_mains = f"; {' or '.join(mains)} Hz would alias to it" if mains else ""
-    return f" with {frequency_hz:.4g} Hz, or a faster one aliased by sampling at {predictor.sampled_hz:.4g} Hz{as_mains}"
+    return (
+        f" with {frequency_hz:.4g} Hz, or a faster one aliased by sampling at {predictor.sampled_hz:.4g} Hz{as_mains}"
+    )

@@ -1,4 +1,4 @@
-"""Steps in time: something shifts once and stays, as a loose cup, a gauge that slips or a lost count of an encoder does.
+"""Steps in time: something shifts once and stays: a loose cup, a gauge that slips, a lost count of an encoder.
 
 For every instant the push from there on is one hypothesis of one to three values. Sums over cells of time give the
 fall of the sum of squares of all instants at once; the best cell is then divided again, down to single samples.
@@ -88,9 +88,7 @@ def _rows_of_each(record: NDArray[np.integer]) -> list[NDArray[np.intp]]:
     return [np.flatnonzero(record == which) for which in np.unique(record)]
 
 
-def _best(
-    rows: NDArray[np.intp], weights: FloatArray, tested: CrossValidation
-) -> tuple[float, int, NDArray[np.intp]]:
+def _best(rows: NDArray[np.intp], weights: FloatArray, tested: CrossValidation) -> tuple[float, int, NDArray[np.intp]]:
     """Return the gain and the first sample after the best step, and the record's rows in order of time as given."""
     edges = np.unique(np.linspace(0, len(rows), CELLS + 1).astype(np.intp))
     for _ in range(PASSES):

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.predictors.halves import codes
 from hexdbb.predictors.pushes import Pushes
 from hexdbb.samples import Samples
 
@@ -24,7 +23,7 @@ TRAVEL_DIRECTION = "side"
 """Column of the direction in which each slider last moved, +1 or -1; 0 where it never moved."""
 SECONDS_PER_MINUTE = 60.0
 NEVER_S = 1e5
-"""Times since a reversal beyond this stand for a reversal that never was: the engine writes 1e6, no sweep lasts a day."""
+"""Times since a reversal beyond this stand for a reversal that never was: the engine writes 1e6 s there."""
 DIRECTIONS = ("cw", "ccw")
 TRAVEL_NAMES = ("moving down", "moving up")
 BINS = 36
@@ -32,7 +31,7 @@ BINS = 36
 COARSE_BINS = 12
 """The same for what also changes with time: its means are determined by differences alone."""
 SETTLED = 4.0
-"""What settles does so to e^-4 = 2 % over the time of the samples: nearly complete, and still going on in half of it."""
+"""Time constants in the time of the samples, of what settles: 2 % are left at the end."""
 READING = "in the reading"
 ALONG = "along the guideway"
 
