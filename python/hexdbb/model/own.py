@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.machine import MachineFile
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +44,6 @@ class OwnEffect(Protocol):
 
     def info(self) -> _core.EffectInfo:
         """Describe it as the engine's own are described."""
-        ...
-
-    def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
-        """Append it, values zero, to a model that is to predict these samples, or a part of them."""
         ...
 
     def tabulated(self, samples: Any) -> Tabulated:

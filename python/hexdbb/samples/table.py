@@ -25,7 +25,7 @@ from hexdbb.machine import MachineFile
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
-from hexdbb.samples.whole import PLANNED, Columns, Whole, of_records, of_runs
+from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
 Floats = NDArray[np.float64]
 Column = NDArray[Any]
@@ -149,7 +149,7 @@ class Samples:
     @property
     def name(self) -> str:
         """What errors call it: its records."""
-        return ", ".join(record.name for record in self.records) or PLANNED
+        return self._whole.origin
 
     @property
     def machine(self) -> MachineFile:

@@ -36,6 +36,8 @@ class Whole:
     columns: Columns
     state: Columns
     """Those of the columns that belong to the engine's state."""
+    origin: str
+    """What errors call it."""
     tabulated: dict[OwnEffect, Tabulated] = field(default_factory=dict)
     blocks: dict[tuple[MountKey, ...], _core.Samples] = field(default_factory=dict)
 
@@ -87,7 +89,8 @@ def of_records(records: Sequence[Record]) -> Whole:
         "sliders_mm": np.vstack([record.sliders_mm for record in records]),
         "reading_mm": np.concatenate([record.reading_mm for record in records]),
     }
-    return _completed(records[0].machine, tuple(records), set_ups, keys, columns, state_columns(records))
+    origin = ", ".join(record.name for record in records)
+    return _completed(records[0].machine, tuple(records), set_ups, keys, columns, state_columns(records), origin)
 
 
 def of_runs(
@@ -110,7 +113,8 @@ def of_runs(
     state = planned_columns(runs, angle_rad)
     if warming_k is not None:
         state["warming_k"] = warming_k
-    return _completed(machine, (), set_ups, [MountKey(PLANNED, run.mount.id) for run in runs], columns, state)
+    keys = [MountKey(PLANNED, run.mount.id) for run in runs]
+    return _completed(machine, (), set_ups, keys, columns, state, origin)
 
 
 def _completed(
@@ -120,6 +124,7 @@ def _completed(
     keys: Sequence[MountKey],
     columns: Columns,
     state: Columns,
+    origin: str,
 ) -> Whole:
     """Complete the columns: mounts (`keys` are those of the set-ups), and all that follows from the motion."""
     mounts = tuple(dict.fromkeys(keys))
@@ -135,7 +140,9 @@ def _completed(
     )
     block.derive(engine_machine(machine))
     derived: Columns = block.state
-    return Whole(machine, records, tuple(set_ups), mounts, {**columns, **derived}, derived, blocks={mounts: block})
+    return Whole(
+        machine, records, tuple(set_ups), mounts, {**columns, **derived}, derived, origin, blocks={mounts: block}
+    )
 
 
 def _sliders_mm(machine: MachineFile, run: CircleRun, angle_rad: Floats, origin: str) -> Floats:
