@@ -12,14 +12,24 @@ from pathlib import Path
 from typing import Any
 
 from hexdbb.compare.json_form import ComparisonJson
+from hexdbb.diagnosis.json_form import DiagnosisJson
+from hexdbb.discovery.json_form import DiscoveryJson
 from hexdbb.errors import InputError
 from hexdbb.files.results import JsonResult
+from hexdbb.ledger.json_form import AddedJson, HistoryJson, UndoneJson
 from hexdbb.machine import shipped
 
-COMMANDS = ("diagnose", "compare", "discover", "add", "undo", "history")
+DECLARED: dict[str, type[JsonResult]] = {
+    "diagnose": DiagnosisJson,
+    "compare": ComparisonJson,
+    "discover": DiscoveryJson,
+    "add": AddedJson,
+    "undo": UndoneJson,
+    "history": HistoryJson,
+}
+"""Declared result of each command that has a schema."""
+COMMANDS = tuple(DECLARED)
 """Commands with a schema."""
-DECLARED: dict[str, type[JsonResult]] = {"compare": ComparisonJson}
-"""Declared result of a command."""
 
 
 def json_schema(command: str) -> dict[str, Any]:
@@ -42,7 +52,7 @@ def schema_text(command: str) -> str:
 
 
 def write_schemas(folder: Path) -> None:
-    """Write the schema file of every command whose result is declared."""
+    """Write the schema file of every command that has one."""
     for command in DECLARED:
         (folder / f"{command}.schema.json").write_text(schema_text(command), encoding="utf-8")
 

@@ -15,7 +15,7 @@ from hexdbb.compare.notebook import comparison_html
 from hexdbb.compare.radial import RadialError, radial_errors
 from hexdbb.compare.worst_arcs import WorstArc, worst_arcs
 from hexdbb.compare.worst_samples import WorstSamples, worst_samples
-from hexdbb.diagnosis import noise_of, with_mounts_fitted
+from hexdbb.diagnosis import fit_mounts, noise_of
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
 from hexdbb.model import Model
@@ -106,9 +106,9 @@ def compare(samples: Samples, model: Model) -> Comparison:
         No samples in a record, a machine that differs, or a sample that the model's machine cannot reach.
     """
     _require_samples(samples)
-    known, fitted = with_mounts_fitted(samples.records, model)
+    known, fitted = fit_mounts(samples, model)
     predicted_mm = predict(samples, known).reading_mm
-    noise_mm = noise_of(samples.records).sigma_mm
+    noise_mm = noise_of(samples).sigma_mm
     return compare_readings(samples, predicted_mm, Pushes.of(samples, known), noise_mm, fitted)
 
 

@@ -6,8 +6,6 @@ part of any variable, and shares are of what exceeds the noise.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,7 +13,6 @@ from hexdbb.diagnosis import Noise
 from hexdbb.discovery.result import Structure
 from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, main_predictors, rank_predictors, sentence
-from hexdbb.record import Record
 from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
@@ -23,23 +20,20 @@ Floats = NDArray[np.float64]
 MOST_NAMED = 6
 
 
-def unexplained_structure(
-    records: Sequence[Record], model: Model, residual_mm: Floats, noise: Noise
-) -> tuple[Structure, ...]:
+def unexplained_structure(samples: Samples, model: Model, residual_mm: Floats, noise: Noise) -> tuple[Structure, ...]:
     """Name the variables that carry the unexplained variance, largest share first.
 
     Parameters
     ----------
-    records : sequence of Record
+    samples : Samples
     model : Model
         Fitted to them.
     residual_mm : ndarray, shape (n,)
-        What it leaves, of all records one after another.
+        What it leaves.
     noise : Noise
     """
     if float(np.mean(residual_mm**2)) <= noise.sigma_mm**2:
         return ()
-    samples = Samples.of(records)
     pushes = Pushes.of(samples, model)
     found = rank_predictors(samples, residual_mm, pushes, noise.sigma_mm, beyond_noise=True)
     return tuple(_structure(each) for each in main_predictors(found, MOST_NAMED))

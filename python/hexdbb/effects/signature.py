@@ -84,7 +84,7 @@ def _circle() -> tuple[Floats, list[int], list[Samples]]:
     """Return polar angles, directions, and samples of one lap in each direction, with and without a thermometer."""
     plan = load_plan("thesis")
     runs = [next(run for run in plan.runs() if run.direction == direction) for direction in (1, -1)]
-    angle_rad = np.arange(PER_LAP) * (2.0 * np.pi / PER_LAP)
+    angle_rad = np.arange(PER_LAP, dtype=np.float64) * (2.0 * np.pi / PER_LAP)
     warming_k = np.tile(angle_rad / (2.0 * np.pi), len(runs))
     samples = [Samples.planned(_machine(), runs, angle_rad, BAR_MM, warming_k=each) for each in (None, warming_k)]
     return angle_rad, [run.direction for run in runs], samples

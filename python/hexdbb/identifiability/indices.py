@@ -31,8 +31,7 @@ from hexdbb.model import Parameter
 Floats = NDArray[np.float64]
 
 RELATIVE_RANK = 1e-8
-"""Singular values below this part of the largest are rounding: double precision leaves 1e-12 or so of a Jacobian, real
-directions stay above 1e-5."""
+"""Singular values below this part of the largest are rounding: about the square root of double precision."""
 
 
 @dataclass(frozen=True)

@@ -97,7 +97,7 @@ def plan_sensitivity(
         Where the machine cannot follow a circle.
     """
     runs = plan.runs()
-    angle_rad = np.arange(samples_per_turn) * (2.0 * np.pi / samples_per_turn)
+    angle_rad: Floats = np.arange(samples_per_turn, dtype=np.float64) * (2.0 * np.pi / samples_per_turn)
     samples = Samples.planned(model.machine, runs, angle_rad, plan.gauge.bar_length_mm, origin=origin)
     known = with_planned_mounts(model, [mount.id for mount in plan.mounts])
     counts = np.array([_readings(run, cycle_rate_hz) for run in runs])

@@ -109,7 +109,10 @@ class Model:
             if self.term(choice.effect) is None:
                 present = ", ".join(term.effect for term in self.terms)
                 raise InputError(f'{option}: "{choice.effect}" is not in the model (expected one of {present})')
-            chosen |= self.values_of(choice)
+            try:
+                chosen |= self.values_of(choice)
+            except InputError as error:
+                raise InputError(f"{option}: {error}") from None
         if not chosen.any():
             raise InputError(
                 f'{option}: "{choices}" chooses nothing (expected effects, as in leg_length,guideway_translation:3)'
@@ -238,7 +241,8 @@ class Model:
         terms, at = [], 0
         for term in self.terms:
             span = slice(at, at + len(term.values))
-            terms.append(replace(term, **{name: column[span] for name, column in columns.items()}))
+            parts: dict[str, Any] = {name: column[span] for name, column in columns.items()}
+            terms.append(replace(term, **parts))
             at = span.stop
         return replace(self, terms=tuple(terms))
 

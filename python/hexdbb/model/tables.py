@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hexdbb.files.frames import html_table
 from hexdbb.model.terms import Bools, Floats, Parameter
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 Columns = Mapping[str, NDArray[Any]]
 
@@ -47,15 +47,16 @@ def values_html(columns: Columns) -> str:
             str(columns["element"][row]),
             str(columns["name"][row]),
             f"{columns['value'][row]:.2f}",
-            _sigma(columns, row),
-            str(columns["unit"][row]),
+            sigma_shown(columns, row),
+            readable_unit(str(columns["unit"][row])),
         )
         for row in np.flatnonzero(columns["free"] | (columns["value"] != 0.0))
     ]
     return html_table(("effect", "element", "parameter", "value", "± 1 sigma", "unit"), rows)
 
 
-def _sigma(columns: Columns, row: np.intp) -> str:
+def sigma_shown(columns: Columns, row: np.intp) -> str:
+    """Return a value's standard deviation for people: ``held`` where it is not free, ``~`` where not identifiable."""
     if not columns["free"][row]:
         return "held"
     return f"{columns['sigma'][row]:.2f}" if columns["identifiable"][row] else "~"

@@ -65,7 +65,7 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
     shows = left > NOTHING * whole.max()
     parameter = sensitivity.where(own)[0]
-    rms_mm = left[shows] / np.sqrt(sensitivity.readings) / sensitivity.sizes[own][shows]
+    rms_mm = left[shows] / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own][shows]
     sizes = DETECTION * noise_mm / rms_mm * shown_factor(parameter.unit)
     return Detectable(
         size=float(sizes.min()) if len(sizes) else None,

@@ -107,7 +107,7 @@ def information_of(candidates: Sequence[Candidate], like: Plan, unknowns: Unknow
     circles = tuple(each.circle(like, identity) for identity, each in enumerate(candidates))
     plan = like.model_copy(update={"mounts": (mount,), "circles": circles})
     taken = plan_sensitivity(plan, unknowns.model, unknowns.cycle_rate_hz, samples_per_turn=SAMPLES_PER_TURN)
-    scaled = taken.jacobian * (taken.sizes / unknowns.noise_mm)
+    scaled = taken.jacobian * (taken.prior_sigma / unknowns.noise_mm)
     rows = scaled.reshape(len(candidates), -1, scaled.shape[1])
     shared, own = rows[:, :, unknowns.columns], rows[:, :, unknowns.own]
     turned = np.swapaxes(shared, 1, 2)

@@ -11,7 +11,7 @@ from hexdbb.diagnosis import noise_of
 from hexdbb.discovery import discover
 from hexdbb.discovery.trial import Base, fitted_base, try_effect
 from hexdbb.model import new_model
-from hexdbb.samples import knowing
+from hexdbb.samples import Samples
 
 MOST_STEPS = 20
 
@@ -19,7 +19,11 @@ MOST_STEPS = 20
 @pytest.fixture(scope="module")
 def base() -> Base:
     record = case("joint_offset-x3-s1").record()
-    return fitted_base([record], knowing(new_model(record.machine), [record]), noise_of([record]))
+    return fitted_base(
+        Samples.of([record]),
+        new_model(record.machine).with_mounts(Samples.of([record]).mounts),
+        noise_of(Samples.of([record])),
+    )
 
 
 @pytest.mark.parametrize("effect", ["joint_offset", "lead_error", "straightness", "bar_drift"])
@@ -55,5 +59,5 @@ def test_records_are_prepared_once_for_all_fits(monkeypatch: pytest.MonkeyPatch)
         return prepare(records, model)
 
     monkeypatch.setattr(measured, "samples_of", counted)
-    discover([record], new_model(record.machine))
+    discover(Samples.of([record]), new_model(record.machine))
     assert prepared == [1]

@@ -26,6 +26,7 @@ from hexdbb.model import Model, Term, load_model, new_model, save_model
 from hexdbb.model.shown import engine_values, shown_values
 from hexdbb.record import Record, write_record
 from hexdbb.rig.truth import random_truth
+from hexdbb.samples import Samples
 
 SEED = 11
 HIDDEN, ELEMENT = "guideway_rotation_yz", "2"
@@ -44,12 +45,12 @@ def without(record: Record) -> Model:
     names = [name for name in _core.effect_names() if new_model(record.machine, [name]).info(name).is_set_up]
     geometry = ["leg_length", "slider_offset", "guideway_translation", "guideway_rotation_xy", "platform_side"]
     chosen = geometry + [name for name in names if name in ("cup_position", "ball_offset")]
-    return diagnose([record], new_model(record.machine, chosen)).model
+    return diagnose(Samples.of([record]), new_model(record.machine, chosen)).model
 
 
 @pytest.fixture(scope="module")
 def added(record: Record, without: Model) -> Model:
-    return add_effect([record], without, HIDDEN)[0]
+    return add_effect(Samples.of([record]), without, HIDDEN).model
 
 
 def saved(model: Model, folder: Path) -> str:
@@ -79,7 +80,8 @@ def test_a_missing_effect_added_lets_the_error_fall_where_it_was_not_fitted(with
 
 
 def test_the_diagnosis_of_an_addition_is_compared_with_the_model_without_it(record: Record, without: Model) -> None:
-    changed, found = add_effect([record], without, HIDDEN)
+    found = add_effect(Samples.of([record]), without, HIDDEN)
+    changed = found.model
     step = changed.ledger[-1]
     assert found.model is changed
     assert found.rms_before_um == pytest.approx(step.rms_before_um)
@@ -101,7 +103,7 @@ def test_only_the_elements_chosen_are_free_and_more_can_be_added() -> None:
 
 
 def test_elements_not_chosen_stay_zero(record: Record, without: Model) -> None:
-    changed, _ = add_effect([record], without, f"{HIDDEN}:{ELEMENT}")
+    changed = add_effect(Samples.of([record]), without, f"{HIDDEN}:{ELEMENT}").model
     assert value(changed, f"{HIDDEN}:{ELEMENT}") != 0.0
     assert value(changed, f"{HIDDEN}:1") == value(changed, f"{HIDDEN}:3") == 0.0
     assert changed.ledger[-1].elements == (ELEMENT,)
@@ -109,7 +111,8 @@ def test_elements_not_chosen_stay_zero(record: Record, without: Model) -> None:
 
 
 def test_an_effect_can_be_added_to_a_machine_without_any(record: Record) -> None:
-    changed, found = add_effect([record], new_model(record.machine, []), "cup_position")
+    found = add_effect(Samples.of([record]), new_model(record.machine, []), "cup_position")
+    changed = found.model
     step = changed.ledger[-1]
     assert step.rms_after_um < step.rms_before_um == pytest.approx(step.heldout_before_um)
     assert found.rank == 0 and len(changed.mounts) == 1
@@ -118,7 +121,7 @@ def test_an_effect_can_be_added_to_a_machine_without_any(record: Record) -> None
 def test_elements_that_only_the_records_have_can_be_added(record: Record) -> None:
     again = simulate(random_truth(SEED), discovery_plan().model_copy(update={"laps": 1}), seed=1, pace=PACE)
     fresh = new_model(record.machine, ["cup_position"])
-    changed, _ = add_effect([record, again], fresh, "ball_eccentricity:2")
+    changed = add_effect(Samples.of([record, again]), fresh, "ball_eccentricity:2").model
     free = changed.terms[-1].free
     assert changed.terms[-1].effect == "ball_eccentricity"
     info = changed.info("ball_eccentricity")
@@ -126,7 +129,7 @@ def test_elements_that_only_the_records_have_can_be_added(record: Record) -> Non
 
 
 def test_removing_an_effect_takes_it_out_and_says_what_it_was(record: Record, without: Model, added: Model) -> None:
-    removed, _ = remove_effect([record], added, HIDDEN)
+    removed = remove_effect(Samples.of([record]), added, HIDDEN).model
     assert [term.effect for term in removed.terms] == [term.effect for term in without.terms]
     step = removed.ledger[-1]
     assert step.what == "remove"
@@ -145,7 +148,7 @@ def test_steps_are_taken_back_one_by_one_from_the_file_alone(
     record: Record, without: Model, added: Model, tmp_path: Path
 ) -> None:
     states = [new_model(record.machine, [term.effect for term in without.terms]), without, added]
-    states.append(remove_effect([record], added, f"{HIDDEN}:1")[0])
+    states.append(remove_effect(Samples.of([record]), added, f"{HIDDEN}:1")[0])
     texts = [saved(state, tmp_path) for state in states]
     assert len(set(texts)) == len(texts)
     (tmp_path / "model.toml").write_text(texts[-1])
@@ -226,19 +229,19 @@ def test_the_ledger_reads_aloud(added: Model) -> None:
 )
 def test_what_cannot_be_added_is_named(record: Record, without: Model, choice: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        add_effect([record], without, choice)
+        add_effect(Samples.of([record]), without, choice)
 
 
 def test_what_is_not_there_cannot_be_removed(record: Record, without: Model) -> None:
     with pytest.raises(InputError, match=rf"{HIDDEN}: not in the model \(expected one of leg_length"):
-        remove_effect([record], without, HIDDEN)
+        remove_effect(Samples.of([record]), without, HIDDEN)
 
 
 def test_record_and_model_of_different_machines_are_refused(record: Record, without: Model) -> None:
     legs = record.machine.legs.model_copy(update={"length_mm": 401.0})
     other = replace(record, machine=record.machine.model_copy(update={"legs": legs}))
     with pytest.raises(InputError, match=r"legs\.length_mm: 400 \(expected 401.*do not belong together"):
-        add_effect([other], without, HIDDEN)
+        add_effect(Samples.of([other]), without, HIDDEN)
 
 
 def test_a_held_value_is_freed_not_refused(without: Model) -> None:
@@ -319,7 +322,7 @@ def test_a_hidden_mechanism_of_the_catalogue_is_added_and_the_error_falls_to_the
     (fault,) = hidden.hidden
     record = hidden.record()
     model, found = add_effect(
-        [record], diagnose([record], new_model(record.machine)).model, f"backlash:{fault.element}"
+        [record], diagnose(Samples.of([record]), new_model(record.machine)).model, f"backlash:{fault.element}"
     )
     step = model.ledger[-1]
     noise_um = found.noise.sigma_mm * 1e3

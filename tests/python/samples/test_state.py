@@ -13,7 +13,7 @@ from hexdbb.kinematics import inverse
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
 from hexdbb.record import SLIDER_COLUMNS, Record
-from hexdbb.samples import knowing, predict_reading_mm, samples_of
+from hexdbb.samples import Samples, predict
 from hexdbb.samples.state import planned_columns, state_columns
 
 PLAN = load_plan("standard")
@@ -72,7 +72,7 @@ def test_sweeps_and_circles_of_several_records() -> None:
 def test_part_of_a_record_has_the_state_of_the_whole() -> None:
     record = record_of(3)
     rows = record.columns["circle"] == 2
-    model = knowing(new_model(MACHINE), [record])
+    model = new_model(MACHINE).with_mounts(Samples.of([record]).mounts)
     whole, part = samples_of([record], model).state, samples_of([record.part(rows)], model).state
     for name in ("time_s", "warming_k", "side", "since_reversal_mm", "velocity_mm_s", "leg_force", "circle"):
         np.testing.assert_allclose(part[name], whole[name][rows], rtol=0, atol=1e-9, err_msg=name)
@@ -87,12 +87,12 @@ def test_record_without_a_thermometer_has_no_temperature() -> None:
 
 def test_every_effect_of_the_catalogue_predicts_a_record() -> None:
     record = record_of(2)
-    nominal = predict_reading_mm(record, knowing(new_model(MACHINE, []), [record]))
+    nominal = predict(Samples.of([record]), new_model(MACHINE, []).with_mounts(Samples.of([record]).mounts))
     for name in _core.effect_names("catalogue"):
-        model = knowing(new_model(MACHINE, [name]), [record])
+        model = new_model(MACHINE, [name]).with_mounts(Samples.of([record]).mounts)
         sizes = np.array([each.prior_sigma for each in model.parameters()])
         changed = model.with_values(sizes, np.full(len(sizes), np.nan), np.zeros(len(sizes), bool))
-        change = np.abs(predict_reading_mm(record, changed) - nominal).max()
+        change = np.abs(predict(Samples.of([record]), changed) - nominal).max()
         assert name == "bar_gain" or change > 1e-7, name
 
 
