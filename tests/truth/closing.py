@@ -105,7 +105,7 @@ def silent(truth: TruthFile) -> TruthFile:
 def found_in(records: Sequence[Record], model: Model, say: Said) -> Found:
     """Diagnose, and discover until nothing is missing, as `hexdbb discover --auto` does."""
     say("diagnosing")
-    diagnosis = diagnose(records, model, check_held_out=False)
+    diagnosis = diagnose(Samples.of(records), model, check_held_out=False)
     added: list[str] = []
     for step in discover_all(records, diagnosis.model, progress=say):
         if not isinstance(step, AutoStep):
@@ -180,7 +180,7 @@ def refined(records: Sequence[Record], before: Found) -> Found:
     few samples a second cannot tell from which side its slider comes, and that looks like a spike at the reversal.
     For the same reason readings far off count less (`diagnose --robust`).
     """
-    diagnosis = diagnose(records, before.model, robust=True, check_held_out=False)
+    diagnosis = diagnose(Samples.of(records), before.model, robust=True, check_held_out=False)
     return replace(before, model=diagnosis.model, rms_um=diagnosis.rms_after_um)
 
 

@@ -87,10 +87,15 @@ class WorstSamples:
     @property
     def sentences(self) -> list[str]:
         """Number and residual, and each circumstance, in words."""
-        first = f"{self.samples} with a residual of {self.rms_um:.2f} µm RMS, the others {_shown(self.rms_elsewhere_um)}"
+        first = (
+            f"{self.samples} with a residual of {self.rms_um:.2f} µm RMS, the others {_shown(self.rms_elsewhere_um)}"
+        )
         if not self.common:
             return [f"{first}; no circumstance is over-represented among them"]
-        return [f"{first}; over-represented among them (not always the cause):", *(each.sentence for each in self.common)]
+        return [
+            f"{first}; over-represented among them (not always the cause):",
+            *(each.sentence for each in self.common),
+        ]
 
 
 def worst_samples(samples: Samples, residual_mm: FloatArray) -> WorstSamples:

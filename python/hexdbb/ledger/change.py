@@ -6,8 +6,6 @@ fit that was stale. Circles held out of both fits say whether it holds where it 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 

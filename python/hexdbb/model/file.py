@@ -14,8 +14,8 @@ from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import replacing
 from hexdbb.files.validation import dump_toml, load_toml
 from hexdbb.machine import MachineFile
-from hexdbb.model.earlier import Describe, earlier_entry, earlier_snapshot
 from hexdbb.model.catalogue import effect_info
+from hexdbb.model.earlier import Describe, earlier_entry, earlier_snapshot
 from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
 from hexdbb.model.ledger import LedgerStep, Size
 from hexdbb.model.model import Model

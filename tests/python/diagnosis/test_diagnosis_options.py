@@ -9,7 +9,6 @@ from tests.truth.simulate import simulate
 
 from hexdbb.cli.diagnose import choose_free, hold_redundant
 from hexdbb.diagnosis import diagnose, noise_of
-from hexdbb.diagnosis.place_uncertainty import place_uncertainty
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import new_model
@@ -84,7 +83,7 @@ def test_glitches_do_not_bend_a_robust_fit(record, found):
 
 
 def test_minimal_set_explains_as_much_with_as_many_values_as_the_rank(record, found):
-    model = hold_redundant([record], new_model(record.machine))
+    model = hold_redundant(Samples.of([record]), new_model(record.machine))
     machine = [not parameter.is_set_up for parameter in model.parameters()]
     assert int((model.free & machine).sum()) == found.rank
     minimal = diagnose(Samples.of([record]), model, check_held_out=False)
@@ -102,7 +101,7 @@ def test_noise_comes_from_laps_where_there_are_two(record):
 
 def test_place_is_known_as_well_as_it_is_said(found):
     plan = study_plan()
-    places = place_uncertainty(found, plan.circles[0], plan.mounts[0].cup_mm)
+    places = found.place
     _, error_um = place_errors_um(random_truth(SEED), plan, found)
     assert 0.3 < error_um / places.median_um < 2.5
     assert places.median_um < places.worst_um < 5.0 * places.median_um

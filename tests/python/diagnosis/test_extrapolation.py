@@ -53,7 +53,7 @@ def test_two_circles_do_not_tell_each_other_and_that_is_said() -> None:
     assert found.held_out is not None and found.held_out.after_um > 2.0 * told.noise_um
     assert found.rms_after_um < 1.1 * told.noise_um
     (said,) = [each for each in found.warnings if "held-out" in each]
-    assert said.startswith("held-out circles are extrapolated: with circle")
+    assert said.startswith("held-out circles are extrapolated: without circle")
     assert "measure more circles" in said
 
 
@@ -76,5 +76,5 @@ def test_one_circle_cannot_be_left_out() -> None:
 def test_values_that_go_together_are_told_in_one_line() -> None:
     record = measured("backlash-x3-s1")
     found = add_effect(Samples.of([record]), diagnosed("backlash-x3-s1").model, "backlash:4")
-    (said,) = [each for each in found.warnings if "go together" in each]
+    (said,) = [each for each in found.warnings if "correlated" in each]
     assert "leg_length:1:2 longer (+1.000); leg_length:3:4 longer (+1.000); leg_length:5:6 longer (+1.000)" in said

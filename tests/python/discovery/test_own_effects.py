@@ -58,7 +58,7 @@ def test_what_is_wrong_is_named_and_the_rest_goes_on(measured: Callable[[str], R
     model = knowing_mine(record, mine)
     failed = failing_effects(Samples.of([record]), model, list(model.own_effects))
     assert {name: str(error).removeprefix(str(mine)) for name, error in failed.items()} == {
-        "broken": ":17: effect broken: AttributeError: 'SampleState' object has no attribute 'nothing'",
+        "broken": ":17: effect broken: AttributeError: 'Samples' object has no attribute 'nothing'",
         "constant": ":19: effect constant: size: the same in every sample (expected a push that depends on the state)",
     }
     found = discover(Samples.of([record]), model, ["dent", "late", "broken", "constant", "backlash"])

@@ -7,13 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb import _core
 from hexdbb.diagnosis import Noise
 from hexdbb.discovery.screen import Screen, screen
 from hexdbb.discovery.search import absent_effects
 from hexdbb.model import Model, Parameter, new_model, new_term
 from hexdbb.record import Record
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, linearise
 
 NOISE = Noise(0.5e-3, "stated")
 TRIED = ("backlash", "pitch_cyclic", "straightness", "gravity_sag", "servo_lag", "sample_delay")
@@ -26,14 +25,13 @@ def model_of(record: Record) -> Model:
 def fall_of_chi_square(record: Record, model: Model, effect: str, element: str) -> float:
     """By brute force: all rows of the Jacobian, the prior as rows more, two calls of lstsq."""
     full = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
-    samples = samples_of([record], full)
-    predicted = _core.predict(full.engine(samples), samples, True)
+    predicted = linearise(Samples.of([record]), full)
     parameters = full.parameters()
     own = np.flatnonzero(full.free)
     tried = [i for i, each in enumerate(parameters) if (each.effect, each.element) == (effect, element)]
     prior = np.array([parameters[column].prior_sigma for column in own])
     rows = np.vstack([predicted.jacobian[:, own] / NOISE.sigma_mm, np.diag(1.0 / prior)])
-    right = np.concatenate([(record.reading_mm - predicted.reading_mm) / NOISE.sigma_mm, -full.values[own] / prior])
+    right = np.concatenate([predicted.residual_mm / NOISE.sigma_mm, -full.values[own] / prior])
     more = np.vstack([predicted.jacobian[:, tried] / NOISE.sigma_mm, np.zeros((len(own), len(tried)))])
 
     def left(columns: np.ndarray) -> float:

@@ -191,7 +191,7 @@ def test_expected_uncertainty_is_the_posterior_of_repeated_fits() -> None:
     truth = rng.normal(size=(scaled.shape[1], count))
     gain = np.linalg.solve(scaled.T @ scaled + np.eye(scaled.shape[1]), scaled.T)
     errors = gain @ (scaled @ truth + rng.normal(size=(len(scaled), count))) - truth
-    stated = np.sqrt(np.diag(expected_covariance(taken, NOISE_MM)))[taken.free] / taken.sizes[taken.free]
+    stated = np.sqrt(np.diag(expected_covariance(taken, NOISE_MM)))[taken.free] / taken.prior_sigma[taken.free]
     np.testing.assert_allclose(errors.std(axis=1), stated, rtol=0.06)
 
 
