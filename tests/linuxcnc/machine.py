@@ -18,6 +18,7 @@ from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.model import default_effects, new_model
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import Samples
 
 SEED = 5
 EFFECTS = ("backlash", "pitch_cyclic", "gravity_sag")
@@ -51,6 +52,6 @@ def write_compensation(truth: TruthFile, path: Path) -> Diagnosis:
     """Measure the standard circles on a machine, diagnose it and write its compensation file; return the diagnosis."""
     record = simulate(truth, discovery_plan(), pace=PACE)
     geometry = [effect for effect, is_free in default_effects(record.machine).items() if is_free]
-    found = diagnose([record], new_model(record.machine, [*geometry, *EFFECTS]))
+    found = diagnose(Samples.of([record]), new_model(record.machine, [*geometry, *EFFECTS]))
     compensation.write_compensation(compensation.make_compensation(found.model), path)
     return found

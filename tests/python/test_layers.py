@@ -30,7 +30,7 @@ ALLOWED: dict[str, set[str]] = {
     "record": {"errors", "files", "machine", "plan"},
     # the machine's line
     "model": {"errors", "files", "units", "machine", "kinematics", "_core"},
-    "samples": {"errors", "files", "plan", "record", "kinematics", "model", "_core"},
+    "samples": {"errors", "files", "machine", "plan", "record", "kinematics", "model", "_core"},
     "effects": {"errors", "units", "machine", "plan", "kinematics", "model", "samples", "_core"},
     "identifiability": {"errors", "plan", "record", "kinematics", "model", "samples", "_core"},
     "diagnosis": {

@@ -31,6 +31,7 @@ from hexdbb.plan import Plan
 from hexdbb.record import Record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import GaugeTruth, TruthFile, random_truth
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 ReportStep = Callable[[str], None]
@@ -105,7 +106,7 @@ def silent(truth: TruthFile) -> TruthFile:
 def found_in(records: Sequence[Record], model: Model, report_step: ReportStep) -> Found:
     """Return the model diagnosed and extended until nothing is missing, as `hexdbb discover --auto` does."""
     report_step("diagnosing")
-    diagnosis = diagnose(records, model, check_held_out=False)
+    diagnosis = diagnose(Samples.of(records), model, check_held_out=False)
     added: list[str] = []
     for step in discover_all(records, diagnosis.model, progress=report_step):
         if not isinstance(step, AutoStep):
@@ -134,7 +135,7 @@ def drive_of(model: Model, machine: MachineFile) -> Drive:
 
 def circle_errors(record: Record) -> Iterator[CircleError]:
     """Yield the radial error of every circle of a record."""
-    for circle in compare_circles(record, record.name, np.zeros(len(record))):
+    for circle in compare_circles(Samples.of([record]), np.zeros(len(record))):
         radial_mm = circle.radial_mm
         if radial_mm is None:
             raise InputError(f"circle {circle.circle.id}: not a full circle (expected one)")
@@ -180,7 +181,7 @@ def refined(records: Sequence[Record], before: Found) -> Found:
     record of few samples per second does not determine the direction of travel, which resembles a spike at the
     reversal. For the same reason outliers are weighted down (`diagnose --robust`).
     """
-    diagnosis = diagnose(records, before.model, robust=True, check_held_out=False)
+    diagnosis = diagnose(Samples.of(records), before.model, robust=True, check_held_out=False)
     return replace(before, model=diagnosis.model, rms_um=diagnosis.rms_after_um)
 
 

@@ -26,6 +26,7 @@ from hexdbb.plan import Plan, load_plan
 from hexdbb.rig.geometry import true_geometry
 from hexdbb.rig.pose_solver import Hexapod, Poses, solve_poses
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 
@@ -67,7 +68,9 @@ def true_values(truth: TruthFile, model: Model) -> Floats:
 def trial(seed: int, plan: Plan) -> Trial:
     """Return the result of measuring and diagnosing one machine."""
     truth = random_truth(seed)
-    found = diagnose([simulate(truth, plan, seed, PACE)], new_model(plan.machine_file()), check_held_out=False)
+    found = diagnose(
+        Samples.of([simulate(truth, plan, seed, PACE)]), new_model(plan.machine_file()), check_held_out=False
+    )
     model = found.model
     known = ~np.isnan(model.sigma)
     sigmas = np.abs(model.values - true_values(truth, model))[known] / model.sigma[known]

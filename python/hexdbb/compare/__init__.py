@@ -1,16 +1,16 @@
-"""Predicted against measured: per record, circle, feed and direction, in ISO 230-4 quantities, and where it is worst.
+"""Comparison of predicted with measured readings: ISO 230-4 quantities, largest residuals, predictors of the residual.
 
-The core takes arrays and knows nothing of models::
+::
 
-    comparison = compare(records, [predict_reading_mm(record, model) for record in records])
+    comparison = compare(Samples.of(records), model)
     comparison.rms_mm, comparison.worst[0].where, comparison.to_json()
 """
 
 from hexdbb.compare.circles import CircleComparison, DirectionComparison
-from hexdbb.compare.comparison import Comparison, compare
+from hexdbb.compare.comparison import Comparison, compare, compare_readings
 from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
 from hexdbb.compare.radial import RadialError
-from hexdbb.compare.worst import WorstPlace
+from hexdbb.compare.worst_arcs import WorstArc
 
 __all__ = [
     "QUANTITIES",
@@ -21,6 +21,7 @@ __all__ = [
     "Quantities",
     "Quantity",
     "RadialError",
-    "WorstPlace",
+    "WorstArc",
     "compare",
+    "compare_readings",
 ]

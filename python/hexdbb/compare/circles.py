@@ -1,4 +1,4 @@
-"""One circle at one feed: its samples, its mean paths measured and predicted, its residual in either direction.
+"""One circle at one feed: its samples, its mean paths measured and predicted, its residual in each direction.
 
 Convention: residual = measured - predicted. Radial deviation of a path = reading + bar length - nominal radius.
 """
@@ -12,15 +12,19 @@ import numpy as np
 import numpy.typing as npt
 
 from hexdbb.compare import iso230
-from hexdbb.compare.both_ways import BothWays, both_ways
+from hexdbb.compare.both_directions import BothDirections, both_directions
 from hexdbb.compare.harmonics import Harmonic, harmonics
 from hexdbb.compare.iso230 import FloatArray, Path
 from hexdbb.compare.quantities import Quantities, evaluate_quantities
 from hexdbb.compare.set_up import without_set_up_mm
 from hexdbb.plan import Circle
+from hexdbb.predictors import record_names
 from hexdbb.record import Record
+from hexdbb.samples import Samples
 
-IndexArray = npt.NDArray[np.int64]
+IndexArray = npt.NDArray[np.intp]
+
+SECONDS_PER_MINUTE = 60.0
 
 DIRECTION_NAMES: Mapping[int, str] = {1: "counter-clockwise", -1: "clockwise"}
 SHORT_DIRECTION_NAMES: Mapping[int, str] = {1: "ccw", -1: "cw"}
@@ -35,15 +39,15 @@ class DirectionComparison:
     direction : int
         +1 counter-clockwise, -1 clockwise, seen from above the circle's plane.
     rows : (n,) int array
-        Its samples in the record, so that any other column can be set against the residual.
+        Its samples in the table, so that any column can be plotted against the residual.
     angle_rad : (n,) array
-        Commanded polar angle as recorded.
+        Commanded polar angle.
     residual_mm : (n,) array
         Measured minus predicted reading.
     radial_mm : (n,) array or None
         Radial error of each sample: reading less what the commanded circle would read about a cup that is off in its
         plane, the offset found by least squares over both directions (`hexdbb.compare.set_up`). No model is in it: it
-        is what the machine, compensated or not, does to a commanded circle. None where no direction is a full circle.
+        is what the machine, compensated or not, makes of a commanded circle. None where no direction is a full circle.
     measured, predicted : Path
         Mean path over the laps.
     measured_quantities, predicted_quantities : Quantities
@@ -93,12 +97,12 @@ class CircleComparison:
         return root_mean_square(np.concatenate([part.residual_mm for part in self.directions]))
 
     @property
-    def both_ways(self) -> BothWays | None:
-        """Residuals of both directions held together; None where one is missing."""
+    def both_directions(self) -> BothDirections | None:
+        """Residuals of both directions combined; None where one is missing."""
         if len(self.directions) < 2:
             return None
         ccw, cw = ((part.angle_rad, part.residual_mm) for part in self.directions)
-        return both_ways(ccw, cw)
+        return both_directions(ccw, cw)
 
     @property
     def set_up_centre_mm(self) -> FloatArray | None:
@@ -114,49 +118,51 @@ class CircleComparison:
 
 
 def root_mean_square(values: FloatArray) -> float:
-    """Root mean square, not corrected for degrees of freedom."""
+    """Return the root mean square, not corrected for degrees of freedom."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 
-def compare_circles(record: Record, name: str, predicted_mm: FloatArray) -> list[CircleComparison]:
-    """Split one record by circle and feed and compare each part.
+def compare_circles(samples: Samples, predicted_mm: FloatArray) -> list[CircleComparison]:
+    """Compare measured with predicted readings, circle by circle and feed by feed, in the order of the records.
 
     Parameters
     ----------
-    record : Record
-        At least one sample.
-    name : str
-        What the record is called in tables and sentences.
+    samples : Samples
+        At least one.
     predicted_mm : (n,) array
         Predicted reading of each sample.
     """
-    columns = record.columns
-    parts = np.unique(np.column_stack([columns["circle"], columns["feed_mm_min"]]), axis=0)
-    return [_compare_circle(record, name, predicted_mm, int(circle), float(feed)) for circle, feed in parts]
+    names = record_names(samples.records)
+    keys = np.column_stack([samples["record"], samples["circle"], samples["feed_mm_s"]])
+    parts, member = np.unique(keys, axis=0, return_inverse=True)
+    member = member.ravel()
+    return [
+        _compare_circle(samples, predicted_mm, np.flatnonzero(member == number), names[int(record)])
+        for number, (record, _, _) in enumerate(parts)
+    ]
 
 
-def _compare_circle(
-    record: Record, name: str, predicted_mm: FloatArray, circle_id: int, feed_mm_min: float
-) -> CircleComparison:
-    columns = record.columns
-    circle = record.circle(circle_id)
-    here = (columns["circle"] == circle_id) & (columns["feed_mm_min"] == feed_mm_min)
+def _compare_circle(samples: Samples, predicted_mm: FloatArray, here: IndexArray, name: str) -> CircleComparison:
+    """Compare the samples of one circle of one record at one feed, rows `here` of the table."""
+    part, predicted_here_mm = samples.part(here), predicted_mm[here]
+    record = samples.records[int(part["record"][0])]
+    circle = record.circle(int(part["circle"][0]))
+    bar_mm, angle_rad, reading_mm = record.gauge.bar_length_mm, part["angle_rad"], part.reading_mm
     rows = {
         direction: found
         for direction in DIRECTION_NAMES
-        if len(found := np.flatnonzero(here & (columns["direction"] == direction)))
+        if len(found := np.flatnonzero(part["direction"] == direction))
     }
-    measured = {d: _mean_path(record, circle, found, record.reading_mm) for d, found in rows.items()}
-    predicted = {d: _mean_path(record, circle, found, predicted_mm) for d, found in rows.items()}
+    measured = {d: _mean_path(part.part(found), circle, bar_mm, reading_mm[found]) for d, found in rows.items()}
+    predicted = {d: _mean_path(part.part(found), circle, bar_mm, predicted_here_mm[found]) for d, found in rows.items()}
     measured_quantities, predicted_quantities = evaluate_quantities(measured), evaluate_quantities(predicted)
-    angle_rad = np.radians(columns["angle_deg"])
-    residual_mm = record.reading_mm - predicted_mm
+    residual_mm = reading_mm - predicted_here_mm
     is_full = any(path.is_full_circle for path in measured.values())
-    radial_mm = _radial_mm(record, circle, rows) if is_full else {}
+    radial_mm = _radial_mm(angle_rad, reading_mm + bar_mm, circle, rows) if is_full else {}
     directions = tuple(
         DirectionComparison(
             direction=direction,
-            rows=found,
+            rows=here[found],
             angle_rad=angle_rad[found],
             residual_mm=residual_mm[found],
             radial_mm=radial_mm.get(direction),
@@ -168,21 +174,21 @@ def _compare_circle(
         )
         for direction, found in rows.items()
     )
+    # Nine decimals undo the rounding of mm/min to mm/s and back.
+    feed_mm_min = round(SECONDS_PER_MINUTE * float(part["feed_mm_s"][0]), 9)
     return CircleComparison(name, compensation_of(record), circle, feed_mm_min, directions)
 
 
 def compensation_of(record: Record) -> str | None:
-    """Name of the compensation file a record was driven with; None where it was not."""
+    """Return the name of the compensation file a record was driven with; None where it was not."""
     driven = record.metadata.get("compensation")
     return str(driven.get("file", "a compensation")) if isinstance(driven, dict) else None
 
 
-def _mean_path(record: Record, circle: Circle, rows: IndexArray, reading_mm: FloatArray) -> Path:
-    """Mean path over the laps (and repeated sweeps) of the given samples."""
-    columns = record.columns
-    angle_rad = np.radians(columns["angle_deg"][rows])
-    deviation_mm = reading_mm[rows] + (record.gauge.bar_length_mm - circle.radius_mm)
-    turns = np.column_stack([columns["sweep"][rows], columns["lap"][rows]])
+def _mean_path(part: Samples, circle: Circle, bar_mm: float, reading_mm: FloatArray) -> Path:
+    """Return the mean path over the laps (and repeated sweeps) of some samples of one direction."""
+    angle_rad, deviation_mm = part["angle_rad"], reading_mm + (bar_mm - circle.radius_mm)
+    turns = np.column_stack([part["sweep"], part["lap"]])
     _, turn_of = np.unique(turns, axis=0, return_inverse=True)
     turn_of = turn_of.ravel()
     return iso230.mean_path(
@@ -193,13 +199,11 @@ def _mean_path(record: Record, circle: Circle, rows: IndexArray, reading_mm: Flo
     )
 
 
-def _radial_mm(record: Record, circle: Circle, rows: Mapping[int, IndexArray]) -> dict[int, FloatArray]:
-    """Radial error by direction, the cup's offset found from both together."""
+def _radial_mm(
+    angle_rad: FloatArray, distance_mm: FloatArray, circle: Circle, rows: Mapping[int, IndexArray]
+) -> dict[int, FloatArray]:
+    """Return the radial error by direction, the cup's offset found from both together."""
     joined = np.concatenate(list(rows.values()))
-    left_mm = without_set_up_mm(
-        np.radians(record.columns["angle_deg"][joined]),
-        record.reading_mm[joined] + record.gauge.bar_length_mm,
-        circle.radius_mm,
-    )
+    left_mm = without_set_up_mm(angle_rad[joined], distance_mm[joined], circle.radius_mm)
     ends = np.cumsum([len(found) for found in rows.values()])[:-1]
     return dict(zip(rows, np.split(left_mm, ends), strict=True))

@@ -1,4 +1,4 @@
-"""The comparison of records with their prediction."""
+"""The comparison of samples with what a model predicts for them."""
 
 from __future__ import annotations
 
@@ -9,127 +9,168 @@ from typing import Any
 import numpy as np
 
 from hexdbb.compare.circles import CircleComparison, compare_circles, root_mean_square
-from hexdbb.compare.failures import Failures, failures
 from hexdbb.compare.iso230 import FloatArray
-from hexdbb.compare.json_form import comparison_html, comparison_json
+from hexdbb.compare.json_form import ComparisonJson
+from hexdbb.compare.notebook import comparison_html
 from hexdbb.compare.radial import RadialError, radial_errors
-from hexdbb.compare.worst import WorstPlace, worst_places
+from hexdbb.compare.worst_arcs import WorstArc, worst_arcs
+from hexdbb.compare.worst_samples import WorstSamples, worst_samples
+from hexdbb.diagnosis import fit_mounts, noise_of
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
-from hexdbb.predictors import Carrier, Columns, Pushes, State, carriers, sample_columns
-from hexdbb.record import Record
+from hexdbb.model import Model
+from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
+from hexdbb.samples import Samples, predict
 
 WORST_COUNT = 5
+"""Number of worst arcs listed: as many as are read."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Comparison:
-    """Measured against predicted over all samples of all records.
+    """Measured against predicted readings over all samples.
 
     Attributes
     ----------
-    rms_mm, peak_to_valley_mm : float
-        Of the residual, measured minus predicted, over every sample.
+    samples : Samples
+        What was compared.
+    predicted_mm, residual_mm : (n,) arrays
+        Predicted reading of each sample, and measured minus predicted.
     circles : tuple of CircleComparison
         In the order of the records, then circle, then feed.
     radial : tuple of RadialError
-        Radial error of the commanded circles, one a record; no model is in it.
-    worst : tuple of WorstPlace
+        Radial error of the commanded circles, one for each record; independent of the model.
+    worst : tuple of WorstArc
         Arcs with the largest residual, largest first.
-    failures : Failures
-        What the samples with the largest residuals have in common.
-    dependences : tuple of Carrier
-        How much of the residual each variable of the samples' state carries, the most telling first.
-    columns : dict of str to (n,) arrays
-        Every sample: where and when it was taken, measured, predicted and residual in um.
+    worst_samples : WorstSamples
+        The samples with the largest residuals, and what is over-represented among them.
+    predictors : tuple of Predictor
+        Variables of the samples that explain the residual, those of most worth first.
+    fitted_mounts : tuple of str
+        One sentence for each set-up that the model did not know, so that its cup was fitted first.
     """
 
-    rms_mm: float
-    peak_to_valley_mm: float
+    samples: Samples = field(repr=False)
+    predicted_mm: FloatArray = field(repr=False)
+    residual_mm: FloatArray = field(repr=False)
     circles: tuple[CircleComparison, ...]
     radial: tuple[RadialError, ...]
-    worst: tuple[WorstPlace, ...]
-    failures: Failures
-    dependences: tuple[Carrier, ...]
-    columns: Columns = field(repr=False, compare=False)
+    worst: tuple[WorstArc, ...]
+    worst_samples: WorstSamples
+    predictors: tuple[Predictor, ...]
+    fitted_mounts: tuple[str, ...]
+
+    @property
+    def rms_mm(self) -> float:
+        """Root mean square residual of all samples."""
+        return root_mean_square(self.residual_mm)
+
+    @property
+    def peak_to_valley_mm(self) -> float:
+        """Largest minus smallest residual of all samples."""
+        return float(np.ptp(self.residual_mm))
 
     def to_json(self) -> dict[str, Any]:
-        """Give the object `hexdbb compare --json` prints: micrometres, null where a quantity cannot be evaluated."""
-        return comparison_json(self)
+        """Return the object `hexdbb compare --json` prints: micrometres, None where a quantity cannot be evaluated."""
+        return ComparisonJson.of(self).to_json()
 
     def to_frame(self) -> Any:
-        """Give `columns` as a ``pandas.DataFrame``, a row a sample; `InputError` where pandas is not installed."""
-        return to_frame(self.columns)
+        """Return the samples with predicted reading and residual as a ``pandas.DataFrame``, a row for each.
+
+        Raises
+        ------
+        InputError
+            Where pandas is not installed.
+        """
+        return to_frame(self.samples.columns() | {"predicted_mm": self.predicted_mm, "residual_mm": self.residual_mm})
 
     def _repr_html_(self) -> str:
         return comparison_html(self)
 
 
-def compare(
-    records: Sequence[Record],
-    predicted_mm: Sequence[FloatArray],
-    states: Sequence[State] | None = None,
-    pushes: Sequence[Pushes] | None = None,
-    noise_mm: float = 0.0,
-) -> Comparison:
-    """Compare records with predicted readings.
+def compare(samples: Samples, model: Model) -> Comparison:
+    """Compare the readings of samples with those that a model predicts.
+
+    The cups of mounts that the model does not know are fitted first, all else held; `Comparison.fitted_mounts` states
+    where they are.
 
     Parameters
     ----------
-    records : sequence of Record
-        At least one, each with at least one sample.
-    predicted_mm : sequence of (n,) arrays
-        For each record, the predicted reading of each of its samples, in mm.
-    states : sequence of mappings, optional
-        For each record, columns of the machine's state that are not in it: velocities and reversals of the sliders, as
-        `hexdbb.samples.samples_of(...).state` gives them. Without them nothing is said of these.
-    pushes : sequence of Pushes, optional
-        For each record, how its readings answer to pushes on the machine. Without them what depends on a slider is
-        sought in the reading as it stands, and nothing is said of guideways and legs.
-    noise_mm : float
-        Of one reading, where it is known.
+    samples : Samples
+        At least one.
+    model : Model
 
     Raises
     ------
     InputError
-        No record, an empty one, or a prediction that does not belong to its record.
+        No samples in a record, a machine that differs, or a sample that the model's machine cannot reach.
     """
-    if not records or len(records) != len(predicted_mm):
-        raise InputError(f"comparing needs one prediction per record, got {len(predicted_mm)} for {len(records)}")
-    circles: list[CircleComparison] = []
-    names = _names(records)
-    for record, name, predicted in zip(records, names, predicted_mm, strict=True):
-        _check_prediction(record, name, predicted)
-        circles += compare_circles(record, name, predicted)
-    residual_mm = np.concatenate([part.residual_mm for circle in circles for part in circle.directions])
-    columns = sample_columns(records, names, predicted_mm, states or [{} for _ in records])
+    _require_samples(samples)
+    known, fitted = fit_mounts(samples, model)
+    predicted_mm = predict(samples, known).reading_mm
+    noise_mm = noise_of(samples).sigma_mm
+    return compare_readings(samples, predicted_mm, Pushes.of(samples, known), noise_mm, fitted)
+
+
+def compare_readings(
+    samples: Samples,
+    predicted_mm: FloatArray,
+    pushes: Pushes | None = None,
+    noise_mm: float = 0.0,
+    fitted_mounts: Sequence[str] = (),
+) -> Comparison:
+    """Compare the readings of samples with readings predicted by any means.
+
+    Parameters
+    ----------
+    samples : Samples
+        At least one of each record.
+    predicted_mm : (n,) array
+        Predicted reading of each sample.
+    pushes : Pushes, optional
+        Response of the readings to pushes on the machine. Without it every cause acts on the reading, and guideways
+        and legs are left out of the predictors.
+    noise_mm : float
+        Standard deviation of one reading; 0 where it is not known.
+    fitted_mounts : sequence of str
+        Sentences on set-ups fitted before.
+
+    Raises
+    ------
+    InputError
+        No samples in a record, or predictions that do not belong to the samples.
+    """
+    _require_samples(samples)
+    _check_prediction(samples, predicted_mm)
+    residual_mm = samples.reading_mm - predicted_mm
+    circles = compare_circles(samples, predicted_mm)
     return Comparison(
-        rms_mm=root_mean_square(residual_mm),
-        peak_to_valley_mm=float(np.ptp(residual_mm)),
+        samples=samples,
+        predicted_mm=predicted_mm,
+        residual_mm=residual_mm,
         circles=tuple(circles),
         radial=radial_errors(circles),
-        worst=tuple(worst_places(circles, WORST_COUNT)),
-        failures=failures(columns),
-        dependences=tuple(carriers(columns, None if pushes is None else Pushes.joined(list(pushes)), noise_mm)),
-        columns=columns,
+        worst=tuple(worst_arcs(circles, WORST_COUNT)),
+        worst_samples=worst_samples(samples, residual_mm),
+        predictors=tuple(rank_predictors(samples, residual_mm, pushes, noise_mm)),
+        fitted_mounts=tuple(fitted_mounts),
     )
 
 
-def _names(records: Sequence[Record]) -> list[str]:
-    """Call each record by its file's name, or by the whole path where two names are the same."""
-    paths = [record.path for record in records]
-    short = ["record" if path is None else path.name for path in paths]
-    if len(set(short)) == len(short):
-        return short
-    return [f"record {number}" if path is None else str(path) for number, path in enumerate(paths, start=1)]
+def _require_samples(samples: Samples) -> None:
+    there = set(np.unique(samples["record"]).tolist())
+    for number, name in enumerate(record_names(samples.records)):
+        if number not in there:
+            raise InputError(f"{name}: no samples (expected at least one to compare)")
 
 
-def _check_prediction(record: Record, name: str, predicted_mm: FloatArray) -> None:
-    expected = record.reading_mm.shape
-    if expected == (0,):
-        raise InputError(f"{name}: holds no samples, so there is nothing to compare")
-    if predicted_mm.shape != expected:
-        raise InputError(f"{name}: prediction of shape {predicted_mm.shape}, expected one per sample, {expected}")
+def _check_prediction(samples: Samples, predicted_mm: FloatArray) -> None:
+    if predicted_mm.shape != (len(samples),):
+        raise InputError(
+            f"{samples.name}: prediction of shape {predicted_mm.shape} (expected one per sample, ({len(samples)},))"
+        )
     if not np.isfinite(predicted_mm).all():
         row = int(np.flatnonzero(~np.isfinite(predicted_mm))[0])
-        raise InputError(f"{name}: predicted reading of sample {row} is {predicted_mm[row]}, expected a finite length")
+        raise InputError(
+            f"{samples.name}: predicted reading of sample {row} is {predicted_mm[row]} (expected a finite length)"
+        )

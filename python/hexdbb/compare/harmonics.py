@@ -13,11 +13,12 @@ import numpy as np
 from hexdbb.compare.iso230 import FloatArray
 
 HIGHEST_ORDER = 12
+"""Highest order fitted; what is above depends on sliders' positions (screws) or on time, not on the angle."""
 
 
 @dataclass(frozen=True)
 class Harmonic:
-    """One harmonic: amplitude (mm), and the angle of its first crest times the order (rad, from -pi to pi)."""
+    """One harmonic: amplitude (mm), and phase p (rad, from -pi to pi), the angle of its first crest times the order."""
 
     order: int
     amplitude_mm: float

@@ -1,4 +1,4 @@
-"""Which ISO 230-4 quantities a comparison states, under which name and symbol: one table for JSON, text and plots.
+"""The ISO 230-4 quantities of a comparison, with name and symbol: one table for JSON, text and plots.
 
 Definitions and edition are in `iso230`. A quantity that cannot be evaluated (one direction only, a capture that
 was cut short) is None, never 0.
@@ -22,7 +22,7 @@ Quantities = Mapping[str, float | None]
 
 @dataclass(frozen=True)
 class Measurand:
-    """What a quantity is evaluated on: one direction's path, the other's if there is one, and the set-up's centre."""
+    """Input of a quantity: one direction's path, the other's if there is one, and the set-up's centre."""
 
     own: Path
     other: Path | None
@@ -116,7 +116,7 @@ QUANTITIES: tuple[Quantity, ...] = (
 
 
 def evaluate_quantities(paths: Mapping[int, Path]) -> dict[int, Quantities]:
-    """Quantities of each direction of one circle at one feed.
+    """Evaluate the quantities of each direction of one circle at one feed.
 
     Parameters
     ----------
@@ -127,13 +127,16 @@ def evaluate_quantities(paths: Mapping[int, Path]) -> dict[int, Quantities]:
     Returns
     -------
     dict
-        For each direction given, every key of `QUANTITIES`.
+        For each direction given, every key of `QUANTITIES`; those of both directions are evaluated once.
     """
     full = {direction: path for direction, path in paths.items() if path.is_full_circle}
     values: dict[int, Quantities] = dict.fromkeys(paths, MappingProxyType(dict.fromkeys(q.key for q in QUANTITIES)))
     if full:
         centre_mm = iso230.set_up_centre_mm(*full.values())
+        of_both: dict[str, float | None] = {}
         for direction, own in full.items():
             measurand = Measurand(own, full.get(-direction), centre_mm)
-            values[direction] = MappingProxyType({q.key: q.evaluate(measurand) for q in QUANTITIES})
+            of_both = of_both or {q.key: q.evaluate(measurand) for q in QUANTITIES if q.of_both}
+            of_own = {q.key: q.evaluate(measurand) for q in QUANTITIES if not q.of_both}
+            values[direction] = MappingProxyType({q.key: (of_both | of_own)[q.key] for q in QUANTITIES})
     return values

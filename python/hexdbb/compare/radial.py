@@ -1,8 +1,8 @@
-"""Radial error of commanded circles, record by record: what a machine does, whatever a model says of it.
+"""Radial error of commanded circles, record by record: what a machine does, independent of any model.
 
 Definition: `DirectionComparison.radial_mm`, over every sample; peak to valley is that of one circle at one feed, both
 directions, the largest. In a record driven with compensation the sliders stand where the controller has put them, so
-that a model's residual says nothing of the compensation: this does.
+a model's residual is no measure of the compensation: this is.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class RadialError:
 
 
 def radial_errors(circles: Sequence[CircleComparison]) -> tuple[RadialError, ...]:
-    """Give the radial error of each record, in their order."""
+    """Return the radial error of each record, in their order."""
     names = dict.fromkeys(circle.record_name for circle in circles)
     return tuple(_of_record([circle for circle in circles if circle.record_name == name]) for name in names)
 

@@ -1,4 +1,4 @@
-"""The residual as text: what the worst samples share, what is common to both directions, harmonics, state variables."""
+"""The residual as text: worst samples, part common to both directions, harmonics, predictors."""
 
 from __future__ import annotations
 
@@ -12,38 +12,41 @@ from rich.table import Table
 
 from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, root_mean_square
 from hexdbb.compare.quantities import UM_PER_MM
-from hexdbb.predictors import sentence, telling
+from hexdbb.predictors import main_predictors, sentence
 
 if TYPE_CHECKING:
     from hexdbb.compare.comparison import Comparison
 
 MOST_HARMONICS = 8
-MOST_VARIABLES = 8
+"""Number of harmonics printed, of all circles: a screen with the tables above."""
+MOST_PREDICTORS = 8
+"""Number of predictors printed."""
 
 
 def residual_text(comparison: Comparison) -> Iterator[RenderableType]:
     """Yield the parts, an empty line between them."""
-    first, *common = comparison.failures.sentences
-    yield f"What fails: {first}"
+    first, *common = comparison.worst_samples.sentences
+    yield f"Worst samples: {first}"
     yield from (f"  {each}" for each in common)
     yield ""
-    if any(circle.both_ways is not None for circle in comparison.circles):
-        yield _both_ways_table(comparison)
+    if any(circle.both_directions is not None for circle in comparison.circles):
+        yield _both_directions_table(comparison)
         yield ""
     if any(part.harmonics for circle in comparison.circles for part in circle.directions):
         yield _harmonics_table(comparison)
         yield ""
-    yield from _variables(comparison)
+    yield from _predictors(comparison)
 
 
-def _both_ways_table(comparison: Comparison) -> Table:
-    table = _table("Residual of both directions together, µm rms of arcs")
-    for heading in ("circle", "feed\nmm/min", "same both ways\n(ccw+cw)/2", "turns with direction\n(ccw-cw)/2"):
+def _both_directions_table(comparison: Comparison) -> Table:
+    table = _table("Residual of both directions combined, µm RMS of arcs")
+    for heading in ("circle", "feed\nmm/min", "common part\n(ccw+cw)/2", "reversing part\n(ccw-cw)/2"):
         table.add_column(heading, justify="right")
     for circle in comparison.circles:
-        both = circle.both_ways
+        both = circle.both_directions
         if both is not None:
-            parts = (f"{UM_PER_MM * root_mean_square(each):.2f}" for each in (both.sum_mm, both.difference_mm))
+            halves_mm = (both.half_sum_mm, both.half_difference_mm)
+            parts = (f"{UM_PER_MM * root_mean_square(each):.2f}" for each in halves_mm)
             table.add_row(_name(circle, comparison), f"{circle.feed_mm_min:g}", *parts)
     return table
 
@@ -70,12 +73,12 @@ def _harmonics_table(comparison: Comparison) -> Table:
     return table
 
 
-def _variables(comparison: Comparison) -> Iterator[str]:
-    shown = telling(list(comparison.dependences), MOST_VARIABLES)
+def _predictors(comparison: Comparison) -> Iterator[str]:
+    shown = main_predictors(comparison.predictors, MOST_PREDICTORS)
     if not shown:
-        yield "No variable carries any of the residual: what is fitted to half of the laps does not predict the others."
+        yield "No predictor of the residual: no variable fitted to half of the laps explains any of the other half."
         return
-    yield "What carries the residual (share of its mean square, on laps not used to find it):"
+    yield "Predictors of the residual (explained variance, cross-validated):"
     yield from (f"  {each.share:6.1%}  {sentence(each)}" for each in shown)
 
 

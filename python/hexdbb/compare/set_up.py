@@ -1,10 +1,11 @@
-"""Where the cup of one circle stands in the circle's plane, found from its readings, and what is left without it.
+"""Offset of a circle's cup in the circle's plane, found from the readings, and the radial error without it.
 
 Model: the ball runs on its commanded circle R u(a), u = (cos a, sin a); the bar reads its distance from a cup at c in
 the plane, d = |R u - c|, exactly. Least squares over c and a constant (the circle may be too large), by Gauss-Newton.
 The centre of a least squares circle through the points d u is the same to first order in c / R; of second order it
 leaves an ellipse of c^2 / R, 1 um for 0.3 mm and a bar of 90 mm, this leaves nothing.
-Assumption: a cup out of the plane by z makes the circle larger by z^2 / 2 R, which one circle cannot tell; it stays.
+Assumption: a cup out of the plane by z makes the circle larger by z^2 / 2 R, which one circle's readings do not
+determine; it stays.
 """
 
 from __future__ import annotations
@@ -14,11 +15,11 @@ import numpy as np
 from hexdbb.compare.iso230 import FloatArray
 
 STEPS = 5
-"""Each leaves c / R of what the one before it has left."""
+"""Gauss-Newton steps: each reduces the error by c / R, 0.01 at most, so that 5 reach rounding."""
 
 
 def without_set_up_mm(angle_rad: FloatArray, distance_mm: FloatArray, radius_mm: float) -> FloatArray:
-    """Radial error of each sample without the cup's offset.
+    """Return the radial error of each sample without the cup's offset.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A comparison as text: one table per direction, one for both, where it fails worst, the residual."""
+"""A comparison as text: one table per direction, one for both, the worst arcs, the residual."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from hexdbb.compare.residual_tables import residual_text
 
 
 def comparison_text(comparison: Comparison) -> RenderableType:
-    """Lay a comparison out for a terminal, all lengths in micrometres."""
+    """Return a comparison laid out for a terminal, all lengths in micrometres."""
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     parts: list[RenderableType] = [
+        *comparison.fitted_mounts,
         *_radial_lines(comparison),
-        f"Residual (measured - predicted): rms {rms_um:.2f} µm, peak to valley {peak_um:.1f} µm",
+        f"Residual (measured - predicted): {rms_um:.2f} µm RMS, {peak_um:.1f} µm peak to valley",
         *_compensated_note(comparison),
         "",
         _directions_table(comparison),
@@ -29,8 +30,8 @@ def comparison_text(comparison: Comparison) -> RenderableType:
         "",
         *_notes(comparison),
         "",
-        "Where the prediction fails worst:",
-        *(f"  {UM_PER_MM * place.rms_mm:8.2f} µm rms  {place.where}" for place in comparison.worst),
+        "Largest residuals (arcs of ten degrees):",
+        *(f"  {UM_PER_MM * arc.rms_mm:8.2f} µm RMS  {arc.where}" for arc in comparison.worst),
         "",
         *residual_text(comparison),
     ]
@@ -38,7 +39,7 @@ def comparison_text(comparison: Comparison) -> RenderableType:
 
 
 def _radial_lines(comparison: Comparison) -> Iterator[str]:
-    """One line a record: what the machine makes of a commanded circle."""
+    """Yield the radial error of each record's commanded circles, one line for each."""
     for each in comparison.radial:
         of = f" of {each.record_name}" if _several_records(comparison) else " of the commanded circles"
         driven = f", compensated by {each.compensation}" if each.compensation else ""
@@ -46,33 +47,35 @@ def _radial_lines(comparison: Comparison) -> Iterator[str]:
             yield f"Radial error{of}{driven}: - (no full circle)"
             continue
         yield (
-            f"Radial error{of}{driven}: rms {UM_PER_MM * each.rms_mm:.2f} µm,"
-            f" peak to valley {UM_PER_MM * each.peak_to_valley_mm:.1f} µm (circle {each.worst_circle})"
+            f"Radial error{of}{driven}: {UM_PER_MM * each.rms_mm:.2f} µm RMS,"
+            f" {UM_PER_MM * each.peak_to_valley_mm:.1f} µm peak to valley (circle {each.worst_circle})"
         )
 
 
 def _compensated_note(comparison: Comparison) -> list[str]:
     if not any(each.compensation for each in comparison.radial):
         return []
-    return ["The residual judges the model where the sliders were; the radial error judges machine and compensation."]
+    return [
+        "The residual tests the model at the actual slider positions; the radial error tests machine and compensation."
+    ]
 
 
 def _directions_table(comparison: Comparison) -> Table:
-    """Two lines per direction: measured with the residual, and predicted."""
+    """Return two lines per direction: measured with the residual, and predicted."""
     own = [quantity for quantity in QUANTITIES if not quantity.of_both]
     table = _table("Each direction (ccw counter-clockwise, cw clockwise), µm", comparison)
     table.add_column("direction", no_wrap=True, min_width=13)
-    for heading in (*(quantity.symbol for quantity in own), "resid.\nrms", "resid.\np-v"):
+    for heading in (*(quantity.symbol for quantity in own), "resid.\nRMS", "resid.\np-v"):
         table.add_column(heading, justify="right", min_width=6)
     for circle in comparison.circles:
         for part in circle.directions:
-            way = SHORT_DIRECTION_NAMES[part.direction]
+            direction = SHORT_DIRECTION_NAMES[part.direction]
             residual = (f"{UM_PER_MM * part.rms_mm:.2f}", f"{UM_PER_MM * part.peak_to_valley_mm:.1f}")
             measured = (_number(part.measured_quantities[quantity.key]) for quantity in own)
             predicted = (_number(part.predicted_quantities[quantity.key]) for quantity in own)
             set_up = _set_up(circle, comparison)
-            table.add_row(*set_up, f"{way} measured", *measured, *residual)
-            table.add_row(*("" for _ in set_up), f"{way} predicted", *predicted)
+            table.add_row(*set_up, f"{direction} measured", *measured, *residual)
+            table.add_row(*("" for _ in set_up), f"{direction} predicted", *predicted)
     return table
 
 
@@ -91,7 +94,7 @@ def _notes(comparison: Comparison) -> Iterator[str]:
     yield f"Quantities of {iso230.EDITION}:"
     yield from (f"  {quantity.symbol}: {quantity.name}" for quantity in QUANTITIES)
     yield "Radial error: of every sample, the cup's offset in the plane removed; peak to valley of the worst circle."
-    yield "Measured quantities are of the mean of the laps and hold the gauge's noise; predicted ones hold none."
+    yield "Measured quantities are of the mean of the laps and contain the gauge's noise; predicted ones contain none."
     quantities = (part.measured_quantities for circle in comparison.circles for part in circle.directions)
     if any(None in values.values() for values in quantities):
         yield "-: cannot be evaluated, because a direction is missing or its capture is not a full circle."

@@ -1,10 +1,10 @@
-"""How well a diagnosis knows where the machine goes: the uncertainty of the ball's place over the workspace.
+"""Uncertainty of the ball's position over the workspace that a diagnosis leaves.
 
-The covariance of a model's values is carried to the ball's place at poses over the workspace: D covariance D', D the
-place's derivative. A bar to a cup very far away along an axis reads the ball's place along that axis, so that D is
-the engine's own analytic derivative of the reading. What depends on motion, time or the cup is left out: it is not a
-matter of place. A rigid shift and turn of the whole base is taken out of D first: no ball bar sees it while nobody
-knows where the cup stands, and to a user of the machine it is a matter of where the workpiece is put.
+The covariance of a model's values is propagated to the ball's position at poses over the workspace: D covariance D', D
+the position's derivative. A bar to a cup very far away along an axis reads the ball's position along that axis, so that
+D is the engine's own analytic derivative of the reading. Effects of motion, time and the cup are left out: they do not
+belong to a position. A rigid shift and rotation of the whole base is projected out of D first: no ball bar sees it
+while the cup's position is unknown, and to a user of the machine it is a matter of where the workpiece is put.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.diagnosis import Diagnosis
 from hexdbb.kinematics import inverse, rotation_from_rpy
 from hexdbb.model import Model
 from hexdbb.plan import Circle
@@ -23,19 +22,25 @@ from hexdbb.plan import Circle
 Floats = NDArray[np.float64]
 
 FAR_MM = 1e9
-"""Distance of the cups by which the place is read."""
+"""Distance of the cups by which the position is read: far enough for a straight line to a rounding error."""
 NOT_OF_PLACE = {"cup", "reading"}
-"""Ports that move nothing on the machine."""
+"""Ports whose pushes move nothing on the machine."""
 HALF_WIDTH_MM, HALF_HEIGHT_MM, TILT_RAD = 90.0, 15.0, 0.15
-"""Poses about the circles: to either side of the middle of the cup's circle, and tilts."""
+"""Poses about the circle: to either side of its centre, and tilts; what the shipped machine reaches nearly everywhere."""
 STEPS = 4
+"""Poses along each horizontal axis: the uncertainty varies smoothly, and 4 x 4 x 3 positions with 7 tilts map it."""
 
 
 @dataclass(frozen=True)
 class PlaceUncertainty:
-    """Standard deviations of the ball's place (root of the sum over x, y, z) at poses over the workspace.
+    """Standard deviations of the ball's position (root of the sum over x, y, z) at poses over the workspace.
 
-    `position_mm` (n, 3) and `rpy_rad` (n, 3) are the poses, `sigma_mm` (n,) what is known of each.
+    Attributes
+    ----------
+    position_mm, rpy_rad : ndarray, shape (n, 3)
+        The poses.
+    sigma_mm : ndarray, shape (n,)
+        Standard deviation at each.
     """
 
     position_mm: Floats
@@ -53,12 +58,16 @@ class PlaceUncertainty:
         return float(np.max(self.sigma_mm)) * 1e3
 
 
-def place_uncertainty(found: Diagnosis, circle: Circle, cup_mm: tuple[float, float, float]) -> PlaceUncertainty:
-    """Carry a diagnosis' covariance to the ball's place.
+def place_uncertainty(
+    model: Model, covariance: Floats, circle: Circle, cup_mm: tuple[float, float, float]
+) -> PlaceUncertainty:
+    """Propagate the covariance of a model's values to the ball's position.
 
     Parameters
     ----------
-    found : Diagnosis
+    model : Model
+    covariance : ndarray, shape (size, size)
+        Of its values, engine units.
     circle : Circle
         One that was run: its ball, and the height about which the poses stand.
     cup_mm : tuple of float
@@ -69,14 +78,13 @@ def place_uncertainty(found: Diagnosis, circle: Circle, cup_mm: tuple[float, flo
     PlaceUncertainty
         Of all poses in reach of a grid about the circle.
     """
-    model = found.model
     position, rpy = _grid(circle, cup_mm)
     sliders, status = inverse(model.machine, position, rpy)
     position, rpy, sliders = position[status == 0], rpy[status == 0], sliders[status == 0]
     rates, columns = _rates(model, sliders, np.array(circle.ball_offset_mm))
     turned = np.array([rotation_from_rpy(each) for each in rpy]) @ np.array(circle.ball_offset_mm)
     rates = _without_rigid_motion(rates, position + turned)
-    spread = np.einsum("ij,jk,ik->i", rates, found.covariance[np.ix_(columns, columns)], rates)
+    spread = np.einsum("ij,jk,ik->i", rates, covariance[np.ix_(columns, columns)], rates)
     return PlaceUncertainty(position, rpy, np.sqrt(spread.reshape(-1, 3).sum(axis=1)))
 
 
@@ -90,9 +98,9 @@ def _grid(circle: Circle, cup_mm: tuple[float, float, float]) -> tuple[Floats, F
 
 
 def _rates(model: Model, sliders: Floats, ball: Floats) -> tuple[Floats, NDArray[np.intp]]:
-    """Derivatives of the ball's place, rows x, y, z of pose after pose, and the model's values they belong to."""
+    """Return the derivatives of the ball's position, rows x, y, z of pose after pose, and the values they belong to."""
     infos = [model.info(term.effect) for term in model.terms]
-    # An effect of the user's own is known in measured samples only: it counts as one that needs a state.
+    # An effect of the user's own is evaluated in measured samples only: it counts as one that needs a state.
     of_place = [
         not info.needs and info.name not in model.own_effects and not set(info.ports) <= NOT_OF_PLACE for info in infos
     ]

@@ -10,33 +10,30 @@ from hexdbb.identifiability.indices import (
     observability,
     pivots,
 )
-from hexdbb.identifiability.redundancy import echelon, sentences
+from hexdbb.identifiability.redundancy import KNOWN_PART, echelon, sentences
 from hexdbb.identifiability.sensitivity import (
     Sensitivity,
+    measured_sensitivity,
     plan_sensitivity,
-    readings_of,
-    record_sensitivity,
-    set_up_of,
     with_every_effect,
     with_planned_mounts,
 )
 
 __all__ = [
+    "KNOWN_PART",
     "Expectation",
     "Observability",
     "Sensitivity",
     "echelon",
     "expected_covariance",
     "expected_uncertainties",
+    "measured_sensitivity",
     "minimal_set",
     "null_directions",
     "observability",
     "pivots",
     "plan_sensitivity",
-    "readings_of",
-    "record_sensitivity",
     "sentences",
-    "set_up_of",
     "with_every_effect",
     "with_planned_mounts",
 ]

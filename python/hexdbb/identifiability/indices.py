@@ -1,9 +1,9 @@
-"""What a test can tell of a machine's errors, and how well: rank, condition, observability indices, uncertainties.
+"""What a test determines of a machine's errors, and how well: rank, condition, observability indices, uncertainties.
 
-With J the first-order Jacobian (`sensitivity`), every column times the expected size of its value (0.1 mm, and
+With J the first-order Jacobian (`sensitivity`), every column times the prior sigma of its value (0.1 mm, and
 as an angle 0.1 mm at 300 mm) and all that unknowns of the set-up can explain taken out, and s_1 >= ... >= s_r its r
 singular values above rounding, all divided by the square root of the number of readings n, so that indices compare
-circles and not patience:
+circles and not durations:
 
 - condition s_1 / s_r: Driels, Pathre, J. Robotic Systems 7(2), 1990 (their O2 is its inverse); below 100 for a
   trustworthy identification (Schroeer 1993, as cited by Nahvi and Hollerbach);
@@ -11,9 +11,9 @@ circles and not patience:
 - O3 = s_r: Nahvi, Hollerbach, Hayward, IEEE ICRA 1994;
 - O4 = s_r^2 / s_1, the noise amplification index: Nahvi, Hollerbach, IEEE ICRA 1996.
 
-Uncertainty: covariance (J'J / noise^2 + I)^-1 in units of the expected sizes, the posterior of the diagnosis, with
+Uncertainty: covariance (J'J / noise^2 + I)^-1 in units of the prior sigmas, the posterior of the diagnosis, with
 white noise. Minimal set: QR with column pivoting of the same J (Golub, Van Loan, Matrix Computations, 5.4.2): the
-values chosen as pivots explain all that the readings can tell, so that the others can be held at zero.
+values chosen as pivots span all that the readings determine, so that the others can be held at zero.
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ from hexdbb.model import Parameter
 Floats = NDArray[np.float64]
 
 RELATIVE_RANK = 1e-8
-"""Singular values below this part of the largest are rounding."""
+"""Singular values below this part of the largest are rounding: about the square root of double precision."""
 
 
 @dataclass(frozen=True)
 class Observability:
     """Rank and indices of the machine's free values, set-up taken out.
 
-    `singular_values` are of one reading on average (mm per expected size), descending, shape (values,); indices are 0
+    `singular_values` are of one reading on average (mm per prior sigma), descending, shape (values,); indices are 0
     where the rank is. `unidentifiable` are sentences.
     """
 
@@ -53,7 +53,7 @@ class Observability:
 
 
 def observability(sensitivity: Sensitivity) -> Observability:
-    """Count what readings can tell of the machine's free values, and name what they cannot."""
+    """Count what readings determine of the machine's free values, and name what they do not."""
     found = _core.identifiability(_machine_part(sensitivity), relative=RELATIVE_RANK)
     values: Floats = found.singular_values / np.sqrt(sensitivity.readings)
     seen = values[: found.rank]
@@ -70,7 +70,7 @@ def observability(sensitivity: Sensitivity) -> Observability:
 
 
 def null_directions(sensitivity: Sensitivity) -> Floats:
-    """Directions of the free values, set-up included, along which no reading changes.
+    """Return the directions of the free values, set-up included, along which no reading changes.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def null_directions(sensitivity: Sensitivity) -> Floats:
 
 
 def expected_covariance(sensitivity: Sensitivity, noise_mm: float) -> Floats:
-    """Covariance of the free values that a diagnosis of such readings would state.
+    """Compute the covariance of the free values that a diagnosis of such readings would state.
 
     Parameters
     ----------
@@ -94,10 +94,10 @@ def expected_covariance(sensitivity: Sensitivity, noise_mm: float) -> Floats:
     Returns
     -------
     ndarray, shape (size, size)
-        Engine units, expected sizes included; zero where not free.
+        Engine units, prior included; zero where not free.
     """
     scaled = sensitivity.scaled(sensitivity.free) / noise_mm
-    sizes = sensitivity.sizes[sensitivity.free]
+    sizes = sensitivity.prior_sigma[sensitivity.free]
     covariance = np.zeros((len(sensitivity.parameters),) * 2)
     columns = np.flatnonzero(sensitivity.free)
     inverse = np.linalg.inv(scaled.T @ scaled + np.eye(len(sizes)))
@@ -115,24 +115,26 @@ class Expectation:
 
 
 def expected_uncertainties(sensitivity: Sensitivity, noise_mm: float) -> list[Expectation]:
-    """Say how well each free value would be known at a gauge's noise."""
+    """Return how well each free value would be known at a gauge's noise."""
     spread = np.sqrt(np.diag(expected_covariance(sensitivity, noise_mm)))
-    told = spread <= KNOWN_PART * sensitivity.sizes
+    determined = spread <= KNOWN_PART * sensitivity.prior_sigma
     return [
         Expectation(parameter, float(sigma) if known else float("nan"), bool(known))
-        for parameter, sigma, known, free in zip(sensitivity.parameters, spread, told, sensitivity.free, strict=True)
+        for parameter, sigma, known, free in zip(
+            sensitivity.parameters, spread, determined, sensitivity.free, strict=True
+        )
         if free
     ]
 
 
 def minimal_set(sensitivity: Sensitivity, relative: float = RELATIVE_RANK) -> tuple[list[Parameter], list[Parameter]]:
-    """Choose as many of the machine's free values as the readings can tell, so that the rest can be held at zero.
+    """Choose as many of the machine's free values as the readings determine, so that the rest can be held at zero.
 
     Parameters
     ----------
     sensitivity : Sensitivity
     relative : float
-        Pivots below this part of the first count as rounding, or as told by so little that it does not matter.
+        Pivots below this part of the first count as rounding, or as determined too weakly to matter.
 
     Returns
     -------
@@ -148,7 +150,7 @@ def minimal_set(sensitivity: Sensitivity, relative: float = RELATIVE_RANK) -> tu
 
 
 def pivots(scaled_jacobian: Floats, relative: float = RELATIVE_RANK) -> list[int]:
-    """Columns in the order in which QR with column pivoting takes them, up to the rank.
+    """Return the columns in the order in which QR with column pivoting takes them, up to the rank.
 
     Parameters
     ----------

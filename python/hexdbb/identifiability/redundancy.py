@@ -1,8 +1,8 @@
-"""Directions of the unknowns that no reading can tell, as sentences.
+"""Redundant combinations of the unknowns, which change no reading, as sentences.
 
-What follows from the machine's structure is named as such (`structure`). A basis of the directions that remain
+Those that follow from the machine's structure are named as such (`structure`). A basis of the directions that remain
 is brought to reduced row echelon form, so that each reads "this one = that combination of others". Unknowns are in
-units of their expected sizes, coefficients below `SMALL` are left out of the sentence.
+units of their prior sigma, coefficients below `SMALL` are left out of the sentence.
 """
 
 from __future__ import annotations
@@ -18,17 +18,18 @@ from hexdbb.model import Parameter
 Floats = NDArray[np.float64]
 
 KNOWN_PART = 0.2
-"""A value or direction is known where its uncertainty is at most this part of its expected size: the prior's weight
-is then under 4 %."""
+"""Posterior over prior standard deviation up to which a value is identifiable: the prior's weight is then under 4 %."""
 LEVER_MM = 300.0
-"""Lever arm by which an angle is compared with a length: about half a guideway."""
+"""Lever arm by which an angle is compared with a length: about half a guideway, whose end an angle moves so."""
 SMALL = 0.02
-"""Coefficients below this part of a row's largest are left out of its sentence."""
-MOST_NAMED = 4
+"""Coefficients below this part of a row's largest are left out of its sentence: they are a machine's errors, by which it
+differs from the nominal one."""
+MAX_NAMED = 4
+"""Values named in a sentence, the others are counted: more are not read."""
 
 
 def echelon(directions: Floats) -> tuple[Floats, list[int]]:
-    """Reduced row echelon form of directions.
+    """Compute the reduced row echelon form of directions.
 
     Parameters
     ----------
@@ -59,7 +60,7 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
 
 
 def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
-    """Say in words what cannot be told apart, what follows from the machine's structure first.
+    """Return in words what is not identifiable, what follows from the machine's structure first.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
 
 
 def _beside(moves_mm: Floats, named: Sequence[Floats]) -> Floats:
-    """Directions that remain, free of one value of the machine in each named move, so that none is told twice.
+    """Return the directions that remain, free of one value of the machine in each named move, so that none is named twice.
 
     Returns
     -------
@@ -100,7 +101,7 @@ def _generic(moves_mm: Floats, labels: Sequence[str]) -> list[str]:
         if not others:
             said.append(f"{labels[pivot]} changes no reading")
             continue
-        named = ", ".join(labels[j] for j in others[:MOST_NAMED])
-        more = f" and {len(others) - MOST_NAMED} more" if len(others) > MOST_NAMED else ""
-        said.append(f"{labels[pivot]} cannot be told from a combination of {named}{more}")
+        named = ", ".join(labels[j] for j in others[:MAX_NAMED])
+        more = f" and {len(others) - MAX_NAMED} more" if len(others) > MAX_NAMED else ""
+        said.append(f"{labels[pivot]} is confounded with a combination of {named}{more}")
     return said

@@ -29,7 +29,7 @@ TOLERANCE = 0.02
 
 @dataclass(frozen=True)
 class Redundancy:
-    """One move that no reading can tell, mm and rad."""
+    """One move that changes no reading, mm and rad."""
 
     sentence: str
     moves: Mapping[Key, float]
@@ -37,7 +37,7 @@ class Redundancy:
     """Effects, or single values, that take what value completes the move."""
 
     def completed_by(self, key: Key) -> bool:
-        """Say whether a value may take what value completes the move."""
+        """Return whether a value may take what value completes the move."""
         return key in self.follows or key[0] in self.follows
 
 
@@ -63,7 +63,7 @@ def _about_centre(guideway: str) -> Redundancy:
 
 
 def _local(guideway: str, axis: str) -> Mapping[str, float]:
-    """Components of a base axis along a guideway's own axes: x outward, y along itself, z up."""
+    """Return the components of a base axis along a guideway's own axes: x outward, y along itself, z up."""
     turn = 2.0 * pi / 3.0 * (int(guideway) - 1)
     return {
         "x": {"x": cos(turn), "y": -sin(turn), "z": 0.0},

@@ -73,7 +73,7 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
     visible = left > ROUNDING_SHARE * whole.max()
     parameter = sensitivity.where(own)[0]
-    rms_mm = left[visible] / np.sqrt(sensitivity.readings) / sensitivity.sizes[own][visible]
+    rms_mm = left[visible] / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own][visible]
     sizes = DETECTION_RATIO * noise_mm / rms_mm * shown_factor(parameter.unit)
     return Detectable(
         size=float(sizes.min()) if len(sizes) else None,

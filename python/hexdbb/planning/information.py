@@ -128,7 +128,7 @@ def information_of(candidates: Sequence[CandidateCircle], template: Plan, unknow
     circles = tuple(each.circle(template, identity) for identity, each in enumerate(candidates))
     plan = template.model_copy(update={"mounts": (mount,), "circles": circles})
     sensitivity = plan_sensitivity(plan, unknowns.model, unknowns.cycle_rate_hz, samples_per_turn=SAMPLES_PER_TURN)
-    scaled = sensitivity.jacobian * (sensitivity.sizes / unknowns.noise_mm)
+    scaled = sensitivity.jacobian * (sensitivity.prior_sigma / unknowns.noise_mm)
     rows = scaled.reshape(len(candidates), -1, scaled.shape[1])
     shared, own = rows[:, :, unknowns.columns], rows[:, :, unknowns.own]
     transposed = np.swapaxes(shared, 1, 2)

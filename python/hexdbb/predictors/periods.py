@@ -1,6 +1,6 @@
-"""Sines of a variable: a period found by Fourier transform on one half of the samples, judged on the other.
+"""Sines of a variable: the period found by Fourier transform on one half of the samples, tested on the other.
 
-Values lie unevenly, so that they are summed in cells and transformed at once (Press and Rybicki 1989, without the
+Values lie unevenly, so they are summed in cells and transformed at once (Press and Rybicki 1989, without the
 spreading: a cell is short against the shortest period sought); the best of the grid is then refined by least squares.
 """
 
@@ -8,24 +8,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.predictors.columns import FloatArray
+from hexdbb.predictors.variable import FloatArray
 
 CELLS = 2**16
+"""Cells of equal width into which the values are summed: more than samples, so that hardly any are merged."""
 OVERSAMPLED = 4
+"""Zero padding of the transform: between two of its frequencies a sine then loses 3 % at most."""
 REFINED = 17
+"""Frequencies tried within one step of the grid around the best."""
 PER_CELL = 0.25
-"""Highest frequency in turns a cell."""
+"""Highest frequency, in turns a cell: at a quarter of a turn a cell lowers a sine by 10 % at most."""
 LEAST_TURNS = 2.0
-"""A sine must turn so often over the values."""
+"""Fewest turns of a sine over all values: below, a slow drift is taken for one."""
 
 
 def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float) -> float | None:
-    """Frequency whose sine takes most of a residual given at uneven places.
+    """Return the frequency whose sine explains most of a residual given at uneven places.
 
     Parameters
     ----------
     weighted : ndarray, shape (n,)
-        Residual times what it answers to a push.
+        Residual times its response to a push.
     values : ndarray, shape (n,)
     highest : float
         Highest frequency sought, in turns per unit of `values`.
@@ -53,11 +56,11 @@ def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float
 
 
 def folded_hz(frequency_hz: float, rate_hz: float) -> float:
-    """Frequency as which another shows that is sampled at a rate."""
+    """Return the frequency to which another aliases when it is sampled at a rate."""
     return abs(frequency_hz - rate_hz * round(frequency_hz / rate_hz))
 
 
 def waves(weight: FloatArray, values: FloatArray, frequency: float) -> FloatArray:
-    """Cosine and sine of a frequency times a weight, shape (n, 2)."""
+    """Return cosine and sine of a frequency times a weight, shape (n, 2)."""
     turns = 2.0 * np.pi * frequency * values
     return np.column_stack([weight * np.cos(turns), weight * np.sin(turns)])

@@ -1,4 +1,4 @@
-"""Whether a variable's means stand out at one place only, as those of a dent or a burst do."""
+"""Places: whether a variable's means stand out in one range only, as those of a dent or a burst do."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.predictors.bins import Binned
-from hexdbb.predictors.columns import FloatArray
+from hexdbb.predictors.variable import FloatArray
 
 FLANK = 0.25
-"""The place reaches as far as the means are this part of the largest."""
+"""Part of the largest mean down to which the place extends: a Gaussian dent is there 1.7 sigma from its middle."""
 WIDEST = 0.35
-"""Of the whole range: what is wider is no place."""
+"""Part of the whole range above which it is no single place."""
 WELL_SEEN = 0.1
-"""Bins with fewer samples than this part of the usual number are not asked where the largest is."""
+"""Part of the usual number of samples below which a bin cannot be the peak: its mean is mostly noise."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """From where to where, in the variable's unit; `words` for what happens once: in which circle."""
+    """A range of a variable, in its unit; `words` name the circle of what happens once."""
 
     begin: float
     end: float
@@ -28,7 +28,7 @@ class Place:
 
 
 def one_place(cut: Binned, mean_um: FloatArray) -> tuple[Place, NDArray[np.bool_]] | None:
-    """Find the place where the means stand out; None where that is nearly everywhere.
+    """Return the place where the means stand out; None where that is nearly everywhere.
 
     Returns
     -------

@@ -1,7 +1,7 @@
-"""Something that shifts once and stays: a loose cup, a ball set anew, a gauge that slips, a lost count of an encoder.
+"""Steps in time: something shifts once and stays: a loose cup, a gauge that slips, a lost count of an encoder.
 
 For every instant the push from there on is one hypothesis of one to three values. Sums over cells of time give the
-fall of the sum of squares of all instants at once; the best is then cut up again, down to single samples.
+fall of the sum of squares of all instants at once; the best cell is then divided again, down to single samples.
 """
 
 from __future__ import annotations
@@ -13,23 +13,25 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import sparse
 
-from hexdbb.predictors.columns import SLIDERS, Columns, FloatArray
-from hexdbb.predictors.judge import Judge
+from hexdbb.predictors.cross_validation import CrossValidation
+from hexdbb.predictors.names import record_names
 from hexdbb.predictors.places import Place
 from hexdbb.predictors.pushes import Pushes
+from hexdbb.predictors.variable import READING, SECONDS_PER_MINUTE, SLIDERS, FloatArray
+from hexdbb.samples import Samples
 
 CELLS = 64
+"""Cells of time in each pass."""
 PASSES = 3
-"""Each narrows the instant to two of the pass before's cells."""
-IN_READING = "in the reading"
+"""Each narrows the instant to two cells of the pass before: 64 * 32 * 32 cells part records of 65,000 samples."""
 
 
 @dataclass(frozen=True)
 class Step:
     """The best instant for one thing that may shift.
 
-    `size_um` is how far, or how far the reading (root mean square) where there are several components: the gauge hardly
-    sees some of them.
+    `size_um` is the shift, or that of the reading (root mean square) where there are several components, of which the
+    gauge hardly shows some.
     """
 
     subject: str
@@ -41,12 +43,13 @@ class Step:
     design: sparse.csr_matrix
 
 
-def steps(columns: Columns, pushes: Pushes | None, judge: Judge) -> Iterator[Step]:
+def steps(samples: Samples, pushes: Pushes | None, tested: CrossValidation) -> Iterator[Step]:
     """Yield the best step of everything that may shift, in any of the records."""
-    for subject, where, weights in _shifting(len(columns["t_s"]), pushes):
-        best = max((_best(columns, weights, judge, record) for record in np.unique(columns["record"])), key=_gain)
-        _, first, rows = best
-        after = rows[columns["t_s"][rows] >= columns["t_s"][first]]
+    time_s, record = samples["time_s"], samples["record"]
+    in_time = [rows[np.argsort(time_s[rows], kind="stable")] for rows in _rows_of_each(record)]
+    for subject, where, weights in _shifting(len(samples), pushes):
+        _, first, rows = max((_best(rows, weights, tested) for rows in in_time), key=_gain)
+        after = rows[time_s[rows] >= time_s[first]]
         mask = np.zeros(len(weights))
         mask[after] = 1.0
         design = sparse.csr_matrix(weights * mask[:, None])
@@ -54,18 +57,18 @@ def steps(columns: Columns, pushes: Pushes | None, judge: Judge) -> Iterator[Ste
             subject=subject,
             variable=f"{subject}, shifting once" if subject != "time" else "time, one shift",
             pushes=where,
-            place=_place(columns, first, rows),
-            size_um=_size_um(design, judge.fit(design), len(after)),
+            place=_place(samples, first, rows),
+            size_um=_size_um(design, tested.fit(design), len(after)),
             values=weights.shape[1] + 1,
             design=design,
         )
 
 
 def _shifting(count: int, pushes: Pushes | None) -> Iterator[tuple[str, str, FloatArray]]:
-    yield "time", IN_READING, np.ones((count, 1))
+    yield "time", READING, np.ones((count, 1))
     if pushes is not None:
-        yield "cup", IN_READING, pushes.cup
-        yield "ball", IN_READING, pushes.ball
+        yield "cup", READING, pushes.cup
+        yield "ball", READING, pushes.ball
         for k in SLIDERS:
             yield f"slider {k}", "along the guideway", pushes.slider[:, [k - 1]]
             yield f"leg {k}", "in the leg's length", pushes.leg[:, [k - 1]]
@@ -81,15 +84,17 @@ def _gain(found: tuple[float, int, NDArray[np.intp]]) -> float:
     return found[0]
 
 
-def _best(columns: Columns, weights: FloatArray, judge: Judge, record: str) -> tuple[float, int, NDArray[np.intp]]:
-    """Gain, first sample after the best step, and the record's samples in order of time."""
-    rows = np.flatnonzero(columns["record"] == record)
-    rows = rows[np.argsort(columns["t_s"][rows], kind="stable")]
+def _rows_of_each(record: NDArray[np.integer]) -> list[NDArray[np.intp]]:
+    return [np.flatnonzero(record == which) for which in np.unique(record)]
+
+
+def _best(rows: NDArray[np.intp], weights: FloatArray, tested: CrossValidation) -> tuple[float, int, NDArray[np.intp]]:
+    """Return the gain and the first sample after the best step, and the record's rows in order of time as given."""
     edges = np.unique(np.linspace(0, len(rows), CELLS + 1).astype(np.intp))
     for _ in range(PASSES):
         cells = np.full(len(weights), -1, np.intp)
         cells[rows[edges[0] :]] = np.searchsorted(edges, np.arange(edges[0], len(rows)), side="right") - 1
-        gains = judge.step_gains(weights, cells, len(edges))
+        gains = tested.step_gains(weights, cells, len(edges))
         gains[0 if edges[0] == 0 else len(gains) - 1] = 0.0  # a step before all samples is none
         cell = int(np.argmax(gains))
         first, gain = int(edges[cell]), float(gains[cell])
@@ -98,11 +103,13 @@ def _best(columns: Columns, weights: FloatArray, judge: Judge, record: str) -> t
     return gain, int(rows[min(first, len(rows) - 1)]), rows
 
 
-def _place(columns: Columns, row: int, rows: NDArray[np.intp]) -> Place:
-    """Say between which two samples of a record it was, and in which circle or before which."""
+def _place(samples: Samples, row: int, rows: NDArray[np.intp]) -> Place:
+    """Return the two samples of a record between which the step is, and the circle in which or before which."""
     before = int(rows[max(int(np.flatnonzero(rows == row)[0]) - 1, 0)])
-    where = "in" if columns["sweep"][before] == columns["sweep"][row] else "before"
-    way = "ccw" if columns["direction"][row] > 0 else "cw"
-    several = f" of {columns['record'][row]}" if len(np.unique(columns["record"])) > 1 else ""
-    words = f"{where} circle {columns['circle'][row]}, {way}, {columns['feed_mm_min'][row]:g} mm/min{several}"
-    return Place(float(columns["t_s"][before]), float(columns["t_s"][row]), words)
+    where = "in" if samples["sweep"][before] == samples["sweep"][row] else "before"
+    direction = "ccw" if samples["direction"][row] > 0 else "cw"
+    names, record = record_names(samples.records), samples["record"]
+    several = f" of {names[record[row]]}" if len(np.unique(record)) > 1 else ""
+    feed_mm_min = SECONDS_PER_MINUTE * samples["feed_mm_s"][row]
+    words = f"{where} circle {samples['circle'][row]}, {direction}, {feed_mm_min:g} mm/min{several}"
+    return Place(float(samples["time_s"][before]), float(samples["time_s"][row]), words)

@@ -1,8 +1,8 @@
-"""What a residual may depend on: each variable of the samples' state, and where the cause would push.
+"""Variables a residual may depend on: each column of the samples' state, and where the cause would push.
 
 A variable's hypothesis: the residual is the sum of f(value) times a weight over its parts, f any function. The weight
-is 1 where the cause would act on the reading itself, else the reading's derivative at the place where it would push
-(`pushes.py`). A guideway has two parts, one for each of its sliders: both run over the same rail.
+is 1 where the cause would act on the reading itself, else the reading's derivative with respect to a push at the place
+where it would act (`pushes.py`). A guideway has two parts, one for each of its sliders: both run on the same rail.
 """
 
 from __future__ import annotations
@@ -13,18 +13,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.predictors.columns import SLIDERS, Columns, FloatArray, codes
 from hexdbb.predictors.pushes import Pushes
+from hexdbb.samples import Samples
 
+FloatArray = NDArray[np.float64]
+
+SLIDERS = range(1, 7)
+TRAVEL_DIRECTION = "side"
+"""Column of the direction in which each slider last moved, +1 or -1; 0 where it never moved."""
+SECONDS_PER_MINUTE = 60.0
 NEVER_S = 1e5
-"""Times since a reversal beyond this stand for a reversal that never was."""
+"""Times since a reversal beyond this stand for a reversal that never was: the engine writes 1e6 s there."""
 DIRECTIONS = ("cw", "ccw")
-WAYS = ("moving down", "moving up")
+TRAVEL_NAMES = ("moving down", "moving up")
 BINS = 36
-"""Ten degrees each for the angle."""
+"""Means at most over a variable: ten degrees each for the angle, in which a low harmonic is nearly straight."""
 COARSE_BINS = 12
+"""The same for what also changes with time: its means are determined by differences alone."""
 SETTLED = 4.0
-"""What settles does so to e^-4 over the time of the samples."""
+"""Time constants in the time of the samples, of what settles: 2 % are left at the end."""
 READING = "in the reading"
 ALONG = "along the guideway"
 
@@ -38,7 +45,7 @@ class Variable:
     subject : str
         What it belongs to: ``slider 4``; of several variables of one subject one is named.
     name : str
-        In words: ``slider 4 position, each way``.
+        In words: ``slider 4 position, each direction of travel``.
     unit : str
         Of the values; empty where they are classes.
     parts : tuple of (weight, values)
@@ -46,17 +53,17 @@ class Variable:
     pushes : str
         Where, in words.
     apart : (n,) int array or None
-        Samples of different numbers are averaged apart: directions, ways of moving.
+        Samples of different numbers are averaged apart: directions, directions of travel.
     names : tuple of str
         What the numbers of `apart` stand for, from 0, where there is something to say.
     bins : int
-        So many means at most.
+        Largest number of means.
     is_place : bool
         Whether something may sit at one place of a few millimetres: bins are equally wide, and many.
     is_time : bool
         Whether values follow the order of the samples, so that laps do not repeat them.
     signs : tuple of str, optional
-        What a positive and a negative push are called.
+        Words for a positive and a negative push.
     """
 
     subject: str
@@ -72,21 +79,20 @@ class Variable:
     signs: tuple[str, str] | None = None
 
 
-def variables(columns: Columns, pushes: Pushes | None = None) -> Iterator[Variable]:
-    """Yield the variables the columns have; one that stands still says nothing and is left out.
+def variables(samples: Samples, pushes: Pushes | None = None) -> Iterator[Variable]:
+    """Yield the variables of some samples; one that is constant predicts nothing and is left out.
 
     Parameters
     ----------
-    columns : dict of str to (n,) arrays
-        As `sample_columns` gives them.
+    samples : Samples
     pushes : Pushes, optional
-        Without them all act on the reading, and guideways and legs are left out.
+        Without them every cause acts on the reading, and guideways and legs are left out.
     """
-    moving = [_of_reading(columns)]
-    moving += [_of_slider(columns, k, pushes) for k in SLIDERS]
+    moving = [_of_reading(samples)]
+    moving += [_of_slider(samples, k, pushes) for k in SLIDERS]
     if pushes is not None:
-        moving += [_of_guideway(columns, g, pushes) for g in range(1, 4)]
-        moving += [_of_leg(columns, k, pushes) for k in SLIDERS]
+        moving += [_of_guideway(samples, g, pushes) for g in range(1, 4)]
+        moving += [_of_leg(samples, k, pushes) for k in SLIDERS]
     return (each for group in moving for each in group if _varies(each))
 
 
@@ -94,72 +100,68 @@ def _varies(variable: Variable) -> bool:
     return any(len(np.unique(values[np.isfinite(values)])) > 1 for _, values in variable.parts)
 
 
-def _of_reading(columns: Columns) -> Iterator[Variable]:
-    one = np.ones(len(columns["t_s"]))
-    angle_deg, way = columns["angle_deg"] % 360.0, (columns["direction"] > 0).astype(np.intp)
-    circle = circles(columns)
+def _of_reading(samples: Samples) -> Iterator[Variable]:
+    one = np.ones(len(samples))
+    angle_deg, ccw = np.degrees(samples["angle_rad"]) % 360.0, (samples["direction"] > 0).astype(np.intp)
+    circle = circles(samples)
 
     def read(name: str, unit: str, values: FloatArray) -> Variable:
         return Variable(name, name, unit, ((one, values),))
 
     yield read("angle", "deg", angle_deg)
-    yield Variable("angle", "angle, each direction", "deg", ((one, angle_deg),), apart=way, names=DIRECTIONS)
+    yield Variable("angle", "angle, each direction", "deg", ((one, angle_deg),), apart=ccw, names=DIRECTIONS)
     yield Variable("angle", "angle, each circle", "deg", ((one, angle_deg),), apart=circle)
-    yield read("direction", "", columns["direction"].astype(np.float64))
+    yield read("direction", "", samples["direction"])
     yield read("circle", "", circle.astype(np.float64))
-    yield read("feed", "mm/min", columns["feed_mm_min"])
-    yield Variable("time", "time", "s", ((one, columns["t_s"]),), is_time=True)
-    if "temperature_c" in columns:
-        yield Variable("temperature", "temperature", "°C", ((one, columns["temperature_c"]),), is_time=True)
+    yield read("feed", "mm/min", SECONDS_PER_MINUTE * samples["feed_mm_s"])
+    yield Variable("time", "time", "s", ((one, samples["time_s"]),), is_time=True)
+    yield Variable("temperature", "temperature", "°C", ((one, samples["temperature_c"]),), is_time=True)
 
 
-def _of_slider(columns: Columns, k: int, pushes: Pushes | None) -> Iterator[Variable]:
-    subject, position_mm = f"slider {k}", columns[f"s{k}_mm"]
-    weight = np.ones(len(position_mm)) if pushes is None else pushes.slider[:, k - 1]
+def _of_slider(samples: Samples, k: int, pushes: Pushes | None) -> Iterator[Variable]:
+    subject, of = f"slider {k}", k - 1
+    position_mm, travel = samples["sliders_mm"][:, of], samples[TRAVEL_DIRECTION][:, of]
+    weight = np.ones(len(position_mm)) if pushes is None else pushes.slider[:, of]
     where = READING if pushes is None else ALONG
     yield Variable(subject, f"{subject} position", "mm", ((weight, position_mm),), where, is_place=True)
-    if f"side{k}" in columns:
-        side = columns[f"side{k}"].astype(np.float64)
-        way, parts = (side > 0.0).astype(np.intp), ((weight, position_mm),)
-        yield Variable(subject, f"{subject} position, each way", "mm", parts, where, way, WAYS)
-        yield Variable(subject, f"{subject} way of moving", "", ((weight, side),), where)
-        timed = ((weight * side, columns["t_s"]),)
-        yield Variable(subject, f"{subject} way of moving, over time", "s", timed, where, is_time=True)
-    if f"v{k}_mm_s" in columns:
-        yield Variable(subject, f"{subject} velocity", "mm/s", ((weight, columns[f"v{k}_mm_s"]),), where)
-    if f"since_reversal{k}_s" in columns:
-        since_s = columns[f"since_reversal{k}_s"]
-        # Before the first reversal of a sweep nothing is known of the time since one.
-        known = np.where(since_s < NEVER_S, since_s, np.nan)
-        # What a reversal leaves behind points the other way after the next one.
-        turning = weight * columns[f"side{k}"] if f"side{k}" in columns else weight
-        yield Variable(subject, f"time since {subject} reversed", "s", ((turning, known),), where)
+    up, parts = (travel > 0.0).astype(np.intp), ((weight, position_mm),)
+    yield Variable(subject, f"{subject} position, each direction of travel", "mm", parts, where, up, TRAVEL_NAMES)
+    yield Variable(subject, f"{subject} direction of travel", "", ((weight, travel),), where)
+    timed = ((weight * travel, samples["time_s"]),)
+    yield Variable(subject, f"{subject} direction of travel, over time", "s", timed, where, is_time=True)
+    yield Variable(subject, f"{subject} velocity", "mm/s", ((weight, samples["velocity_mm_s"][:, of]),), where)
+    since_s = samples["since_reversal_s"][:, of]
+    # Before the first reversal of a sweep nothing is known of the time since one.
+    known = np.where(since_s < NEVER_S, since_s, np.nan)
+    # What a reversal leaves behind acts the other way after the next one.
+    yield Variable(subject, f"time since {subject} reversed", "s", ((weight * travel, known),), where)
 
 
-def _of_guideway(columns: Columns, g: int, pushes: Pushes) -> Iterator[Variable]:
-    subject, both = f"guideway {g}", (2 * g - 1, 2 * g)
-    passed = (columns["t_s"] - columns["t_s"].min()) / max(float(np.ptp(columns["t_s"])), 1e-9)
+def _of_guideway(samples: Samples, g: int, pushes: Pushes) -> Iterator[Variable]:
+    subject, both = f"guideway {g}", (2 * g - 2, 2 * g - 1)
+    time_s, sliders_mm = samples["time_s"], samples["sliders_mm"]
+    passed = (time_s - time_s.min()) / max(float(np.ptp(time_s)), 1e-9)
     courses = {"growing": passed, "settling": -np.exp(-SETTLED * passed)}
-    for way, signs, weights in (
+    for sense, signs, weights in (
         ("vertical", ("up", "down"), pushes.vertical),
         ("lateral", ("outward", "inward"), pushes.lateral),
     ):
         where = " or ".join(signs)
-        parts = tuple((weights[:, k - 1], columns[f"s{k}_mm"]) for k in both)
-        place = f"{subject} position ({way})"
+        parts = tuple((weights[:, of], sliders_mm[:, of]) for of in both)
+        place = f"{subject} position ({sense})"
         yield Variable(subject, place, "mm", parts, where, is_place=True, signs=signs)
         for course, later in courses.items():
             timed = tuple((weight * (later - later.mean()), values) for weight, values in parts)
             yield Variable(subject, f"{place}, {course} with time", "mm", timed, where, bins=COARSE_BINS)
 
 
-def _of_leg(columns: Columns, k: int, pushes: Pushes) -> Iterator[Variable]:
+def _of_leg(samples: Samples, k: int, pushes: Pushes) -> Iterator[Variable]:
     weight, subject = pushes.leg[:, k - 1], f"leg {k}"
-    parts = ((weight, columns["t_s"]),)
+    parts = ((weight, samples["time_s"]),)
     yield Variable(subject, f"{subject} length, over time", "s", parts, "in the leg's length", is_time=True)
 
 
-def circles(columns: Columns) -> NDArray[np.intp]:
-    """Number the circles of all records from 0."""
-    keys = np.column_stack([codes(columns["record"]), columns["circle"]])
+def circles(samples: Samples) -> NDArray[np.intp]:
+    """Return the number of each sample's circle among those of all records, counted from 0; shape (n,)."""
+    keys = np.column_stack([samples["record"], samples["circle"]])
     return np.unique(keys, axis=0, return_inverse=True)[1].ravel()

@@ -1,139 +1,136 @@
-"""What a model says the ball bar reads, for the samples of a record."""
+"""What a model predicts for samples, and how the readings answer to the model's values and to pushes on the machine."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
-from hexdbb.kinematics import engine_machine, status_name
-from hexdbb.model import Model, MountKey
-from hexdbb.record import Record
-from hexdbb.samples.state import state_columns
+from hexdbb.kinematics import status_name
+from hexdbb.model import Model
+from hexdbb.samples.table import Samples
 
 Floats = NDArray[np.float64]
+UM_PER_MM = 1e3
+
+PUSH_SHAPES: dict[str, tuple[int, ...]] = {
+    "slider": (6,),
+    "leg": (6,),
+    "slider_joint": (6, 3),
+    "platform_joint": (6, 3),
+    "ball": (3,),
+    "cup": (3,),
+    "reading": (),
+}
+"""Shape of one sample's push, by port, in the order in which the engine counts the ports' columns."""
 
 
-def mount_keys(records: Sequence[Record]) -> list[MountKey]:
-    """Give every mount of some records that a sample was taken on."""
-    return [key for record in records for key in _keys_by_circle(record).values()]
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """Readings that a model predicts for samples, and what the measured ones leave.
 
-
-def knowing(model: Model, records: Sequence[Record]) -> Model:
-    """Give the same model knowing the mounts of some records; what is new to it stands where planned."""
-    return model.with_mounts(list(dict.fromkeys(mount_keys(records))))
-
-
-def unseen_mounts(record: Record, model: Model) -> list[MountKey]:
-    """Give the mounts of a record whose cups a model does not know."""
-    return [key for key in dict.fromkeys(mount_keys([record])) if key not in model.mounts]
-
-
-def samples_of(records: Sequence[Record], model: Model) -> _core.Samples:
-    """Samples of some records, one after another, with their state, for the engine.
-
-    Raises
-    ------
-    InputError
-        Where a record belongs to another machine than the model.
+    Attributes
+    ----------
+    reading_mm : ndarray, shape (n,)
+        Ball-bar length minus nominal length.
+    residual_mm : ndarray, shape (n,)
+        Measured minus predicted; nan where samples are planned.
     """
-    set_ups: list[_core.SetUp] = []
-    sliders, set_up_rows, mount_rows = [], [], []
-    for record in records:
-        record.require_machine(model.machine, model.name)
-        circle_ids, member = np.unique(record.columns["circle"], return_inverse=True)
-        keys = _keys_by_circle(record)
-        places = [_place(keys[int(each)], model, record) for each in circle_ids]
-        sliders.append(record.sliders_mm)
-        set_up_rows.append(len(set_ups) + member)
-        mount_rows.append(np.array(places)[member])
-        for each in circle_ids:
-            circle = record.circle(int(each))
-            set_ups.append(
-                _core.SetUp(
-                    cup_mm=np.array(record.mount(circle.mount).cup_mm),
-                    ball_offset_mm=np.array(circle.ball_offset_mm),
-                    bar_length_mm=record.gauge.bar_length_mm,
-                )
-            )
-    samples = _core.Samples(
-        sliders_mm=np.vstack(sliders),
-        set_up=np.concatenate(set_up_rows).astype(np.int32),
-        mount=np.concatenate(mount_rows).astype(np.int32),
-        set_ups=set_ups,
-        state=state_columns(records),
-    )
-    samples.derive(engine_machine(model.machine))
-    return samples
+
+    reading_mm: Floats
+    residual_mm: Floats
+
+    @property
+    def rms_um(self) -> float:
+        """Root mean square of the residual."""
+        return float(np.sqrt(np.mean(self.residual_mm**2))) * UM_PER_MM
+
+    @property
+    def peak_to_valley_um(self) -> float:
+        """Largest minus smallest residual."""
+        return float(np.ptp(self.residual_mm)) * UM_PER_MM
 
 
-def predict_reading_mm(record: Record, model: Model) -> Floats:
-    """Readings a model predicts for a record.
+@dataclass(frozen=True, eq=False)
+class Linearised(Prediction):
+    """A prediction with its derivatives.
+
+    Attributes
+    ----------
+    jacobian : ndarray, shape (n, size)
+        Of the readings with respect to the model's values, mm per engine unit of the value.
+    """
+
+    jacobian: Floats
+
+
+def predict(samples: Samples, model: Model) -> Prediction:
+    """Predict the readings of samples.
 
     Parameters
     ----------
-    record : Record
+    samples : Samples
     model : Model
-        Where it knows any mounts, the record's must be among them (`hexdbb.diagnosis.fit_mounts`); where it knows none,
+        Where it knows any mounts, the samples' must be among them (`hexdbb.diagnosis.fit_mounts`); where it knows none,
         every cup stands where planned.
 
-    Returns
-    -------
-    ndarray, shape (n,)
-        Ball-bar length minus nominal length, mm.
+    Raises
+    ------
+    InputError
+        Naming the first sample that the model's machine cannot reach, or a machine that differs.
+    """
+    reading_mm = _predicted(samples, model, False).reading_mm
+    return Prediction(reading_mm, samples.reading_mm - reading_mm)
+
+
+def linearise(samples: Samples, model: Model) -> Linearised:
+    """Predict the readings of samples with their derivatives with respect to the model's values.
 
     Raises
     ------
     InputError
-        Naming the first sample the model's machine cannot reach, or a machine that differs.
+        As `predict`.
     """
-    samples = samples_of([record], model)
-    prediction = _core.predict(model.engine(samples), samples)
-    row = prediction.first_failure
-    if row >= 0:
-        reason = status_name(int(prediction.status[row]))
-        raise InputError(f"{record.name}: row {row + 1}: the sliders' place has no pose ({reason})")
-    reading_mm: Floats = prediction.reading_mm
-    return reading_mm
+    found = _predicted(samples, model, True)
+    return Linearised(found.reading_mm, samples.reading_mm - found.reading_mm, found.jacobian)
 
 
-def residual_mm(records: Sequence[Record], model: Model) -> Floats:
-    """Measured minus predicted readings of some records, one after another.
-
-    Parameters
-    ----------
-    records : sequence of Record
-        Of mounts the model knows.
-    model : Model
+def port_sensitivity(samples: Samples, model: Model) -> dict[str, Floats]:
+    """Return the derivatives of the readings with respect to a push at every port, mm per mm.
 
     Returns
     -------
-    ndarray, shape (n,)
-
-    Raises
-    ------
-    InputError
-        Naming the record and the first sample the model's machine cannot reach, or a machine that differs.
+    dict of str to ndarray, shape (n, *shape of the port's push)
+        By port, shapes as in `PUSH_SHAPES`.
     """
-    return np.concatenate([record.reading_mm - predict_reading_mm(record, model) for record in records])
-
-
-def _place(key: MountKey, model: Model, record: Record) -> int:
-    if not model.mounts:
-        return 0
-    if key not in model.mounts:
-        known = "hexdbb.diagnosis.fit_mounts finds where its cup stands"
-        raise InputError(
-            f"{record.name}: mount {key.mount_id}: not known to the model (expected a fitted one: {known})"
-        )
-    return model.mounts.index(key)
-
-
-def _keys_by_circle(record: Record) -> dict[int, MountKey]:
-    content = record.content_hash()
+    every = _core.port_sensitivity(samples.engine(model), samples.block(model))
     return {
-        int(each): MountKey(content, record.circle(int(each)).mount) for each in np.unique(record.columns["circle"])
+        port: every[:, first : first + count].reshape(len(every), *PUSH_SHAPES[port])
+        for port, (first, count) in _core.PORTS.items()
     }
+
+
+def normal_equations(samples: Samples, model: Model) -> _core.NormalEquations:
+    """Return J'J and J'r of all values of a model, r measured minus predicted, engine units."""
+    return _core.normal_equations(samples.engine(model), samples.block(model), samples.reading_mm)
+
+
+def _predicted(samples: Samples, model: Model, want_jacobian: bool) -> _core.Prediction:
+    found = _core.predict(samples.engine(model), samples.block(model), want_jacobian)
+    row = found.first_failure
+    if row >= 0:
+        reason = status_name(int(found.status[row]))
+        raise InputError(f"{_place(samples, row)}: the sliders' place has no pose ({reason})")
+    return found
+
+
+def _place(samples: Samples, row: int) -> str:
+    """Name a sample: its record and row there."""
+    if not samples.records:
+        return f"{samples.name}: sample {row + 1}"
+    index = int(samples["record"][row])
+    before = sum(len(record) for record in samples.records[:index])
+    return f"{samples.records[index].name}: row {samples.row_numbers[row] - before + 1}"

@@ -1,7 +1,7 @@
-"""State of a record's samples beyond slider coordinates, as columns for the engine: what effects may depend on.
+"""From the columns of a record's file, or of a plan, to those columns of the engine's state that follow from no others.
 
-What stands in the record is converted here (units, time and temperature from the record's first sample, sweeps numbered
-through all records); velocity, reversals, leg forces and nominal readings follow from it in the engine (`state.hpp`).
+Units are converted, time and temperature count from the record's first sample, sweeps are numbered through all records.
+Velocity, reversals, leg forces and nominal readings are derived in the engine (`state.hpp`).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ SECONDS_PER_MINUTE = 60.0
 
 
 def state_columns(records: Sequence[Record]) -> Columns:
-    """Columns of the engine's state that a record holds, of several records one after another.
+    """Return the columns of the engine's state that records hold, one record after another.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def state_columns(records: Sequence[Record]) -> Columns:
 
 
 def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating]) -> Columns:
-    """Columns of the state that a plan would have: one lap of each run, one after another, temperature not measured.
+    """Return the columns of the engine's state of one lap of each run, one after another; temperature is not measured.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a thermometer shows, freed of its noise: parts of a machine warm slowly, readings of a sensor scatter.
+"""Smoothing of a thermometer's readings: parts of a machine warm slowly, readings of a sensor scatter.
 
 Model: within half a minute the temperature changes evenly; every reading is replaced by the value there of the line
 through its neighbours of the same sweep, by least squares.
@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 HALF_WINDOW_S = 30.0
+"""Half the time over which the temperature changes evenly: short against a machine's time constants of many minutes, long
+against the sensor's sampling."""
 
 
 def smoothed(time_s: Floats, sweep: NDArray[np.integer], temperature_c: Floats) -> Floats:
-    """Give the temperatures without the sensor's noise.
+    """Return the temperatures without the sensor's noise.
 
     Parameters
     ----------
@@ -48,7 +50,7 @@ def _local_lines(time_s: Floats, values: Floats) -> Floats:
 
 
 def _sums(values: Floats, first: NDArray[np.intp], last: NDArray[np.intp]) -> Floats:
-    """Sums over rows [first, last)."""
+    """Return the sums over rows [first, last)."""
     running = np.concatenate([[0.0], np.cumsum(values)])
     summed: Floats = running[last] - running[first]
     return summed

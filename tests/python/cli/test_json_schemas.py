@@ -24,6 +24,7 @@ from hexdbb.machine import shipped
 from hexdbb.model import new_model
 from hexdbb.record import Record, write_record
 from hexdbb.rig.truth import random_truth
+from hexdbb.samples import Samples
 
 PACE = Pace(rate_hz=1.0, instants_per_sample=1, travel_s=1.0)
 
@@ -92,7 +93,9 @@ def test_a_key_that_is_missing_or_unnamed_is_seen(printed: Callable[[str], Any])
 
 
 def test_a_diagnosis_shows_itself_in_a_notebook(record: Record) -> None:
-    found = diagnose([record], new_model(record.machine, ["leg_length", "cup_position"]), check_held_out=False)
+    found = diagnose(
+        Samples.of([record]), new_model(record.machine, ["leg_length", "cup_position"]), check_held_out=False
+    )
     frame = found.to_frame()
     assert list(frame["effect"]) == ["leg_length"] * 6 + ["cup_position"] * 3
     assert frame["value"].to_numpy() == pytest.approx(1e3 * found.model.values)
@@ -106,7 +109,7 @@ def test_a_diagnosis_shows_itself_in_a_notebook(record: Record) -> None:
 
 def test_without_pandas_a_frame_is_refused_in_words(record: Record, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pandas", None)
-    found = diagnose([record], new_model(record.machine, ["cup_position"]), check_held_out=False)
+    found = diagnose(Samples.of([record]), new_model(record.machine, ["cup_position"]), check_held_out=False)
     with pytest.raises(InputError, match="pandas is not installed"):
         found.to_frame()
     assert found.columns()["name"].tolist() == ["x", "y", "z"]

@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from hexdbb.predictors.columns import halves
 from hypothesis import given
 from hypothesis import strategies as st
 
 from hexdbb.compare import Comparison, compare
 from hexdbb.compare.harmonics import harmonics
-from hexdbb.predictors.columns import halves
 from hexdbb.record import Record
 
 MakeRecord = Callable[..., Record]

@@ -184,6 +184,7 @@ def test_a_wrong_table_of_poses_is_refused(tmp_path: Path, text: str, expected: 
 
 OWN = '''
 from hexdbb.effects import effect
+from hexdbb.samples import Samples
 
 
 @effect(port="slider", unit="mm", prior_sigma=0.01, elements=6)
@@ -221,7 +222,9 @@ def warmed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     record = simulate(TruthFile(mechanism=(growth,)), plan, 1, temperature=True)
     write_record(record, folder / "warm.parquet")
     write_record(simulate(TruthFile(mechanism=(growth,)), plan, 2), folder / "other.parquet")
-    found = diagnose([read_record(folder / "warm.parquet")], new_model(record.machine, ["leg_thermal", "cup_position"]))
+    found = diagnose(
+        Samples.of([read_record(folder / "warm.parquet")]), new_model(record.machine, ["leg_thermal", "cup_position"])
+    )
     save_model(found.model, folder / "model.toml")
     return folder
 

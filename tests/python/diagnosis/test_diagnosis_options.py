@@ -9,11 +9,11 @@ from tests.truth.simulate import simulate
 
 from hexdbb.cli.diagnose import choose_free, hold_redundant
 from hexdbb.diagnosis import diagnose, noise_of
-from hexdbb.diagnosis.place_uncertainty import place_uncertainty
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import new_model
 from hexdbb.rig.truth import random_truth
+from hexdbb.samples import Samples
 
 SEED = 77
 
@@ -25,7 +25,7 @@ def record():
 
 @pytest.fixture(scope="module")
 def found(record):
-    return diagnose([record], new_model(record.machine), check_held_out=False)
+    return diagnose(Samples.of([record]), new_model(record.machine), check_held_out=False)
 
 
 def test_free_holds_the_machines_other_effects(record):
@@ -63,7 +63,7 @@ def test_an_effect_that_acts_nowhere_is_named(record):
     part = record.part(np.arange(len(angle)) < 600)
     exact = replace(part, columns={**part.columns, **{f"s{k + 1}_mm": np.array(rows)[:, k] for k in range(6)}})
     with pytest.raises(InputError, match="bar_gain acts nowhere"):
-        diagnose([exact], new_model(record.machine, ["leg_length", "bar_gain"]), check_held_out=False)
+        diagnose(Samples.of([exact]), new_model(record.machine, ["leg_length", "bar_gain"]), check_held_out=False)
 
 
 def test_glitches_do_not_bend_a_robust_fit(record, found):
@@ -75,7 +75,7 @@ def test_glitches_do_not_bend_a_robust_fit(record, found):
     known = ~np.isnan(found.model.sigma)
 
     def moved(robust: bool) -> float:
-        again = diagnose([worse], new_model(record.machine), robust=robust, check_held_out=False)
+        again = diagnose(Samples.of([worse]), new_model(record.machine), robust=robust, check_held_out=False)
         return float(np.abs((again.model.values - found.model.values)[known] / found.model.sigma[known]).max())
 
     assert moved(robust=True) < 1.5
@@ -83,10 +83,10 @@ def test_glitches_do_not_bend_a_robust_fit(record, found):
 
 
 def test_minimal_set_explains_as_much_with_as_many_values_as_the_rank(record, found):
-    model = hold_redundant([record], new_model(record.machine))
+    model = hold_redundant(Samples.of([record]), new_model(record.machine))
     machine = [not parameter.is_set_up for parameter in model.parameters()]
     assert int((model.free & machine).sum()) == found.rank
-    minimal = diagnose([record], model, check_held_out=False)
+    minimal = diagnose(Samples.of([record]), model, check_held_out=False)
     assert minimal.rank == found.rank
     assert minimal.rms_after_um == pytest.approx(found.rms_after_um, rel=0.01)
 
@@ -94,14 +94,14 @@ def test_minimal_set_explains_as_much_with_as_many_values_as_the_rank(record, fo
 def test_noise_comes_from_laps_where_there_are_two(record):
     plan = study_plan().model_copy(update={"laps": 2})
     twice = simulate(random_truth(SEED), plan, SEED, PACE)
-    assert noise_of([record]).source == "stated"
-    assert noise_of([twice]).source == "repeated laps"
-    assert noise_of([twice]).sigma_mm == pytest.approx(0.5e-3, rel=0.08)
+    assert noise_of(Samples.of([record])).source == "stated"
+    assert noise_of(Samples.of([twice])).source == "repeated laps"
+    assert noise_of(Samples.of([twice])).sigma_mm == pytest.approx(0.5e-3, rel=0.08)
 
 
 def test_place_is_known_as_well_as_it_is_said(found):
     plan = study_plan()
-    places = place_uncertainty(found, plan.circles[0], plan.mounts[0].cup_mm)
+    places = found.place
     _, error_um = position_errors_um(random_truth(SEED), plan, found)
     assert 0.3 < error_um / places.median_um < 2.5
     assert places.median_um < places.worst_um < 5.0 * places.median_um
@@ -109,12 +109,12 @@ def test_place_is_known_as_well_as_it_is_said(found):
 
 def test_a_record_counts_once(record):
     with pytest.raises(InputError, match="the same readings as"):
-        diagnose([record, record], new_model(record.machine), check_held_out=False)
+        diagnose(Samples.of([record, record]), new_model(record.machine), check_held_out=False)
 
 
 def test_two_records_tell_more_than_one(record, found):
     other = simulate(random_truth(SEED), study_plan(), SEED + 1, PACE)
-    both = diagnose([record, other], new_model(record.machine), check_held_out=False)
+    both = diagnose(Samples.of([record, other]), new_model(record.machine), check_held_out=False)
     assert both.rank == found.rank
     assert len(both.model.mounts) == 2
     assert both.rms_after_um == pytest.approx(0.5, rel=0.03)

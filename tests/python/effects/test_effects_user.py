@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from hexdbb import _core
-from hexdbb.effects import SampleState, effect, load_effects, sample_state, tabulate
+from hexdbb.effects import UserEffect, UserEffectError, effect, load_effects
 from hexdbb.errors import InputError
-from hexdbb.kinematics import engine_machine, inverse
+from hexdbb.model import Choice, Model, new_model
 from hexdbb.plan import load_plan
-from hexdbb.samples.state import planned_columns
+from hexdbb.samples import Samples, linearise, port_sensitivity, predict
 
 PLAN = load_plan("thesis")
 MACHINE = PLAN.machine_file()
@@ -21,31 +21,9 @@ HEAD = "import numpy as np\nfrom hexdbb.effects import effect\n\n"
 
 
 @pytest.fixture(scope="module")
-def samples() -> _core.Samples:
-    runs = PLAN.runs()
-    angle = np.linspace(0.0, 2.0 * np.pi, COUNT, endpoint=False)
-    tables = [
-        inverse(MACHINE, run.circle.poses(run.direction * angle, run.mount.cup_mm), (0.0, 0.0, 0.0)) for run in runs
-    ]
-    rows = np.zeros(len(runs) * COUNT, np.int32)
-    circle, mount = runs[0].circle, runs[0].mount
-    set_up = _core.SetUp(
-        cup_mm=np.array(mount.cup_mm), ball_offset_mm=np.array(circle.ball_offset_mm), bar_length_mm=100.0
-    )
-    made = _core.Samples(
-        sliders_mm=np.vstack([sliders for sliders, _ in tables]),
-        set_up=rows,
-        mount=rows,
-        set_ups=[set_up],
-        state=planned_columns(runs, angle),
-    )
-    made.derive(engine_machine(MACHINE))
-    return made
-
-
-@pytest.fixture(scope="module")
-def state(samples: _core.Samples) -> SampleState:
-    return sample_state(samples, MACHINE)
+def samples() -> Samples:
+    angle = np.arange(COUNT) * (2.0 * np.pi / COUNT)
+    return Samples.planned(MACHINE, PLAN.runs(), angle, 100.0)
 
 
 def written(tmp_path: Path, body: str) -> Path:
@@ -54,86 +32,104 @@ def written(tmp_path: Path, body: str) -> Path:
     return path
 
 
-def failure(tmp_path: Path, state: SampleState, body: str) -> str:
-    """What is said of the one effect of a file; another, good one beside it goes on."""
-    good = (
-        "\n@effect(port='reading', unit='mm', prior_sigma=0.01)\ndef good(state):\n    return np.cos(state.angle_rad)\n"
-    )
-    path = written(tmp_path, body + good)
-    tabulated, failed = tabulate(load_effects(path), state)
-    assert [each.effect.name for each in tabulated] == ["good"]
-    assert len(failed) == 1 and failed[0].exit_status == 2
-    return str(failed[0]).removeprefix(str(path))
+DECLARED = "@effect(port='slider', unit='mm', prior_sigma=0.01, elements=6)\ndef mine(samples):\n"
 
 
-DECLARED = "@effect(port='slider', unit='mm', prior_sigma=0.01, elements=6)\ndef mine(state):\n"
+def with_effects(effects: list[UserEffect]) -> Model:
+    """A model with users' effects alone, all values zero."""
+    model = new_model(MACHINE, []).knowing_effects(effects)
+    for each in effects:
+        model = model.with_effect(Choice(each.name))
+    return model
 
 
-def test_same_as_the_built_in_one(tmp_path: Path, samples: _core.Samples, state: SampleState) -> None:
+def test_same_as_the_built_in_one(tmp_path: Path, samples: Samples) -> None:
     body = """
 @effect(port="slider", unit="s", prior_sigma=2e-3, elements=6)
-def my_lag(state):
+def my_lag(samples):
     '''Lag, written anew.'''
-    return -state.velocity_mm_s
+    return -samples["velocity_mm_s"]
 """
-    (mine,), failed = tabulate(load_effects(written(tmp_path, body)), state)
-    assert failed == []
-    own, built_in = _core.Model(engine_machine(MACHINE)), _core.Model(engine_machine(MACHINE))
-    mine.add_to(own)
-    built_in.add("servo_lag", 1)
+    effects = load_effects(written(tmp_path, body))
     values = np.array([1.0, -2.0, 3.0, 0.0, 5.0, -6.0]) * 1e-3
-    own.values = built_in.values = values
-    for some in (samples, samples.rows([7, 80, 3])):
-        ours, theirs = _core.predict(own, some, True), _core.predict(built_in, some, True)
+    own, built_in = (each.with_values(values) for each in (with_effects(effects), new_model(MACHINE, ["servo_lag"])))
+    for some in (samples, samples.part(np.array([7, 80, 3]))):
+        ours, theirs = linearise(some, own), linearise(some, built_in)
         np.testing.assert_allclose(ours.reading_mm, theirs.reading_mm, rtol=0, atol=1e-12)
         np.testing.assert_allclose(ours.jacobian, theirs.jacobian, rtol=0, atol=1e-9)
-    info = mine.effect.info()
+    info = effects[0].info()
     assert (info.physics, info.group, info.element_kind) == ("Lag, written anew.", "user", "slider")
 
 
-def test_parameters_and_guideways(tmp_path: Path, samples: _core.Samples, state: SampleState) -> None:
+def test_parameters_and_guideways(tmp_path: Path, samples: Samples) -> None:
     body = """
 @effect(port="slider_joint", unit="mm", prior_sigma=0.1, elements=3, parameters=("across", "up"))
-def bow(state):
-    shape = state.sliders_mm / 800.0
-    across, up = np.zeros((len(state), 6, 3)), np.zeros((len(state), 6, 3))
-    across[:, :, 0], up[:, :, 2] = shape, shape
+def bow(samples):
+    form = samples["sliders_mm"] / 800.0
+    across, up = np.zeros((len(samples), 6, 3)), np.zeros((len(samples), 6, 3))
+    across[:, :, 0], up[:, :, 2] = form, form
     return across, up
 """
-    (bow,), _ = tabulate(load_effects(written(tmp_path, body)), state)
-    assert bow.effect.info().size == 6
-    model = _core.Model(engine_machine(MACHINE))
-    bow.add_to(model)
-    jacobian = _core.predict(model, samples, True).jacobian
-    sensitivity = _core.port_sensitivity(_core.Model(engine_machine(MACHINE)), samples)
-    first = _core.PORTS["slider_joint"][0]
+    model = with_effects(load_effects(written(tmp_path, body)))
+    assert len(model.values) == 6
+    jacobian = linearise(samples, model).jacobian
+    sensitivity = port_sensitivity(samples, new_model(MACHINE, []))["slider_joint"]
     for guideway in range(3):
         for parameter, axis in enumerate((0, 2)):
             expected = sum(
-                sensitivity[:, first + 3 * k + axis] * state.sliders_mm[:, k] / 800.0
-                for k in (2 * guideway, 2 * guideway + 1)
+                sensitivity[:, k, axis] * samples["sliders_mm"][:, k] / 800.0 for k in (2 * guideway, 2 * guideway + 1)
             )
             np.testing.assert_allclose(jacobian[:, 2 * guideway + parameter], expected, rtol=0, atol=1e-12)
+
+
+def test_a_column_is_an_attribute_too_and_the_function_is_called_once_for_all_parts(
+    tmp_path: Path, samples: Samples
+) -> None:
+    """Files written before columns had names in brackets go on working."""
+    calls = []
+    (mine,) = load_effects(written(tmp_path, DECLARED + "    return samples.velocity_mm_s\n"))
+    counted = replace(mine, basis=lambda given: calls.append(len(given)) or mine.basis(given))
+    model = with_effects([counted]).with_values(np.full(6, 1e-3))
+    whole = predict(samples, model).reading_mm
+    for rows in (np.arange(0, len(samples), 3), np.arange(len(samples)) % 2 == 0):
+        np.testing.assert_allclose(predict(samples.part(rows), model).reading_mm, whole[rows], rtol=0, atol=1e-12)
+    assert calls == [len(samples)]
 
 
 @pytest.mark.parametrize(
     ("body", "said"),
     [
         ("    return 1 / 0\n", ":6: effect mine: ZeroDivisionError: division by zero"),
-        ("    return state.acceleration\n", ":6: effect mine: AttributeError: 'SampleState' object has no attribute"),
-        ("    return state.time_s\n", ":4: effect mine: size: gives shape (180,) (expected (180, 6) at port slider)"),
-        ("    return 'large'\n", ":4: effect mine: size: gives a str (expected an array of numbers of shape (180, 6))"),
-        ("    pass\n", ":4: effect mine: size: gives nothing (expected to return an array of shape (180, 6))"),
+        ("    return samples.acceleration\n", ":6: effect mine: AttributeError: 'Samples' object has no attribute"),
         (
-            "    return np.where(np.arange(len(state))[:, None] == 2, np.nan, state.sliders_mm)\n",
+            "    return samples['time_s']\n",
+            ":4: effect mine: size: returns shape (180,) (expected (180, 6) at port slider)",
+        ),
+        (
+            "    return 'large'\n",
+            ":4: effect mine: size: returns a str (expected an array of numbers of shape (180, 6))",
+        ),
+        ("    pass\n", ":4: effect mine: size: returns nothing (expected an array of shape (180, 6))"),
+        (
+            "    return np.where(np.arange(len(samples))[:, None] == 2, np.nan, samples.sliders_mm)\n",
             ":4: effect mine: size: nan in sample 3 (expected a number)",
         ),
-        ("    return np.ones((len(state), 6))\n", ":4: effect mine: size: the same in every sample (expected"),
-        ("    return np.zeros((len(state), 6))\n", ":4: effect mine: size: zero in every sample (expected"),
+        ("    return np.ones((len(samples), 6))\n", ":4: effect mine: size: the same in every sample (expected"),
+        ("    return np.zeros((len(samples), 6))\n", ":4: effect mine: size: zero in every sample (expected"),
     ],
 )
-def test_failure_is_named_with_file_and_line(tmp_path: Path, state: SampleState, body: str, said: str) -> None:
-    assert failure(tmp_path, state, DECLARED + body).startswith(said)
+def test_failure_is_named_with_file_and_line(tmp_path: Path, samples: Samples, body: str, said: str) -> None:
+    path = written(tmp_path, DECLARED + body)
+    (mine,) = load_effects(path)
+    with pytest.raises(UserEffectError) as caught:
+        mine.require_usable(samples)
+    assert str(caught.value).removeprefix(str(path)).startswith(said)
+    assert caught.value.exit_status == 2
+
+
+def test_in_a_part_of_a_record_an_effect_may_be_the_same_everywhere(tmp_path: Path, samples: Samples) -> None:
+    (mine,) = load_effects(written(tmp_path, DECLARED + "    return np.ones((len(samples), 6))\n"))
+    assert mine.tabulated(samples).per_unit.shape == (len(samples), 6)
 
 
 @pytest.mark.parametrize(
@@ -170,9 +166,9 @@ def test_no_such_file(tmp_path: Path) -> None:
 
 def test_decorated_function_is_a_value() -> None:
     @effect(port="leg", unit="mm", prior_sigma=0.1, elements=6)
-    def stretch(state: SampleState) -> np.ndarray:
+    def stretch(samples: Samples) -> np.ndarray:
         """Legs stretch."""
-        return state.leg_force
+        return samples["leg_force"]
 
     assert stretch.info().element_kind == "leg"
     assert stretch.limit == pytest.approx(10.0)

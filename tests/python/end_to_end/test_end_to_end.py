@@ -18,6 +18,7 @@ from hexdbb.model import new_model
 from hexdbb.plan import load_plan
 from hexdbb.record import Record, read_record
 from hexdbb.rig.truth import random_truth
+from hexdbb.samples import Samples
 
 TRUTH_SEED = 20060701
 RATE_HZ = 40.0
@@ -80,7 +81,7 @@ def test_record_holds_every_sample(record):
 
 
 def test_truth_is_recovered_within_stated_uncertainty(record):
-    found = diagnose([record], new_model(record.machine))
+    found = diagnose(Samples.of([record]), new_model(record.machine))
     assert found.rank == 21
     assert found.rms_before_um > 50.0
     assert found.rms_after_um < 1.1 * found.noise_um

@@ -14,12 +14,12 @@ from hexdbb.identifiability import (
     Sensitivity,
     expected_covariance,
     expected_uncertainties,
+    measured_sensitivity,
     minimal_set,
     null_directions,
     observability,
     pivots,
     plan_sensitivity,
-    record_sensitivity,
     with_every_effect,
 )
 from hexdbb.identifiability.redundancy import sentences
@@ -27,6 +27,7 @@ from hexdbb.kinematics import inverse
 from hexdbb.model import Model, new_model
 from hexdbb.plan import Circle, Mount, Plan, load_plan
 from hexdbb.record import SLIDER_COLUMNS, Record
+from hexdbb.samples import Samples
 
 RATE_HZ = 250.0
 NOISE_MM = 0.5e-3
@@ -108,7 +109,7 @@ def test_a_record_tells_what_its_plan_promised() -> None:
     columns |= {"angle_deg": np.degrees(np.tile(angle_rad, len(sliders)))}
     columns |= dict(zip(SLIDER_COLUMNS, np.vstack(sliders).T, strict=True))
     record = Record(columns, STANDARD.gauge, STANDARD.mounts, STANDARD.circles, MODEL.machine, {})
-    planned, taken = observability(sensitivity()), record_sensitivity([record], MODEL)
+    planned, taken = observability(sensitivity()), measured_sensitivity(Samples.of([record]), MODEL)
     assert taken.readings == rows
     np.testing.assert_allclose(observability(taken).singular_values, planned.singular_values, atol=1e-12)
     assert observability(taken).unidentifiable == planned.unidentifiable
@@ -190,7 +191,7 @@ def test_expected_uncertainty_is_the_posterior_of_repeated_fits() -> None:
     truth = rng.normal(size=(scaled.shape[1], count))
     gain = np.linalg.solve(scaled.T @ scaled + np.eye(scaled.shape[1]), scaled.T)
     errors = gain @ (scaled @ truth + rng.normal(size=(len(scaled), count))) - truth
-    stated = np.sqrt(np.diag(expected_covariance(taken, NOISE_MM)))[taken.free] / taken.sizes[taken.free]
+    stated = np.sqrt(np.diag(expected_covariance(taken, NOISE_MM)))[taken.free] / taken.prior_sigma[taken.free]
     np.testing.assert_allclose(errors.std(axis=1), stated, rtol=0.06)
 
 

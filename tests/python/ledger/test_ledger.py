@@ -18,14 +18,14 @@ from tests.truth.plans import discovery_plan
 from tests.truth.simulate import Pace, simulate
 
 from hexdbb import _core
-from hexdbb.diagnosis import diagnose
 from hexdbb.errors import InputError
-from hexdbb.ledger import add_effect, held_at_zero, history, remove_effect, undo, with_effect
+from hexdbb.ledger import add_effect, fit_model, history, remove_effect, undo
 from hexdbb.machine import shipped_machine
-from hexdbb.model import Model, Term, load_model, new_model, save_model
+from hexdbb.model import Choice, Model, Term, load_model, new_model, save_model
 from hexdbb.model.shown import engine_values, shown_values
 from hexdbb.record import Record, write_record
 from hexdbb.rig.truth import random_truth
+from hexdbb.samples import Samples
 
 SEED = 11
 HIDDEN, ELEMENT = "guideway_rotation_yz", "2"
@@ -44,12 +44,12 @@ def without(record: Record) -> Model:
     names = [name for name in _core.effect_names() if new_model(record.machine, [name]).info(name).is_set_up]
     geometry = ["leg_length", "slider_offset", "guideway_translation", "guideway_rotation_xy", "platform_side"]
     chosen = geometry + [name for name in names if name in ("cup_position", "ball_offset")]
-    return diagnose([record], new_model(record.machine, chosen)).model
+    return fit_model(Samples.of([record]), new_model(record.machine, chosen)).model
 
 
 @pytest.fixture(scope="module")
 def added(record: Record, without: Model) -> Model:
-    return add_effect([record], without, HIDDEN)[0]
+    return add_effect(Samples.of([record]), without, HIDDEN).model
 
 
 def saved(model: Model, folder: Path) -> str:
@@ -79,7 +79,8 @@ def test_a_missing_effect_added_lets_the_error_fall_where_it_was_not_fitted(with
 
 
 def test_the_diagnosis_of_an_addition_is_compared_with_the_model_without_it(record: Record, without: Model) -> None:
-    changed, found = add_effect([record], without, HIDDEN)
+    found = add_effect(Samples.of([record]), without, HIDDEN)
+    changed = found.model
     step = changed.ledger[-1]
     assert found.model is changed
     assert found.rms_before_um == pytest.approx(step.rms_before_um)
@@ -91,17 +92,17 @@ def test_the_diagnosis_of_an_addition_is_compared_with_the_model_without_it(reco
 
 def test_only_the_elements_chosen_are_free_and_more_can_be_added() -> None:
     model = new_model(shipped_machine(), ["cup_position"])
-    one = with_effect(model, f"{HIDDEN}:2")
+    one = model.with_effect(Choice.parse(f"{HIDDEN}:2"))
     assert [p.label for p, free in zip(one.parameters(), one.free, strict=True) if free][3:] == [f"{HIDDEN}:2 angle"]
-    two = with_effect(one, f"{HIDDEN}:1:2")
+    two = one.with_effect(Choice.parse(f"{HIDDEN}:1:2"))
     assert two.terms[-1].free.tolist() == [True, True, False]
-    whole = with_effect(two, HIDDEN)
+    whole = two.with_effect(Choice.parse(HIDDEN))
     assert whole.terms[-1].free.all()
     assert len(whole.terms) == 2
 
 
 def test_elements_not_chosen_stay_zero(record: Record, without: Model) -> None:
-    changed, _ = add_effect([record], without, f"{HIDDEN}:{ELEMENT}")
+    changed = add_effect(Samples.of([record]), without, f"{HIDDEN}:{ELEMENT}").model
     assert value(changed, f"{HIDDEN}:{ELEMENT}") != 0.0
     assert value(changed, f"{HIDDEN}:1") == value(changed, f"{HIDDEN}:3") == 0.0
     assert changed.ledger[-1].elements == (ELEMENT,)
@@ -109,7 +110,8 @@ def test_elements_not_chosen_stay_zero(record: Record, without: Model) -> None:
 
 
 def test_an_effect_can_be_added_to_a_machine_without_any(record: Record) -> None:
-    changed, found = add_effect([record], new_model(record.machine, []), "cup_position")
+    found = add_effect(Samples.of([record]), new_model(record.machine, []), "cup_position")
+    changed = found.model
     step = changed.ledger[-1]
     assert step.rms_after_um < step.rms_before_um == pytest.approx(step.heldout_before_um)
     assert found.rank == 0 and len(changed.mounts) == 1
@@ -118,7 +120,7 @@ def test_an_effect_can_be_added_to_a_machine_without_any(record: Record) -> None
 def test_elements_that_only_the_records_have_can_be_added(record: Record) -> None:
     again = simulate(random_truth(SEED), discovery_plan().model_copy(update={"laps": 1}), seed=1, pace=PACE)
     fresh = new_model(record.machine, ["cup_position"])
-    changed, _ = add_effect([record, again], fresh, "ball_eccentricity:2")
+    changed = add_effect(Samples.of([record, again]), fresh, "ball_eccentricity:2").model
     free = changed.terms[-1].free
     assert changed.terms[-1].effect == "ball_eccentricity"
     info = changed.info("ball_eccentricity")
@@ -126,7 +128,7 @@ def test_elements_that_only_the_records_have_can_be_added(record: Record) -> Non
 
 
 def test_removing_an_effect_takes_it_out_and_says_what_it_was(record: Record, without: Model, added: Model) -> None:
-    removed, _ = remove_effect([record], added, HIDDEN)
+    removed = remove_effect(Samples.of([record]), added, HIDDEN).model
     assert [term.effect for term in removed.terms] == [term.effect for term in without.terms]
     step = removed.ledger[-1]
     assert step.what == "remove"
@@ -135,17 +137,17 @@ def test_removing_an_effect_takes_it_out_and_says_what_it_was(record: Record, wi
 
 
 def test_an_element_taken_away_is_held_at_zero_and_the_last_takes_the_effect() -> None:
-    model = with_effect(new_model(shipped_machine(), ["cup_position"]), f"{HIDDEN}:1:2")
-    left = held_at_zero(model, f"{HIDDEN}:1")
+    model = new_model(shipped_machine(), ["cup_position"]).with_effect(Choice.parse(f"{HIDDEN}:1:2"))
+    left = model.without_effect(Choice.parse(f"{HIDDEN}:1"))
     assert left.terms[-1].free.tolist() == [False, True, False]
-    assert [term.effect for term in held_at_zero(left, f"{HIDDEN}:2").terms] == ["cup_position"]
+    assert [term.effect for term in left.without_effect(Choice.parse(f"{HIDDEN}:2")).terms] == ["cup_position"]
 
 
 def test_steps_are_taken_back_one_by_one_from_the_file_alone(
     record: Record, without: Model, added: Model, tmp_path: Path
 ) -> None:
     states = [new_model(record.machine, [term.effect for term in without.terms]), without, added]
-    states.append(remove_effect([record], added, f"{HIDDEN}:1")[0])
+    states.append(remove_effect(Samples.of([record]), added, f"{HIDDEN}:1").model)
     texts = [saved(state, tmp_path) for state in states]
     assert len(set(texts)) == len(texts)
     (tmp_path / "model.toml").write_text(texts[-1])
@@ -204,10 +206,10 @@ def test_a_damaged_earlier_state_is_named(added: Model, tmp_path: Path, old: str
 def test_the_ledger_reads_aloud(added: Model) -> None:
     first, second = history(added).text.splitlines()
     number = r"-?\d+\.\d+"
-    assert re.match(rf"step 1: fitted the values; reading error {number} -> {number} um RMS \(peak to valley", first)
-    size = rf"angle {number} (± {number} urad|urad, known only together with others)"
+    assert re.match(rf"step 1: fitted the values; reading error {number} -> {number} µm RMS \(peak to valley", first)
+    size = rf"angle {number} (± {number} µrad|µrad, known only in combination with others)"
     assert re.match(rf"step 2: added {HIDDEN} \(1 {size}; 2 {size}; 3 {size}\); reading error", second)
-    assert re.search(rf"held-out circles {number} -> {number} um RMS", second)
+    assert re.search(rf"held-out circles {number} -> {number} µm RMS", second)
     data = history(added).to_json()["steps"][1]
     assert data["sentence"] == second
     assert json.loads(json.dumps(data, allow_nan=False)) == data
@@ -226,26 +228,26 @@ def test_the_ledger_reads_aloud(added: Model) -> None:
 )
 def test_what_cannot_be_added_is_named(record: Record, without: Model, choice: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
-        add_effect([record], without, choice)
+        add_effect(Samples.of([record]), without, choice)
 
 
 def test_what_is_not_there_cannot_be_removed(record: Record, without: Model) -> None:
     with pytest.raises(InputError, match=rf"{HIDDEN}: not in the model \(expected one of leg_length"):
-        remove_effect([record], without, HIDDEN)
+        remove_effect(Samples.of([record]), without, HIDDEN)
 
 
 def test_record_and_model_of_different_machines_are_refused(record: Record, without: Model) -> None:
     legs = record.machine.legs.model_copy(update={"length_mm": 401.0})
     other = replace(record, machine=record.machine.model_copy(update={"legs": legs}))
     with pytest.raises(InputError, match=r"legs\.length_mm: 400 \(expected 401.*do not belong together"):
-        add_effect([other], without, HIDDEN)
+        add_effect(Samples.of([other]), without, HIDDEN)
 
 
 def test_a_held_value_is_freed_not_refused(without: Model) -> None:
     term = without.terms[0]
     held = Term(term.effect, np.zeros(6, bool), term.values, term.sigma, term.identifiable)
     model = replace(without, terms=(held, *without.terms[1:]))
-    freed = with_effect(model, "leg_length:3")
+    freed = model.with_effect(Choice.parse("leg_length:3"))
     assert freed.terms[0].free.tolist() == [False, False, True, False, False, False]
     assert np.array_equal(freed.terms[0].values, term.values)
 
@@ -264,7 +266,7 @@ def test_the_commands_add_read_aloud_and_undo(record: Record, without: Model, tm
     number = r"\d+\.\d\d"
     fall = rf"{number} µm -> {number} µm \(held-out circles {number} -> {number}\)"
     assert re.fullmatch(fall, done.stdout.splitlines()[0])
-    assert re.search(rf"^{HIDDEN} +1 +angle +-?{number} +({number}|~) +urad$", done.stdout, flags=re.MULTILINE)
+    assert re.search(rf"^{HIDDEN} +1 +angle +-?{number} +({number}|~) +µrad$", done.stdout, flags=re.MULTILINE)
     told = hexdbb(tmp_path, "history", "-m", "model.toml")
     assert told.stdout == history(load_model(tmp_path / "model.toml")).text + "\n"
     data = json.loads(hexdbb(tmp_path, "history", "-m", "model.toml", "--json").stdout)
@@ -318,9 +320,9 @@ def test_a_hidden_mechanism_of_the_catalogue_is_added_and_the_error_falls_to_the
     hidden = case("backlash-x10-s0")
     (fault,) = hidden.hidden
     record = hidden.record()
-    model, found = add_effect(
-        [record], diagnose([record], new_model(record.machine)).model, f"backlash:{fault.element}"
-    )
+    samples = Samples.of([record])
+    found = add_effect(samples, fit_model(samples, new_model(record.machine)).model, f"backlash:{fault.element}")
+    model = found.model
     step = model.ledger[-1]
     noise_um = found.noise.sigma_mm * 1e3
     assert step.rms_before_um > 5.0 * noise_um

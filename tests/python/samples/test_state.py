@@ -13,7 +13,7 @@ from hexdbb.kinematics import inverse
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
 from hexdbb.record import SLIDER_COLUMNS, Record
-from hexdbb.samples import knowing, predict_reading_mm, samples_of
+from hexdbb.samples import Samples, predict
 from hexdbb.samples.state import planned_columns, state_columns
 
 PLAN = load_plan("standard")
@@ -47,7 +47,7 @@ def record_of(plan_circles: int, start_s: float = 100.0) -> Record:
 
 def test_columns_are_in_the_engines_units() -> None:
     record = record_of(2)
-    state = samples_of([record], new_model(MACHINE)).state
+    state = Samples.of([record])
     assert state["time_s"][0] == 0.0
     np.testing.assert_allclose(state["time_s"], record.columns["t_s"] - 100.0)
     np.testing.assert_allclose(state["warming_k"], state["time_s"] / 60.0, atol=1e-12)
@@ -72,8 +72,7 @@ def test_sweeps_and_circles_of_several_records() -> None:
 def test_part_of_a_record_has_the_state_of_the_whole() -> None:
     record = record_of(3)
     rows = record.columns["circle"] == 2
-    model = knowing(new_model(MACHINE), [record])
-    whole, part = samples_of([record], model).state, samples_of([record.part(rows)], model).state
+    whole, part = Samples.of([record]), Samples.of([record.part(rows)])
     for name in ("time_s", "warming_k", "side", "since_reversal_mm", "velocity_mm_s", "leg_force", "circle"):
         np.testing.assert_allclose(part[name], whole[name][rows], rtol=0, atol=1e-9, err_msg=name)
 
@@ -81,18 +80,18 @@ def test_part_of_a_record_has_the_state_of_the_whole() -> None:
 def test_record_without_a_thermometer_has_no_temperature() -> None:
     record = record_of(1)
     without = {name: column for name, column in record.columns.items() if name != "temperature_c"}
-    state = samples_of([replace(record, columns=without, origin=None)], new_model(MACHINE)).state
+    state = Samples.of([replace(record, columns=without, origin=None)])
     assert np.isnan(state["temperature_c"]).all() and np.isnan(state["warming_k"]).all()
 
 
 def test_every_effect_of_the_catalogue_predicts_a_record() -> None:
     record = record_of(2)
-    nominal = predict_reading_mm(record, knowing(new_model(MACHINE, []), [record]))
+    samples = Samples.of([record])
+    nominal = predict(samples, new_model(MACHINE, []).with_mounts(samples.mounts)).reading_mm
     for name in _core.effect_names("catalogue"):
-        model = knowing(new_model(MACHINE, [name]), [record])
-        sizes = np.array([each.prior_sigma for each in model.parameters()])
-        changed = model.with_values(sizes, np.full(len(sizes), np.nan), np.zeros(len(sizes), bool))
-        change = np.abs(predict_reading_mm(record, changed) - nominal).max()
+        model = new_model(MACHINE, [name]).with_mounts(samples.mounts)
+        changed = model.with_values(model.prior_sigma)
+        change = np.abs(predict(samples, changed).reading_mm - nominal).max()
         assert name == "bar_gain" or change > 1e-7, name
 
 

@@ -20,7 +20,7 @@ from hexdbb.machine import MachineFile
 from hexdbb.model import Model, new_model
 from hexdbb.plan import Circle, Mount, Plan, load_plan
 from hexdbb.record import Record
-from hexdbb.samples import samples_of
+from hexdbb.samples import Samples
 from hexdbb.studies.thesis.unknowns import SHORT_NAMES, UNKNOWNS
 
 Floats = NDArray[np.float64]
@@ -184,4 +184,4 @@ def record_test(record: Record) -> CircularTest:
         )
     nominal = new_model(record.machine, list(SHORT_NAMES))
     angle_rad = np.radians(record.columns["angle_deg"])
-    return CircularTest(record.machine, samples_of([record], nominal), record.sliders_mm, angle_rad, record.name)
+    return CircularTest(record.machine, Samples.of([record]).block(nominal), record.sliders_mm, angle_rad, record.name)

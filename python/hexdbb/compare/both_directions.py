@@ -1,7 +1,7 @@
-"""Residuals of the two directions of one circle held together: what is common to both, and what turns with direction.
+"""Residuals of the two directions of one circle, combined: the part common to both, and the part that reverses.
 
-Half the sum is what the machine does at a place however it came there: geometry, screws. Half the difference is what
-depends on the way: backlash, lag, a gauge read late. Averages over arcs of `ARC_DEG` degrees of commanded angle.
+Half the sum is what the machine does at a place from either direction: geometry, screws. Half the difference reverses
+with the direction: backlash, lag, a gauge read late. Averages over arcs of `ARC_DEG` degrees of commanded angle.
 """
 
 from __future__ import annotations
@@ -13,32 +13,32 @@ import numpy as np
 from hexdbb.compare.iso230 import FloatArray
 
 ARC_DEG = 5
-"""A divisor of 360."""
+"""Width of an arc: short against the orders of interest (12 periods a turn are 30 degrees); a divisor of 360."""
 
 
 @dataclass(frozen=True)
-class BothWays:
+class BothDirections:
     """Half the sum and half the difference (counter-clockwise minus clockwise) of the residuals, arc by arc.
 
     Attributes
     ----------
     angle_rad : (m,) array
-        Middle of each arc that both directions have.
-    sum_mm, difference_mm : (m,) arrays
+        Middle of each arc that has samples of both directions.
+    half_sum_mm, half_difference_mm : (m,) arrays
         (ccw + cw) / 2 and (ccw - cw) / 2.
     """
 
     angle_rad: FloatArray
-    sum_mm: FloatArray
-    difference_mm: FloatArray
+    half_sum_mm: FloatArray
+    half_difference_mm: FloatArray
 
 
-def both_ways(ccw: tuple[FloatArray, FloatArray], cw: tuple[FloatArray, FloatArray]) -> BothWays | None:
-    """Hold two directions together; each is angle (rad) and residual (mm), shape (n,).
+def both_directions(ccw: tuple[FloatArray, FloatArray], cw: tuple[FloatArray, FloatArray]) -> BothDirections | None:
+    """Return half the sum and half the difference; each direction is angle (rad) and residual (mm), shape (n,).
 
     Returns
     -------
-    BothWays or None
+    BothDirections or None
         None where no arc has samples of both.
     """
     first, second = _arc_means(*ccw), _arc_means(*cw)
@@ -46,11 +46,11 @@ def both_ways(ccw: tuple[FloatArray, FloatArray], cw: tuple[FloatArray, FloatArr
     if not shared.any():
         return None
     middle_rad = np.radians((np.flatnonzero(shared) + 0.5) * ARC_DEG)
-    return BothWays(middle_rad, (first + second)[shared] / 2.0, (first - second)[shared] / 2.0)
+    return BothDirections(middle_rad, (first + second)[shared] / 2.0, (first - second)[shared] / 2.0)
 
 
 def _arc_means(angle_rad: FloatArray, residual_mm: FloatArray) -> FloatArray:
-    """Mean over each arc; nan where there is no sample."""
+    """Return the mean over each arc; nan where there is no sample."""
     count = 360 // ARC_DEG
     # The small summand keeps an angle that is meant to be the start of an arc out of the arc before it.
     arc = np.floor(np.degrees(angle_rad) / ARC_DEG + 1e-9).astype(np.int64) % count

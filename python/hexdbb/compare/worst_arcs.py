@@ -1,4 +1,4 @@
-"""Where the prediction fails: arcs of ten degrees of one circle, direction and feed, worst first, said in words."""
+"""Where the residual is largest: arcs of ten degrees of one circle, direction and feed, worst first."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 from hexdbb.compare.circles import DIRECTION_NAMES, CircleComparison, DirectionComparison, root_mean_square
 
 ARC_DEG = 10
-"""Width of the arcs the residual is sorted into; a divisor of 360."""
+"""Width of the arcs by which the residual is sorted, a divisor of 360: enough samples to average the noise out."""
 
 
 @dataclass(frozen=True)
-class WorstPlace:
+class WorstArc:
     """One arc: `where` in words and as values, and the residual's root mean square there."""
 
     where: str
@@ -27,22 +27,20 @@ class WorstPlace:
     rms_mm: float
 
 
-def worst_places(circles: Sequence[CircleComparison], count: int) -> list[WorstPlace]:
-    """Give the `count` arcs with the largest root mean square residual, largest first."""
+def worst_arcs(circles: Sequence[CircleComparison], count: int) -> list[WorstArc]:
+    """Return the `count` arcs with the largest root mean square residual, largest first."""
     several_records = len({circle.record_name for circle in circles}) > 1
-    places = [
-        place for circle in circles for part in circle.directions for place in _arcs(circle, part, several_records)
-    ]
-    return sorted(places, key=lambda place: place.rms_mm, reverse=True)[:count]
+    arcs = [arc for circle in circles for part in circle.directions for arc in _arcs(circle, part, several_records)]
+    return sorted(arcs, key=lambda arc: arc.rms_mm, reverse=True)[:count]
 
 
-def _arcs(circle: CircleComparison, part: DirectionComparison, name_record: bool) -> list[WorstPlace]:
+def _arcs(circle: CircleComparison, part: DirectionComparison, name_record: bool) -> list[WorstArc]:
     prefix = f"{circle.record_name}, " if name_record else ""
     sweep = f"{prefix}circle {circle.circle.id}, {DIRECTION_NAMES[part.direction]}, {circle.feed_mm_min:g} mm/min"
     # The small summand keeps an angle that is meant to be the start of an arc out of the arc before it.
     arc_of = np.floor(np.degrees(part.angle_rad) / ARC_DEG + 1e-9).astype(np.int64) % (360 // ARC_DEG)
     return [
-        WorstPlace(
+        WorstArc(
             where=f"{sweep}, angle {start}-{start + ARC_DEG} deg",
             record_name=circle.record_name,
             circle=circle.circle.id,
