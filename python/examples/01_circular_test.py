@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from hexdbb.capture import Lockstep, Request, measure, open_bus, prepare, simulated_rig
-from hexdbb.compare import compare
+from hexdbb.comparison import compare
 from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model, save_model
 from hexdbb.plan import load_plan

@@ -1,6 +1,7 @@
 """The table of samples: what everything from prediction to verdict takes, together with a model.
 
-Built once, from records alone. Every column has one name, with its unit in it: those of the engine's state (`state.hpp`,
+Built once, from records alone. Every column has one name, with its unit in it: those of the engine's state
+(`state.hpp`,
 `for_each_column`), and `record`, `set_up`, `mount` (places in `Samples.records`, `set_ups`, `mounts`), `sliders_mm` and
 `reading_mm`. Columns of sliders and legs have shape (n, 6), all others (n,).
 
