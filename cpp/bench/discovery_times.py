@@ -1,4 +1,4 @@
-"""A whole discovery timed: every effect, whole and per element, on 20,000 readings of machines with a known fault."""
+"""Time of a whole discovery: every effect, whole and per element, on 20,000 readings of machines with a known fault."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hexdbb.discovery import discover
 from hexdbb.model import new_model
 
 PACE = Pace(rate_hz=11.5, instants_per_sample=15, travel_s=10.0)
-"""Some 20,000 samples on the standard plan."""
+"""About 20,000 samples on the standard plan."""
 CASES = (
     "none-s1",
     "backlash-x3-s1",
@@ -23,10 +23,11 @@ CASES = (
 )
 REPETITIONS = 5
 TARGET_S = 2.0
+"""Limit of one call: a user at the machine waits for it."""
 
 
 def discovery_rows() -> list[str]:
-    """Rows of a table: the fault, the readings, the verdict, median seconds of one call."""
+    """Return table rows: the fault, the number of readings, the verdict, the median time of one call."""
     rows = []
     for name in CASES:
         record = case(name, PACE).record()

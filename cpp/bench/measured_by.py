@@ -1,4 +1,4 @@
-"""What both pages of benchmarks need: running a benchmark program, and saying on what machine."""
+"""Shared by both pages of benchmarks: running a benchmark program, and naming processor and compiler."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 
 def median_rows(program: Path, repetitions: int) -> dict[str, dict[str, float]]:
-    """Median row of each benchmark of a Google Benchmark program, by its name."""
+    """Return the median row of each benchmark of a Google Benchmark program, by its name."""
     command = [
         str(program),
         f"--benchmark_repetitions={repetitions}",
@@ -22,7 +22,7 @@ def median_rows(program: Path, repetitions: int) -> dict[str, dict[str, float]]:
 
 
 def processor() -> str:
-    """Name the processor and what the engine's dispatch can use of it."""
+    """Return the processor's name, its cores, and the vector instructions among which the engine chooses."""
     text = Path("/proc/cpuinfo").read_text() if Path("/proc/cpuinfo").exists() else ""
     name = next((line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name")), "")
     flags = next((line.split() for line in text.splitlines() if line.startswith("flags")), [])
@@ -31,6 +31,6 @@ def processor() -> str:
 
 
 def compiler() -> str:
-    """Name the C++ compiler."""
-    said = subprocess.run(["c++", "--version"], check=True, capture_output=True, text=True).stdout
-    return said.splitlines()[0]
+    """Return the name of the C++ compiler."""
+    output = subprocess.run(["c++", "--version"], check=True, capture_output=True, text=True).stdout
+    return output.splitlines()[0]

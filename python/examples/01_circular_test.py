@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from hexdbb.capture import Lockstep, Progress, Request, measure, open_bus, prepare, simulated_rig
+from hexdbb.capture import Lockstep, Request, measure, open_bus, prepare, simulated_rig
 from hexdbb.compare import compare
 from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model, save_model
@@ -14,7 +14,7 @@ plan = load_plan("thesis")
 machine = plan.machine_file()
 request = Request(plan, machine, "thesis", machine.can_setup.cycle_s, Path("demo.parquet"))
 with simulated_rig([]) as address, open_bus(address, machine.can_setup.bitrate_bit_s) as bus:
-    record = measure(request, prepare(request), bus, Lockstep(), Progress())
+    record = measure(request, prepare(request), bus, Lockstep())
 found = diagnose([record], new_model(machine))
 save_model(found.model, "demo-model.toml")
 comparison = compare([record], [predict_reading_mm(record, found.model)])

@@ -1,48 +1,33 @@
-"""Compensation for motion controllers: what of a model they can correct, the file they load, slider targets of a path.
+"""The compensation file: the part of a model that a motion controller can correct, written and read.
 
-The engine does it all (`compensation.hpp`): which effects can be corrected, the format of the file, the targets. This
-module gives it models and tables and turns its refusals into `InputError`.
+The engine decides which effects a controller can correct and defines the format (`compensation_file.hpp`). This module
+passes it a model and turns its refusals into `InputError`. The format is described in docs/compensation.md.
 """
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
-from hexdbb.files.atomic_file import replacing
-from hexdbb.kinematics import engine_machine, status_name
+from hexdbb.files.atomic_file import write_text
+from hexdbb.kinematics import engine_machine
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model
 from hexdbb.record import Record
 
-Floats = NDArray[np.float64]
-
 SUFFIX = ".hexcomp"
-POSE_COLUMNS = ("x_mm", "y_mm", "z_mm", "roll_deg", "pitch_deg", "yaw_deg")
-SLIDER_COLUMNS = tuple(f"s{k}_mm" for k in range(1, 7))
+
 MAX_CORRECTION_MM = 1.0
+"""Default limit of the correction of one slider. Leg errors of 0.1 mm need up to 1 mm where a leg stands steeply on its
+guideway; a larger correction points to a model that extrapolates (docs/closed-loop.md)."""
+
 REVERSAL_TRAVEL_MM = 0.01
-UNHURRIED_S = 1e6
-"""Time between the poses of a path without times: they have an order, hence directions, and next to no speed."""
-
-
-@dataclass(frozen=True)
-class PathTargets:
-    """Where the sliders must stand along a path."""
-
-    sliders_mm: Floats
-    """Shape (n, 6)."""
-    correction_mm: Floats
-    """What they have beyond the nominal coordinates, shape (n, 6)."""
+"""Default slider travel after a reversal over which a direction-dependent correction changes over. Of the size of the
+play in a good drive (5-20 µm), so that the correction moves about as fast as the slider itself."""
 
 
 def make_compensation(
@@ -52,23 +37,24 @@ def make_compensation(
     reversal_travel_mm: float = REVERSAL_TRAVEL_MM,
     reference_temperature_c: float | None = None,
 ) -> _core.CompensationData:
-    """Take from a model what a controller can correct.
+    """Return the part of a model that a controller can correct.
 
     Parameters
     ----------
     model : Model
-        Its effects of the user's own are left out, as what only the program that fitted them knows.
+        User-defined effects are left out: the engine cannot compute them.
     max_correction_mm : float
-        Largest correction of one slider; a controller refuses poses that need more.
+        Largest correction of one slider, mm; a controller refuses poses that need more.
     reversal_travel_mm : float
-        Travel of a slider over which what depends on its direction goes from one side to the other.
+        Slider travel after a reversal over which a direction-dependent correction changes over, mm.
     reference_temperature_c : float, optional
-        Temperature at the first sample of the record that thermal growth was fitted to; without it growth is left out.
+        Temperature at the first sample of the record to which the model was fitted, °C; without it,
+        temperature-dependent effects are left out.
 
     Returns
     -------
     CompensationData
-        `effects` it corrects, `left_out` with reasons.
+        `effects` lists the corrected effects, `left_out` the others with the reason.
     """
     content = model.path.read_bytes() if model.path is not None and model.path.is_file() else b""
     unknown = [term.effect for term in model.terms if term.effect in model.own_effects]
@@ -84,13 +70,18 @@ def make_compensation(
     )
 
 
-def fitted_temperature_c(model: Model, record: Record) -> float:
-    """Give the temperature from which a model's growth counts: the first one of the record it was fitted to.
+def reference_temperature_of(model: Model, record: Record) -> float:
+    """Return the reference temperature of a model: that of the first sample of a record to which it was fitted.
+
+    Returns
+    -------
+    float
+        °C.
 
     Raises
     ------
     InputError
-        The model was not fitted to this record, or no temperature was measured in it.
+        The model was not fitted to this record, or the record has no temperature.
     """
     if record.content_hash() not in {each for step in model.ledger for each in step.record_hashes}:
         raise InputError(f"{record.name}: the model was not fitted to it (expected a record that its history names)")
@@ -100,31 +91,31 @@ def fitted_temperature_c(model: Model, record: Record) -> float:
     return temperature_c
 
 
-def write_text(text: str, path: Path) -> None:
-    """Write a compensation file, a header or a table, whole or not at all.
+def write_compensation(data: _core.CompensationData, path: Path) -> None:
+    """Write a compensation file whole or not at all, replacing an existing one.
 
     Raises
     ------
     RunError
-        Where it cannot be written.
+        The file cannot be written.
     """
-    with replacing(path) as temporary:
-        temporary.write_bytes(text.encode())
+    write_text(path, data.text())
 
 
 def read_compensation(path: Path, machine: MachineFile | None = None) -> _core.CompensationData:
-    """Read a compensation file.
+    """Read and check a compensation file.
 
     Parameters
     ----------
     path : Path
     machine : MachineFile, optional
-        The machine to be driven; a file of another one is refused.
+        The machine to be driven; a file made for another machine is refused.
 
     Raises
     ------
     InputError
-        Cannot be read, malformed, truncated, altered, of a later version, of another machine, an unknown effect.
+        The file cannot be read, is malformed, truncated, altered, of a later version or made for another machine, or
+        names an unknown effect.
     """
     try:
         data = _core.read_compensation(str(path))
@@ -133,100 +124,3 @@ def read_compensation(path: Path, machine: MachineFile | None = None) -> _core.C
     except _core.CompensationError as error:
         raise InputError(str(error)) from None
     return data
-
-
-def path_targets(
-    data: _core.CompensationData,
-    position_mm: ArrayLike,
-    rpy_rad: ArrayLike,
-    *,
-    time_s: ArrayLike | None = None,
-    temperature_c: float = math.nan,
-    name: str = "the path",
-) -> PathTargets:
-    """Slider targets along a path, in order of motion.
-
-    Parameters
-    ----------
-    data : CompensationData
-    position_mm : array_like, shape (n, 3)
-    rpy_rad : array_like, shape (n, 3) or (3,)
-    time_s : array_like, shape (n,), optional
-        When each pose is reached, from which velocities follow; without it only the directions are known.
-    temperature_c : float
-        Measured; nan where it is not.
-    name : str
-        How errors name the path.
-
-    Raises
-    ------
-    InputError
-        Naming the first pose without targets and why.
-    """
-    position = np.ascontiguousarray(position_mm, dtype=np.float64)
-    rpy = np.ascontiguousarray(np.broadcast_to(np.asarray(rpy_rad, dtype=np.float64), position.shape))
-    count = len(position)
-    times = UNHURRIED_S * np.arange(count) if time_s is None else np.asarray(time_s, dtype=np.float64)
-    compensator = _core.Compensator(data, name)
-    sliders, correction, status, slider = compensator.sliders_along(
-        position, rpy, times, np.full(count, temperature_c, dtype=np.float64)
-    )
-    wrong = np.flatnonzero(status)
-    if wrong.size:
-        row = int(wrong[0])
-        raise InputError(f"{name}: row {row + 1}: slider {slider[row] + 1}: {status_name(int(status[row]))}")
-    return PathTargets(sliders, correction)
-
-
-def read_poses(path: Path) -> Floats:
-    """Read a table of poses, in order of motion.
-
-    Parameters
-    ----------
-    path : Path
-        CSV with the columns x_mm, y_mm, z_mm, roll_deg, pitch_deg, yaw_deg, in any order.
-
-    Returns
-    -------
-    ndarray, shape (n, 6)
-        In the order of the columns above.
-
-    Raises
-    ------
-    InputError
-        Naming file, row and column.
-    """
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read: {error} (expected a CSV table of poses)") from None
-    header = [name.strip() for name in rows[0]] if rows else []
-    missing = [name for name in POSE_COLUMNS if name not in header]
-    if missing or len(set(header)) != len(header):
-        raise InputError(f"{path}: columns {','.join(header)} (expected {','.join(POSE_COLUMNS)}, each once)")
-    places = [header.index(name) for name in POSE_COLUMNS]
-    body = [(number, row) for number, row in enumerate(rows[1:], start=2) if row]
-    if not body:
-        raise InputError(f"{path}: no poses (expected at least one row)")
-    return np.array([_pose(path, number, row, places) for number, row in body])
-
-
-def sliders_csv(sliders_mm: Floats) -> str:
-    """Table of slider coordinates as text, to 1 nm."""
-    lines = [",".join(SLIDER_COLUMNS), *(",".join(f"{each:.6f}" for each in row) for row in sliders_mm)]
-    return "\n".join(lines) + "\n"
-
-
-def _pose(path: Path, number: int, row: Sequence[str], places: Sequence[int]) -> list[float]:
-    values = []
-    for name, place in zip(POSE_COLUMNS, places, strict=True):
-        text = row[place] if place < len(row) else ""
-        try:
-            value = float(text)
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value):
-            raise InputError(f'{path}: line {number}: {name}: "{text}" (expected a finite number)')
-        values.append(value)
-    return values

@@ -1,4 +1,4 @@
-"""Files as such: TOML read with validation, whole files or none, columns as tables."""
+"""Files in general: validated TOML, files written whole or not at all, columns as tables."""
 
 from hexdbb.files.atomic_file import replacing
 from hexdbb.files.frames import html_table, to_frame

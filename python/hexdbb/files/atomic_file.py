@@ -1,4 +1,4 @@
-"""Files that are there whole or not at all: written beside their place, synchronised, then renamed over it (POSIX)."""
+"""Files written whole or not at all: to a temporary file in the same directory, synchronised, then renamed (POSIX)."""
 
 from __future__ import annotations
 
@@ -11,34 +11,34 @@ from hexdbb.errors import InputError, RunError
 
 
 def refuse_existing(path: Path, overwrite: bool) -> None:
-    """Refuse to write where something stands, unless told to, or where there is no directory.
+    """Check that a file may be written: it does not exist or may be overwritten, and its directory exists.
 
     Raises
     ------
     InputError
-        Naming the file.
+        It may not; names the file.
     """
     if not path.parent.is_dir():
         raise InputError(f"{path}: no such directory {path.parent} (expected one that exists)")
     if path.is_dir():
         raise InputError(f"{path}: is a directory (expected the name of a file)")
     if path.exists() and not overwrite:
-        raise InputError(f"{path}: exists already (expected a new name, or to be told to overwrite)")
+        raise InputError(f"{path}: exists already (expected a new name, or leave to overwrite it)")
 
 
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Give a temporary path to write to, which takes the place of `path` when the block ends well.
+    """Yield a temporary path to write to; it replaces `path` when the block ends without an error.
 
     Parameters
     ----------
     path : Path
-        Final place; what stands there stays untouched until the new file is whole and on disk.
+        The file to be written; an existing one is untouched until the new one is whole and on disk.
 
     Raises
     ------
     RunError
-        Where the file cannot be written (permissions, disk full); nothing is left behind.
+        The file cannot be written (permissions, disk full); the temporary file is removed.
     """
     temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
@@ -54,9 +54,21 @@ def replacing(path: Path) -> Iterator[Path]:
 
 
 def sync_directory(directory: Path) -> None:
-    """Make what was created or renamed in a directory survive a power loss."""
+    """Synchronise a directory (fsync), so that files created or renamed in it survive a power loss."""
     descriptor = os.open(directory, os.O_RDONLY)
     try:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a UTF-8 text file whole or not at all, replacing an existing one; line ends stay as given.
+
+    Raises
+    ------
+    RunError
+        The file cannot be written.
+    """
+    with replacing(path) as temporary:
+        temporary.write_bytes(text.encode())

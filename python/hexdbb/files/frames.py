@@ -1,4 +1,7 @@
-"""Columns as a data frame, for notebooks. pandas is not needed for anything else and is not installed with hexdbb."""
+"""Columns as data frames and HTML tables, for notebooks.
+
+pandas is an optional dependency: nothing else needs it, and it is not installed with hexdbb.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +17,16 @@ from hexdbb.errors import InputError
 
 
 def to_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
-    """Give columns of equal length as a ``pandas.DataFrame``.
+    """Return columns of equal length as a ``pandas.DataFrame``.
+
+    Parameters
+    ----------
+    columns : mapping of str to ndarray, each of shape (n,)
 
     Raises
     ------
     InputError
-        Where pandas is not installed, saying what gives the same without it.
+        pandas is not installed.
     """
     try:
         pandas = importlib.import_module("pandas")
@@ -31,7 +38,7 @@ def to_frame(columns: Mapping[str, NDArray[Any]]) -> Any:
 
 
 def html_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Give a table as notebooks show it; cells are escaped."""
+    """Return an HTML table as notebooks show it; heads and cells are escaped."""
     head = "".join(f"<th>{html.escape(each)}</th>" for each in heads)
     body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"

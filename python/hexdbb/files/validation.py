@@ -1,7 +1,7 @@
-"""TOML files in and out through pydantic, with errors of one line.
+"""Reading, validating and writing of TOML files through pydantic, with errors of one line.
 
-Model: a file is a tree of `StrictModel`s; its root carries the kind and version of the file as `schema`.
-Assumption: units are part of the key (`radius_mm`), so a wrong unit is an unknown key, answered with the right one.
+Model: a file is a tree of `StrictModel`s; the key `schema` of its root holds the kind and version of the file.
+Assumption: units are part of the key (`radius_mm`), so a wrong unit is an unknown key; its error names the right one.
 Form of an error: `plan.toml: circle[2].radius_mm: -5 (expected a number > 0)`; lists count from 0, as in Python.
 """
 
@@ -35,7 +35,7 @@ UNITS = {
     *("m", "cm", "mm", "um", "nm", "in", "inch", "deg", "rad", "mrad", "s", "ms", "us", "min", "hz", "khz", "kg"),
     *("g", "n", "mm_s", "mm_s2", "mm_s3", "mm_min", "m_min", "m_s", "bit_s", "kbit_s", "c"),
 }
-"""Suffixes taken as units when a key is not known, to tell a wrong unit from a misspelt name."""
+"""Suffixes that count as units in an unknown key, to distinguish a wrong unit from a misspelt name."""
 
 EXPECTED = {
     "missing": "this key",
@@ -58,23 +58,23 @@ EXPECTED = {
     "string_too_short": "a text that is not empty",
     "literal_error": "{expected}",
 }
-"""What was expected, by pydantic's error type; a type not listed is answered with pydantic's own words."""
+"""What was expected, by pydantic's error type; for a type not listed pydantic's own message is used."""
 
 
 class StrictModel(BaseModel):
-    """Part of a file: unknown keys and values of another type are errors, and it does not change once read."""
+    """Part of a file: unknown keys and values of another type are errors; instances are immutable."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
 class FileModel(StrictModel):
-    """A whole file; it knows where it was read from, which is no part of its content and does not count in `==`."""
+    """A whole file; its path is not part of its content and is ignored by `==`."""
 
     _path: Path | None = PrivateAttr(default=None)
 
     @property
     def path(self) -> Path | None:
-        """The file it was read from; None where it was made in memory or came out of a record."""
+        """Path it was read from; None for a file made in memory or taken from a record."""
         return self._path
 
     def __eq__(self, other: object) -> bool:
@@ -85,7 +85,7 @@ class FileModel(StrictModel):
 
 
 class BadValueError(ValueError):
-    """Raised in a validator to name the key below the model, its value and what was expected.
+    """Raised in a validator; names the key below the model, its value and what was expected.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ class BadValueError(ValueError):
     value : object
         The value found.
     expected : str
-        What would have been right.
+        Description of a valid value.
     """
 
     def __init__(self, where: Location, value: object, expected: str) -> None:
@@ -128,7 +128,7 @@ def load_toml(path: Path | str, model: type[ModelT]) -> ModelT:
 
 
 def read_text(path: Path | str) -> str:
-    """Read a UTF-8 text file, with one line of `InputError` where that is not possible."""
+    """Read a UTF-8 text file; raise `InputError` of one line where it is missing, unreadable or not UTF-8."""
     try:
         return Path(path).read_text(encoding="utf-8-sig")
     except FileNotFoundError:
@@ -140,7 +140,21 @@ def read_text(path: Path | str) -> str:
 
 
 def parse_toml(text: str, model: type[ModelT], origin: str) -> ModelT:
-    """Validate TOML text; `origin` names it in errors, which are `InputError` of one line."""
+    """Parse and validate TOML text.
+
+    Parameters
+    ----------
+    text : str
+    model : type
+        Pydantic model of the content.
+    origin : str
+        Name of the text in errors, for example its file.
+
+    Raises
+    ------
+    InputError
+        One line naming origin, key, value and what was expected.
+    """
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -153,12 +167,12 @@ def parse_toml(text: str, model: type[ModelT], origin: str) -> ModelT:
 
 
 def dump_toml(instance: BaseModel) -> str:
-    """Write a model as TOML under the file's own keys, without what is not set; floats survive to the last bit."""
+    """Return a model as TOML text under the file's own keys, unset keys left out; floats read back to the last bit."""
     return tomlkit.dumps(instance.model_dump(by_alias=True, exclude_none=True))
 
 
 def format_value(value: object) -> str:
-    """Give a value as the file would show it, shortened to fit on the line."""
+    """Return a value as a TOML file shows it, shortened to 60 characters."""
     shown = f"{value:g}" if isinstance(value, float) and float(f"{value:g}") == value else repr(value)
     shown = {"True": "true", "False": "false"}.get(shown, shown)
     if isinstance(value, str) and value.isprintable():
@@ -167,18 +181,18 @@ def format_value(value: object) -> str:
 
 
 def format_location(location: Location) -> str:
-    """Give the path of a key: ``("circle", 2, "radius_mm")`` as ``circle[2].radius_mm``."""
+    """Return the path of a key as text: ``("circle", 2, "radius_mm")`` as ``circle[2].radius_mm``."""
     steps = (f"[{step}]" if isinstance(step, int) else f".{format_name(step)}" for step in location)
     return "".join(steps).lstrip(".")
 
 
 def format_name(name: str) -> str:
-    """Give a key or a column's name on one line, whatever the file holds."""
+    """Return the name of a key or column, escaped where it holds characters that are not printable."""
     return name if name.isprintable() else repr(name)
 
 
 def nearest_key(unknown: str, known: list[str]) -> str:
-    """Say which key was probably meant: the same name with its unit, else the nearest spelling, else all there are."""
+    """Return the key probably meant: the same name with its unit, else the nearest spelling, else all known keys."""
     for key in known:
         if without_unit(key) == without_unit(unknown):
             return f"{key}: the unit is part of the key"
@@ -187,7 +201,7 @@ def nearest_key(unknown: str, known: list[str]) -> str:
 
 
 def without_unit(key: str) -> str:
-    """Give a key or a column's name without the unit it ends with: `radius_mm` and `radius_um` are both `radius`."""
+    """Return a key or column name without the unit it ends with: `radius` for `radius_mm` and for `radius_um`."""
     parts = key.lower().split("_")
     for first in range(1, len(parts)):
         if "_".join(parts[first:]) in UNITS:
@@ -196,7 +210,7 @@ def without_unit(key: str) -> str:
 
 
 def _check_schema(data: Mapping[str, Any], model: type[BaseModel], origin: str) -> None:
-    """Compare the file's `schema` before all else: a file of another kind would only give misleading errors."""
+    """Check the file's `schema` first: the keys of a file of another kind would only cause misleading errors."""
     expected = next((field.default for field in model.model_fields.values() if field.alias == "schema"), None)
     if expected is None or data.get("schema") == expected:
         return
@@ -211,7 +225,7 @@ def _check_schema(data: Mapping[str, Any], model: type[BaseModel], origin: str) 
 
 
 def _first_line(error: ValidationError, model: type[BaseModel]) -> str:
-    """Give the first error as one line; unknown keys first, as a misspelt key also shows as a missing one."""
+    """Return the first error as one line; unknown keys first, since a misspelt key also appears as a missing one."""
     details = error.errors(include_url=False)
     return _line(min(details, key=lambda detail: detail["type"] != "extra_forbidden"), model)
 
@@ -232,7 +246,7 @@ def _line(detail: ErrorDetails, model: type[BaseModel]) -> str:
 
 
 def _keys_at(model: type[BaseModel], location: Location) -> list[str]:
-    """Find the keys known at a place in the file, by walking the model's annotations."""
+    """Return the keys known at a location in the file, by following the model's annotations."""
     for step in location:
         fields = {field.alias or name: field for name, field in model.model_fields.items()}
         if isinstance(step, str) and step in fields:

@@ -1,7 +1,7 @@
-"""Kinematics of the nominal machine for tables of poses or slider coordinates: the engine's, in NumPy arrays.
+"""Inverse and forward kinematics of the nominal machine for tables of poses, computed by the engine.
 
-Poses are (p, R) with R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27); lengths mm, angles rad. Status 0 is ok;
-`status_name` says what the others mean. Nothing is raised for a pose out of reach: look at the status.
+Poses are (p, R) with R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27); lengths mm, angles rad. A pose out of reach raises
+nothing: its row has a status other than 0, which `status_name` names.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Ints = NDArray[np.int32]
 
 
 def engine_machine(machine: MachineFile) -> _core.Machine:
-    """Give the engine's form of a machine file."""
+    """Return the engine's machine with the dimensions of a machine file, mm and kg."""
     return _core.Machine(
         base_inradius_mm=machine.base.inradius_mm,
         platform_circumradius_mm=machine.platform.circumradius_mm,
@@ -32,17 +32,17 @@ def engine_machine(machine: MachineFile) -> _core.Machine:
 
 
 def status_name(code: int) -> str:
-    """Say what a status of the kinematics means."""
+    """Return the meaning of a status code of the kinematics in words."""
     return _core.status_name(code)
 
 
 def rotation_from_rpy(rpy_rad: ArrayLike) -> Floats:
-    """Rotation matrices R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
+    """Return rotation matrices R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
 
     Parameters
     ----------
     rpy_rad : array_like, shape (..., 3)
-        Roll, pitch, yaw.
+        Roll, pitch, yaw, rad.
 
     Returns
     -------
@@ -54,26 +54,26 @@ def rotation_from_rpy(rpy_rad: ArrayLike) -> Floats:
 
 
 def rpy_from_rotation(rotation: ArrayLike) -> Floats:
-    """Roll, pitch, yaw (3,) in rad of one rotation matrix (3, 3), pitch within +-90 degrees."""
+    """Return roll, pitch, yaw (3,) in rad of one rotation matrix (3, 3), pitch within ±90 degrees."""
     return np.asarray(_core.rpy_from_rotation(np.asarray(rotation, dtype=np.float64)), dtype=np.float64)
 
 
 def inverse(machine: MachineFile, position_mm: ArrayLike, rpy_rad: ArrayLike) -> tuple[Floats, Ints]:
-    """Slider coordinates of platform poses (thesis 2.6-2.8).
+    """Compute slider coordinates of platform poses (thesis 2.6-2.8).
 
     Parameters
     ----------
     machine : MachineFile
     position_mm : array_like, shape (n, 3)
-        Platform reference point, base frame.
+        Platform reference point, base frame, mm.
     rpy_rad : array_like, shape (n, 3) or (3,)
-        Roll, pitch, yaw.
+        Roll, pitch, yaw, rad.
 
     Returns
     -------
     sliders_mm : ndarray, shape (n, 6)
     status : ndarray of int, shape (n,)
-        0 where the pose is reached within travel and gap.
+        0 where the pose is reached within travel and gap; see `status_name`.
     """
     position = np.asarray(position_mm, dtype=np.float64)
     rpy = np.ascontiguousarray(np.broadcast_to(np.asarray(rpy_rad, dtype=np.float64), position.shape))
@@ -82,12 +82,13 @@ def inverse(machine: MachineFile, position_mm: ArrayLike, rpy_rad: ArrayLike) ->
 
 
 def forward(machine: MachineFile, sliders_mm: ArrayLike) -> tuple[Floats, Floats, Ints]:
-    """Platform poses of slider coordinates, by the three RSSR loops (thesis 2.9-2.33).
+    """Compute platform poses of slider coordinates by the three RSSR loops (thesis 2.9-2.33).
 
     Parameters
     ----------
     machine : MachineFile
     sliders_mm : array_like, shape (n, 6)
+        Slider coordinates, mm.
 
     Returns
     -------

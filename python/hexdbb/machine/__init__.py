@@ -1,8 +1,7 @@
-"""The machine: its dimensions, its limits, the CAN set-up of its axes."""
+"""Machine files: dimensions, limits, CAN set-up of the axes."""
 
 from hexdbb.machine.can_setup import CanSetup, Limits
 from hexdbb.machine.file import (
-    SHIPPED_MACHINE,
     Base,
     Legs,
     MachineFile,
@@ -10,9 +9,9 @@ from hexdbb.machine.file import (
     Sliders,
     load_machine,
     machine_beside,
-    shipped,
     shipped_machine,
 )
+from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 
 __all__ = [
     "SHIPPED_MACHINE",

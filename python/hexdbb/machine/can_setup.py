@@ -1,7 +1,7 @@
-"""The `[can]` section of a machine file: which node is which, the encoder scale, supervision times and motion limits.
+"""The `[can]` section of a machine file: node ids, encoder scale, supervision times and motion limits.
 
 Assumption: six CiA 402 drives, one per slider in slider order, and one CiA 404 gauge on one classical CAN bus.
-Source: CiA 301 (bit rates, node ids 1 to 127), CiA 402, CiA 404.
+Source: CiA 301 (bit rates, node ids 1 to 127), CiA 402, CiA 404. Defaults are the shipped machine's values.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator, model_validator
 
 from hexdbb.files.validation import BadValueError, Number, Positive, StrictModel
+from hexdbb.machine.shipped import shipped_can
 
 NodeId = Annotated[int, Field(ge=1, le=127)]
 Milliseconds = Annotated[int, Field(gt=0, le=65535)]
@@ -19,40 +20,52 @@ Six = Annotated[tuple[NodeId, NodeId, NodeId, NodeId, NodeId, NodeId], Field(str
 SixNames = Annotated[tuple[str, str, str, str, str, str], Field(strict=False)]
 Bitrate = Literal[10_000, 20_000, 50_000, 125_000, 250_000, 500_000, 800_000, 1_000_000]
 
+DEFAULTS = shipped_can()
+CYCLE_RATE_MAX_HZ = 1000.0
+"""Limits the SYNC rate: the frames of seven nodes fill 1 Mbit/s below this rate (bus load is checked on its own), so a
+larger value is a mistake, such as a rate in another unit."""
+
 
 class Limits(StrictModel):
-    """What no command and no reading may exceed; each slider alone."""
+    """Limits of every command and of every reading, for each slider alone."""
 
-    velocity_mm_s: Positive = 250.0
-    acceleration_mm_s2: Positive = 2500.0
-    jerk_mm_s3: Positive = 50_000.0
-    following_error_mm: Positive = 3.0
-    """Largest distance between commanded and actual position before all axes stop."""
-    gauge_range_um: Positive = 1000.0
-    """Largest reading, to either side, before all axes stop."""
+    velocity_mm_s: Positive = DEFAULTS["limits"]["velocity_mm_s"]
+    """Largest velocity of a slider."""
+    acceleration_mm_s2: Positive = DEFAULTS["limits"]["acceleration_mm_s2"]
+    """Largest acceleration of a slider."""
+    jerk_mm_s3: Positive = DEFAULTS["limits"]["jerk_mm_s3"]
+    """Largest jerk of a slider."""
+    following_error_mm: Positive = DEFAULTS["limits"]["following_error_mm"]
+    """Largest distance between commanded and actual slider coordinate; beyond it all axes stop."""
+    gauge_range_um: Positive = DEFAULTS["limits"]["gauge_range_um"]
+    """Largest reading, to either side; beyond it, or beyond the plan's `gauge.range_um`, all axes stop."""
 
 
 class CanSetup(StrictModel):
     """Drives and gauge on the bus."""
 
-    bitrate_bit_s: Bitrate = 1_000_000
-    cycle_rate_hz: Annotated[Positive, Field(le=1000.0)] = 250.0
+    bitrate_bit_s: Bitrate = DEFAULTS["bitrate_bit_s"]
+    """Bit rate of the bus."""
+    cycle_rate_hz: Annotated[Positive, Field(le=CYCLE_RATE_MAX_HZ)] = DEFAULTS["cycle_rate_hz"]
     """SYNC frames, and so samples, per second."""
-    counts_per_mm: Number = 10_000.0
-    """Encoder increments per mm of slider travel; negative where a drive counts the other way."""
-    drive_nodes: Six = (1, 2, 3, 4, 5, 6)
-    """Node ids of the drives of sliders 1 to 6."""
-    gauge_node: NodeId = 7
-    drive_eds: SixNames = ("hexglider_drive.eds",) * 6
-    """EDS file of each drive, relative to the machine file, or the name of a shipped one; one text stands for all."""
-    gauge_eds: str = "ballbar_gauge.eds"
-    heartbeat_producer_ms: Milliseconds = 100
-    """Heartbeat period of every node and of the controller."""
-    heartbeat_consumer_ms: Milliseconds = 300
-    """A heartbeat older than this is lost."""
-    rpdo_timeout_ms: Milliseconds = 100
-    """A drive stops by itself after this time without a target (1400h:05)."""
+    counts_per_mm: Number = DEFAULTS["counts_per_mm"]
+    """Encoder increments per mm of slider travel, not 0; negative where a drive counts the other way."""
+    drive_nodes: Six = tuple(DEFAULTS["drive_nodes"])
+    """Node ids of the drives of sliders 1 to 6, all different."""
+    gauge_node: NodeId = DEFAULTS["gauge_node"]
+    """Node id of the gauge, different from those of the drives."""
+    drive_eds: SixNames = (DEFAULTS["drive_eds"],) * 6
+    """EDS file of each drive, relative to the machine file, or the name of a shipped one; one text for all six."""
+    gauge_eds: str = DEFAULTS["gauge_eds"]
+    """EDS file of the gauge, relative to the machine file, or the name of a shipped one."""
+    heartbeat_producer_ms: Milliseconds = DEFAULTS["heartbeat_producer_ms"]
+    """Heartbeat period of every node and of the controller (1017h)."""
+    heartbeat_consumer_ms: Milliseconds = DEFAULTS["heartbeat_consumer_ms"]
+    """Age beyond which a heartbeat counts as lost (1016h); more than `heartbeat_producer_ms`."""
+    rpdo_timeout_ms: Milliseconds = DEFAULTS["rpdo_timeout_ms"]
+    """Time without a target after which a drive stops on its own (1400h:05)."""
     limits: Limits = Limits()
+    """Limits of motion and readings."""
 
     @field_validator("drive_eds", mode="before")
     @classmethod
@@ -75,5 +88,5 @@ class CanSetup(StrictModel):
 
     @property
     def cycle_s(self) -> float:
-        """Time between two SYNC frames."""
+        """Time between two SYNC frames, s."""
         return 1.0 / self.cycle_rate_hz

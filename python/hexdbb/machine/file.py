@@ -1,9 +1,9 @@
-"""The machine file: nominal dimensions of a HexGlider, and how its drives are reached.
+"""The machine file: nominal dimensions of a HexGlider and the CAN set-up of its drives.
 
 Model: base triangle of inradius BR with a guideway along each side, two sliders per guideway, six legs of one length l,
-platform whose three ball joints lie on a circle of radius UR, IH above its reference point.
+platform with three ball joints on a circle of radius UR, IH above its reference point.
 Assumption: the nominal machine is symmetric; every departure from it is an effect of the model, not of this file.
-Source: the thesis' chapter 2; the frames are those of the project's geometry page.
+Source: chapter 2 of the thesis. Base frame: origin at the centre of the base triangle, z up.
 """
 
 from __future__ import annotations
@@ -15,47 +15,46 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from hexdbb.errors import InputError
+from hexdbb.files.frames import html_table
 from hexdbb.files.validation import BadValueError, FileModel, Number, Positive, StrictModel, load_toml
 from hexdbb.machine.can_setup import CanSetup
-
-SHIPPED_MACHINE = "sp120"
-"""Name by which plans and measurements call the shipped machine."""
+from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 
 
 class Base(StrictModel):
-    """The base triangle."""
+    """Base triangle of the guideways."""
 
     inradius_mm: Positive
     """BR: distance of each guideway from the base centre."""
 
 
 class Platform(StrictModel):
-    """The moving platform."""
+    """Moving platform."""
 
     circumradius_mm: Positive
     """UR: distance of each ball joint from the platform's axis."""
     joint_plane_height_mm: Number
     """IH: height of the ball joints above the platform's reference point."""
     moved_mass_kg: Positive
-    """Mass of platform and tool."""
+    """Mass of platform and tool, which loads the legs."""
 
 
 class Legs(StrictModel):
-    """The six legs."""
+    """Six legs of one length."""
 
     length_mm: Positive
-    """l: distance between the two joints of a leg."""
+    """l: distance between the two joints of a leg; long enough for the platform to stand centred and level."""
 
 
 class Sliders(StrictModel):
-    """The six sliders, two on each guideway."""
+    """Six sliders, two on each guideway."""
 
     travel_mm: Annotated[tuple[Number, Number], Field(strict=False)]
-    """Least and largest slider coordinate."""
+    """Least and largest slider coordinate, the least first."""
     min_gap_mm: Positive
-    """Least distance of two sliders on one guideway."""
+    """Least distance of two sliders on one guideway; less than the travel."""
     screw_lead_mm: Positive
-    """Travel per turn of the screw."""
+    """Slider travel per turn of the screw."""
 
     @model_validator(mode="after")
     def _travel_holds_two_sliders(self) -> Sliders:
@@ -68,30 +67,49 @@ class Sliders(StrictModel):
 
 
 class MachineFile(FileModel):
-    """A machine file, validated.
+    """Validated machine file; a notebook shows it as a table of its keys.
 
     Raises
     ------
     InputError
-        From `load_machine`: a key is missing, unknown or wrong, or the machine cannot stand.
+        From `load_machine`: a key is missing, unknown or wrong, or the platform cannot stand centred and level.
     """
 
     schema_id: Literal["hexdbb.machine/1"] = Field(default="hexdbb.machine/1", alias="schema")
+    """Kind and version of the file."""
     name: Annotated[str, Field(min_length=1)]
+    """Name of the machine, for people."""
     base: Base
+    """Base triangle of the guideways."""
     platform: Platform
+    """Moving platform."""
     legs: Legs
+    """Six legs of one length."""
     sliders: Sliders
+    """Six sliders, two on each guideway."""
     can: CanSetup | None = None
-    """Drives and gauge on the bus; analysis does without."""
+    """Drives and gauge on the bus; absent means the defaults below. Fits use none of it."""
+
+    def __repr__(self) -> str:
+        least, largest = self.sliders.travel_mm
+        return (
+            f"<MachineFile {self.name}: base inradius {self.base.inradius_mm:g} mm,"
+            f" platform circumradius {self.platform.circumradius_mm:g} mm, legs {self.legs.length_mm:g} mm,"
+            f" travel {least:g} to {largest:g} mm>"
+        )
+
+    def _repr_html_(self) -> str:
+        sections = self.model_dump(include={"base", "platform", "legs", "sliders"}).items()
+        rows = [(f"{section}.{key}", f"{value}") for section, values in sections for key, value in values.items()]
+        return html_table(("key", self.name), rows)
 
     @property
     def can_setup(self) -> CanSetup:
-        """The `[can]` section, or its defaults where the file has none."""
+        """Return the `[can]` section, or its defaults where the file has none."""
         return self.can if self.can is not None else CanSetup()
 
     def eds_path(self, eds: str) -> Path:
-        """Find a node's EDS file: beside the machine file, else the shipped one of that name."""
+        """Return the path of a node's EDS file: relative to the machine file, else the shipped one of that name."""
         beside = self.path.parent / eds if self.path is not None else Path(eds)
         return beside if beside.is_file() else shipped("eds", eds)
 
@@ -108,11 +126,6 @@ class MachineFile(FileModel):
             expected = f"room for two sliders about the guideway's midpoint, {middle:.1f} +- {half_gap:g}"
             raise BadValueError(("sliders", "travel_mm"), [least, largest], expected)
         return self
-
-
-def shipped(*parts: str) -> Path:
-    """Give the path of a data file shipped with the package."""
-    return Path(__file__).parents[1].joinpath("data", *parts)
 
 
 def load_machine(path: Path | str) -> MachineFile:
@@ -136,12 +149,12 @@ def load_machine(path: Path | str) -> MachineFile:
 
 
 def shipped_machine() -> MachineFile:
-    """Give the SP-120 as shipped: its dimensions are assumed, as its name and file say."""
+    """Return the shipped SP-120; its dimensions are assumed, as its name and file state."""
     return load_machine(shipped(f"{SHIPPED_MACHINE}.toml"))
 
 
 def machine_beside(named: str, file: Path) -> MachineFile:
-    """Read the machine that another file names: the shipped one by name, else a path relative to that file.
+    """Read the machine file that another file names: the shipped one by name, else a path relative to that file.
 
     Parameters
     ----------
@@ -153,7 +166,7 @@ def machine_beside(named: str, file: Path) -> MachineFile:
     Raises
     ------
     InputError
-        Where there is no such machine file, naming `file` and its key.
+        There is no such machine file (names `file` and its key), or it is wrong.
     """
     if named == SHIPPED_MACHINE:
         return shipped_machine()

@@ -1,6 +1,6 @@
-"""Plans: which circles are driven, at which feeds, in which directions, in which order.
+"""Plan files: circles to drive, with their feeds, directions and laps.
 
-A plan is expanded in the order of its file: every circle, for each of its feeds, in each of its directions.
+Order: the circles as in the file; for each circle its feeds; for each feed its directions.
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from hexdbb.errors import InputError
+from hexdbb.files.frames import html_table
 from hexdbb.files.validation import BadValueError, FileModel, load_toml
 from hexdbb.machine import MachineFile, machine_beside, shipped
-from hexdbb.plan.circle import Circle, Direction, Directions, Feeds, Gauge, Laps, Mount
-
-__all__ = ["Circle", "CircleRun", "Gauge", "Mount", "Plan", "check_ids", "load_plan", "shipped_plans"]
+from hexdbb.plan.circle import Circle, Direction, Directions, Feeds, Laps
+from hexdbb.plan.gauge import Gauge
+from hexdbb.plan.mount import Mount
 
 Mounts = Annotated[tuple[Mount, ...], Field(strict=False, min_length=1)]
 Circles = Annotated[tuple[Circle, ...], Field(strict=False, min_length=1)]
@@ -26,33 +27,47 @@ Overshoot = Annotated[float, Field(ge=0.0, le=360.0, allow_inf_nan=False)]
 
 @dataclass(frozen=True)
 class CircleRun:
-    """One uninterrupted capture: a circle at one feed in one direction."""
+    """One sweep to drive: a circle at one feed in one direction, captured without interruption.
+
+    Attributes
+    ----------
+    circle : the circle
+    mount : the mount it is centred on
+    feed_mm_min : speed of the centre ball along its circle
+    direction : +1 counter-clockwise seen from above the circle's plane, -1 clockwise
+    laps : captured turns
+    sweep : number of the sweep in the plan and in the record, from 0
+    """
 
     circle: Circle
     mount: Mount
     feed_mm_min: float
-    """Speed of the centre ball along its circle."""
     direction: Direction
     laps: int
-    """Turns that are captured."""
     sweep: int
-    """Number of the capture in the plan, from 0, as it stands in the record."""
 
 
 class Plan(FileModel):
-    """A plan file, validated; constructed and read under the file's own keys (`mount`, `circle`)."""
+    """Validated plan file; constructed under the file's own keys (`mount`, `circle`). A notebook shows its runs."""
 
     schema_id: Literal["hexdbb.plan/1"] = Field(default="hexdbb.plan/1", alias="schema")
+    """Kind and version of the file."""
     machine: Annotated[str, Field(min_length=1)]
-    """Machine file relative to the plan's, or the name of the shipped one."""
+    """Path of the machine file relative to the plan file, or the name of the shipped one, `sp120`."""
     feeds_mm_min: Feeds
+    """Speeds of the centre ball along its circle; each circle is driven at every one."""
     directions: Directions
+    """+1 counter-clockwise seen from above the circle's plane, -1 clockwise, in order of driving."""
     laps: Laps
+    """Captured turns per sweep."""
     overshoot_deg: Overshoot
-    """Angle run before and after the captured laps, at full feed."""
+    """Angle driven at full feed before and after the captured laps."""
     gauge: Gauge
+    """Ball bar and length gauge."""
     mounts: Mounts = Field(alias="mount")
+    """Set-ups of the cup, one table each."""
     circles: Circles = Field(alias="circle")
+    """Circles in order of driving, one table each."""
 
     @model_validator(mode="after")
     def _consistent(self) -> Plan:
@@ -64,22 +79,40 @@ class Plan(FileModel):
                 raise BadValueError(("circle", index, "radius_mm"), circle.radius_mm, expected)
         return self
 
+    def __repr__(self) -> str:
+        name = self.path.name if self.path is not None else "plan"
+        nouns = {"circle": self.circles, "mount": self.mounts, "run": self.runs()}
+        counts = ", ".join(f"{len(each)} {noun}{'s' * (len(each) != 1)}" for noun, each in nouns.items())
+        return f"<Plan {name}: machine {self.machine}, {counts}, {self.overshoot_deg:g}° overshoot>"
+
+    def _repr_html_(self) -> str:
+        heads = ("sweep", "circle", "mount", "radius, mm", "feed, mm/min", "direction", "laps", "platform rpy, °")
+        rows = [
+            (
+                *(str(run.sweep), str(run.circle.id), str(run.mount.id), f"{run.circle.radius_mm:g}"),
+                *(f"{run.feed_mm_min:g}", f"{run.direction:+d}", str(run.laps)),
+                ", ".join(f"{angle:g}" for angle in run.circle.platform_rpy_deg),
+            )
+            for run in self.runs()
+        ]
+        return html_table(heads, rows)
+
     def machine_file(self) -> MachineFile:
-        """Read the machine the plan names.
+        """Read the machine file that the plan names.
 
         Raises
         ------
         InputError
-            Where there is none, or it is wrong.
+            There is none, or it is wrong.
         """
         return machine_beside(self.machine, self.path or Path("plan"))
 
     def mount_of(self, circle: Circle) -> Mount:
-        """Give the mount a circle runs about."""
+        """Return the mount that a circle is centred on."""
         return next(mount for mount in self.mounts if mount.id == circle.mount)
 
     def runs(self) -> list[CircleRun]:
-        """Expand circles, feeds and directions in order of execution."""
+        """Return every circle at each feed in each direction, in order of driving."""
         expanded = [
             (circle, feed, direction)
             for circle in self.circles
@@ -93,12 +126,12 @@ class Plan(FileModel):
 
 
 def check_ids(mounts: Sequence[Mount], circles: Sequence[Circle]) -> None:
-    """Refuse two mounts or circles of one id, and a circle about a mount that is not there.
+    """Check that ids are unique and that every circle's mount exists.
 
     Raises
     ------
     BadValueError
-        Naming the entry.
+        They are not; names the entry.
     """
     known = [mount.id for mount in mounts]
     for name, ids in (("mount", known), ("circle", [circle.id for circle in circles])):
@@ -113,12 +146,12 @@ def check_ids(mounts: Sequence[Mount], circles: Sequence[Circle]) -> None:
 
 
 def shipped_plans() -> list[str]:
-    """Name the plans shipped with the package."""
+    """Return the names of the plans shipped with the package, sorted."""
     return sorted(path.stem for path in shipped("plans").glob("*.toml"))
 
 
 def load_plan(name_or_path: Path | str) -> Plan:
-    """Read a plan, a shipped one by its name.
+    """Read a plan file, or a shipped plan by its name.
 
     Parameters
     ----------

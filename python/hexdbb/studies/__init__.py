@@ -1,1 +1,1 @@
-"""Studies made with the program: the thesis' own estimator and tables, held beside ours."""
+"""Studies made with the program: the thesis' own estimator and tables, compared with ours."""

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.truth.unseen import unseen_plans
+from tests.truth.held_out import held_out_plans
 
-from hexdbb.compensation import make_compensation, write_text
+from hexdbb.compensation import make_compensation, write_compensation
 from hexdbb.files.validation import dump_toml
 from hexdbb.machine import shipped, shipped_machine
 from hexdbb.model import new_model
@@ -67,7 +67,7 @@ def folder(tmp_path: Path) -> Path:
     (tmp_path / "plan.toml").write_text(dump_toml(load_plan("thesis")), encoding="utf-8")
     model = new_model(shipped_machine(), ["leg_length"])
     model = model.with_values(np.full(6, 0.1), np.full(6, np.nan), np.ones(6, bool))
-    write_text(make_compensation(model).text(), tmp_path / "sp120.hexcomp")
+    write_compensation(make_compensation(model), tmp_path / "sp120.hexcomp")
     return tmp_path
 
 
@@ -106,11 +106,12 @@ def test_a_temperature_without_compensation_is_refused(folder: Path) -> None:
 def test_more_correction_than_the_file_allows_is_refused_by_place_and_slider(folder: Path) -> None:
     model = new_model(shipped_machine(), ["leg_length"])
     model = model.with_values(np.full(6, 0.5), np.full(6, np.nan), np.ones(6, bool))
-    write_text(make_compensation(model, max_correction_mm=0.1).text(), folder / "sp120.hexcomp")
+    write_compensation(make_compensation(model, max_correction_mm=0.1), folder / "sp120.hexcomp")
     done = command("hexdbb-run", "--compensation", "sp120.hexcomp", "-o", "a.parquet", folder=folder)
     assert done.returncode == 2
     line = (
-        r"error: thesis: circle 0, .*: slider \d: correction of \d+\.\d um \(expected at most 100 um, as sp120.hexcomp"
+        r"error: thesis: circle 0, .*: slider \d: correction of \d+\.\d µm"
+        r" \(expected at most 100 µm, the limit in sp120.hexcomp"
     )
     assert re.match(line, done.stderr), done.stderr
     assert not (folder / "a.parquet").exists()
@@ -144,12 +145,12 @@ def closed(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def unseen_plan(fast: dict[str, object]) -> Plan:
     """Three circles of a bar of 80 mm at other heights and tilts."""
-    plan = unseen_plans()[1]
+    plan = held_out_plans()[1]
     return plan.model_copy(update={**fast, "mounts": plan.mounts[:3], "circles": plan.circles[:3]})
 
 
 def faulty_truth() -> TruthFile:
-    """A random machine with play, a pitch error and legs that give way.
+    """Return a random machine with play, a pitch error and compliant legs.
 
     Its drives reach their targets: at `RATE_HZ`, a lag of 2 ms would cut the corners of the circles by 0.7 um.
     """

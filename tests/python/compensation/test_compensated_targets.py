@@ -1,4 +1,4 @@
-"""Tables of compensated targets: turns shaped to the drives' limits, no jump anywhere, the right place at the ball."""
+"""Tables of compensated targets: reversals within the drives' limits, no jump anywhere, the right place at the ball."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from tests.truth.closing import silent
 from tests.truth.simulate import Pace, simulate
 
-from hexdbb.compensation import CompensatedTargets, make_compensation, sides, uniform_smooth
+from hexdbb.compensation import CompensatedTargets, make_compensation, smooth_changes, travel_directions
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.machine import shipped_machine
@@ -60,7 +60,7 @@ def worn() -> CompensatedTargets:
     return targets_of(model_of(**WORN))
 
 
-def test_every_row_keeps_the_limits_though_play_is_crossed_at_every_turn(worn: CompensatedTargets) -> None:
+def test_every_row_keeps_the_limits_though_play_is_crossed_at_every_reversal(worn: CompensatedTargets) -> None:
     programme = programme_of(worn)
     stand, status = inverse(MACHINE, np.array([[10.0, -20.0, 270.0]]), np.radians([[3.0, -2.0, 5.0]]))
     assert status[0] == 0
@@ -101,17 +101,17 @@ def test_ways_slow_down_for_a_pitch_error_that_the_circles_feed_allows() -> None
     pitch[:, 2] = 0.02
     targets, plan = targets_of(model_of(pitch_cyclic=pitch.ravel())), fast_plan(754.0)
     slowed, nominal = programme_of(targets, plan), plan_programme(plan, MACHINE, CYCLE_S, "plan")
-    assert slowed.share < nominal.share
+    assert slowed.limit_fraction < nominal.limit_fraction
     assert slowed.table.capture.sum() == nominal.table.capture.sum()
 
 
 def test_a_correction_beyond_what_the_file_allows_is_refused() -> None:
     targets = targets_of(model_of(leg_length=[0.5] * 6), max_correction_mm=0.2)
-    with pytest.raises(InputError, match=r"circle 0, .*slider \d: correction of \d+\.\d um \(expected at most 200 um"):
+    with pytest.raises(InputError, match=r"circle 0, .*slider \d: correction of \d+\.\d µm \(expected at most 200 µm"):
         programme_of(targets)
 
 
-# --- sides ------------------------------------------------------------------------------------------------------------
+# --- directions of travel ---------------------------------------------------------------------------------------------
 
 
 def column(*values: float) -> Floats:
@@ -119,26 +119,26 @@ def column(*values: float) -> Floats:
     return np.tile(np.array(values)[:, None], (1, 6))
 
 
-def test_a_resting_slider_changes_sides_in_mid_rest() -> None:
-    found = sides(column(0, 1, 1, 1, 1, 1, 0))[:, 0]
+def test_a_resting_slider_changes_direction_in_mid_rest() -> None:
+    found = travel_directions(column(0, 1, 1, 1, 1, 1, 0))[:, 0]
     assert found.tolist() == [1, 1, 1, 1, -1, -1, -1]
 
 
-def test_ends_hold_their_side_unless_told() -> None:
+def test_ends_hold_their_direction_unless_stated() -> None:
     moving = column(0, 0, 0, 0, 1, 2, 2, 2, 2, 2)
-    assert sides(moving)[:, 0].tolist() == [1] * 10
-    told = sides(moving, before=-np.ones(6), after=-np.ones(6))[:, 0]
-    assert told.tolist() == [-1, -1, 1, 1, 1, 1, 1, 1, -1, -1]
+    assert travel_directions(moving)[:, 0].tolist() == [1] * 10
+    stated = travel_directions(moving, before=-np.ones(6), after=-np.ones(6))[:, 0]
+    assert stated.tolist() == [-1, -1, 1, 1, 1, 1, 1, 1, -1, -1]
 
 
-def test_a_slider_that_never_moves_has_no_side() -> None:
-    assert not sides(column(3.0, 3.0 + 1e-12, 3.0 - 1e-12)).any()
+def test_a_slider_that_never_moves_has_no_direction() -> None:
+    assert not travel_directions(column(3.0, 3.0 + 1e-12, 3.0 - 1e-12)).any()
 
 
 @pytest.mark.parametrize("cycles", [1, 3, 9])
-def test_a_change_of_sides_is_even_about_the_turn(cycles: int) -> None:
+def test_a_change_of_direction_is_even_about_the_reversal(cycles: int) -> None:
     turn = np.repeat([1.0, -1.0], 40)
-    smooth = uniform_smooth(turn, cycles)
+    smooth = smooth_changes(turn, cycles)
     np.testing.assert_allclose(smooth, -smooth[::-1], atol=1e-12)
     assert (np.diff(smooth) <= 1e-12).all()
     third = np.abs(np.diff(smooth, n=3)).max()
@@ -175,14 +175,14 @@ ONE_LAG, ONE_PLAY = {"servo_lag": [0, 0, 5e-3, 0, 0, 0]}, {"backlash": [0, 0, 0,
 
 
 @pytest.mark.parametrize("feed_mm_min", [754.0, 3000.0])
-def test_play_leaves_little_even_at_the_turns(feed_mm_min: float) -> None:
+def test_play_leaves_little_even_at_the_reversals(feed_mm_min: float) -> None:
     plan = fast_plan(feed_mm_min)
     before, after = readings_um([PLAY], None, plan), readings_um([PLAY], model_of(**ONE_PLAY), plan)
     assert rms(after) < rms(before) / 15.0
     assert np.abs(after).max() < np.abs(before).max() / 2.0
 
 
-def test_lag_is_taken_out_at_the_turns_too() -> None:
+def test_lag_is_removed_at_the_reversals_too() -> None:
     plan = fast_plan()
     before, after = readings_um([LAG], None, plan), readings_um([LAG], model_of(**ONE_LAG), plan)
     assert rms(after) < rms(before) / 50.0

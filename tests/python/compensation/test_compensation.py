@@ -19,7 +19,7 @@ from hexdbb.compensation import (
     path_targets,
     read_compensation,
     read_poses,
-    write_text,
+    write_compensation,
 )
 from hexdbb.diagnosis import diagnose
 from hexdbb.effects import load_effects
@@ -36,7 +36,7 @@ EFFECTS = ["leg_length", "guideway_rotation_xy", "backlash", "gravity_sag", "cup
 
 
 def wrong_model() -> Model:
-    """Every value at half the size to expect, signs in turn."""
+    """Every value at half its prior standard deviation, signs in turn."""
     model = new_model(shipped_machine(), EFFECTS)
     sizes = np.array([each.prior_sigma for each in model.parameters()])
     values = 0.5 * sizes * np.where(np.arange(len(sizes)) % 2, -1.0, 1.0)
@@ -72,7 +72,7 @@ def test_what_is_corrected_and_what_is_left_out() -> None:
 def test_file_there_and_back(tmp_path: Path) -> None:
     data = make_compensation(wrong_model(), max_correction_mm=0.7)
     path = tmp_path / "sp120.hexcomp"
-    write_text(data.text(), path)
+    write_compensation(data, path)
     again = read_compensation(path, shipped_machine())
     assert again.text() == data.text()
     assert again.max_correction_mm == 0.7
@@ -85,7 +85,7 @@ def test_targets_along_a_path_undo_the_errors() -> None:
     np.testing.assert_allclose(targets.sliders_mm - targets.correction_mm, nominal, atol=1e-9)
     assert np.abs(targets.correction_mm).max() > 0.02
     compensator = _core.Compensator(data, "test")
-    for row in range(1, 200):  # sides as they were along the path
+    for row in range(1, 200):  # directions of travel as they were along the path
         rpy = np.array([[0.05, 0.0, 0.1]] * 2)
         sliders, _, _, _ = compensator.sliders_along(
             circle()[row - 1 : row + 1], rpy, np.array([0.0, 1e6]), np.full(2, np.nan)
@@ -157,7 +157,7 @@ def test_a_wrong_file_is_refused_by_name(tmp_path: Path, change: object, expecte
 
 def test_the_file_of_another_machine_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "sp120.hexcomp"
-    write_text(make_compensation(wrong_model()).text(), path)
+    write_compensation(make_compensation(wrong_model()), path)
     ours = shipped_machine()
     other = ours.model_copy(update={"legs": ours.legs.model_copy(update={"length_mm": 401.0})})
     with pytest.raises(InputError, match=r"of another machine: leg_length_mm is 400 \(expected 401\)"):
@@ -238,22 +238,22 @@ def test_the_reference_temperature_is_that_of_the_records_first_sample(warmed: P
 
 
 @pytest.mark.parametrize(
-    ("words", "said"),
+    ("words", "message"),
     [
         (("--reference", "other.parquet"), "other.parquet: the model was not fitted to it"),
         (("--reference", "gone.parquet"), "gone.parquet: no such file"),
         (("--reference", "warm.parquet", "--reference-temperature-c", "20"), "expected one of them"),
     ],
 )
-def test_a_wrong_reference_is_refused(warmed: Path, words: tuple[str, ...], said: str) -> None:
+def test_a_wrong_reference_is_refused(warmed: Path, words: tuple[str, ...], message: str) -> None:
     done = hexdbb("compensate", "model.toml", *words, "-o", "b.hexcomp", folder=warmed)
     assert done.returncode == 2
-    assert said in done.stderr
+    assert message in done.stderr
     assert done.stderr.count("\n") == 1
     assert not (warmed / "b.hexcomp").exists()
 
 
-def test_command_says_what_is_missing(model_path: Path) -> None:
+def test_command_names_the_missing_option(model_path: Path) -> None:
     assert "nothing to write" in hexdbb("compensate", model_path, folder=model_path.parent).stderr
     done = hexdbb("compensate", model_path, "--poses", "p.csv", "--header", "a.h", folder=model_path.parent)
     assert done.returncode == 2

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.coverage import PACE, place_errors_um, study_plan
+from tests.truth.coverage import PACE, position_errors_um, study_plan
 from tests.truth.simulate import simulate
 
 from hexdbb.cli.diagnose import choose_free, hold_redundant
@@ -102,7 +102,7 @@ def test_noise_comes_from_laps_where_there_are_two(record):
 def test_place_is_known_as_well_as_it_is_said(found):
     plan = study_plan()
     places = found.place
-    _, error_um = place_errors_um(random_truth(SEED), plan, found)
+    _, error_um = position_errors_um(random_truth(SEED), plan, found)
     assert 0.3 < error_um / places.median_um < 2.5
     assert places.median_um < places.worst_um < 5.0 * places.median_um
 

@@ -30,4 +30,4 @@ def test_residual_is_the_noise(trials):
 
 
 def test_unseen_poses_are_twenty_times_better(trials):
-    assert min(each.place_before_um / each.place_after_um for each in trials) > 20.0
+    assert min(each.position_before_um / each.position_after_um for each in trials) > 20.0

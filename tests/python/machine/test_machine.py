@@ -97,3 +97,12 @@ def test_machine_is_found_beside_the_file_that_names_it(tmp_path: Path) -> None:
     assert machine_beside("sp120", naming) == shipped_machine()
     with pytest.raises(InputError, match=r'plan.toml: machine: "other.toml": no such file .*"sp120"'):
         machine_beside("other.toml", naming)
+
+
+def test_a_machine_shows_its_dimensions() -> None:
+    machine = shipped_machine()
+    assert repr(machine) == (
+        "<MachineFile SP-120 (assumed dimensions): base inradius 250 mm, platform circumradius 120 mm, legs 400 mm,"
+        " travel 20 to 846 mm>"
+    )
+    assert "<td>sliders.min_gap_mm</td><td>60.0</td>" in machine._repr_html_()

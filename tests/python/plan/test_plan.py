@@ -151,3 +151,11 @@ def test_ball_runs_on_its_circle_however_plane_and_platform_stand(
     ball = position + rotation_from_rpy(circle.platform_rpy_rad) @ np.array(offset) - cup
     in_plane = rotation_from_rpy(np.radians(plane)).T @ ball
     np.testing.assert_allclose(in_plane, [80.0 * math.cos(angle), 80.0 * math.sin(angle), 0.0], atol=1e-11)
+
+
+def test_a_plan_shows_its_runs() -> None:
+    plan = load_plan("standard")
+    assert repr(plan) == "<Plan standard.toml: machine sp120, 7 circles, 1 mount, 28 runs, 45° overshoot>"
+    shown = plan._repr_html_()
+    assert shown.count("<tr>") == 1 + 28
+    assert "<td>7</td><td>1</td><td>0</td><td>100</td><td>3000</td><td>+1</td><td>2</td><td>12, 0, 0</td>" in shown

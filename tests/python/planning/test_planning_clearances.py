@@ -9,7 +9,7 @@ from hexdbb.identifiability.redundancy import LEVER_MM
 from hexdbb.kinematics import inverse, rotation_from_rpy
 from hexdbb.machine import shipped_machine
 from hexdbb.plan import Circle, load_plan
-from hexdbb.planning import Clearances, Demands, circle_clearances
+from hexdbb.planning import Clearances, RequiredClearances, circle_clearances
 from hexdbb.planning.clearances import pose_condition
 from hexdbb.trajectory import plan_programme
 
@@ -80,7 +80,7 @@ def test_clearances_hold_for_all_of_the_motion() -> None:
         # Less than that by what feeding in at the worst angle would take.
         assert nearest_end_mm - 1.0 < clearances.to_end_of_travel_mm < nearest_end_mm + 0.1
         assert nearest_gap_mm - 4.0 < clearances.to_min_gap_mm < nearest_gap_mm + 0.1
-        assert Demands().met_by(clearances)
+        assert RequiredClearances().met_by(clearances)
 
 
 def test_a_circle_out_of_reach_has_no_clearance() -> None:
@@ -97,6 +97,6 @@ def test_a_circle_out_of_reach_has_no_clearance() -> None:
         Clearances(50.0, 50.0, 10.0, 17.0),
     ],
 )
-def test_each_demand_counts(short: Clearances) -> None:
-    assert not Demands().met_by(short)
-    assert Demands().met_by(Clearances(50.0, 50.0, 10.0, 5.0))
+def test_each_required_clearance_counts(short: Clearances) -> None:
+    assert not RequiredClearances().met_by(short)
+    assert RequiredClearances().met_by(Clearances(50.0, 50.0, 10.0, 5.0))

@@ -1,4 +1,4 @@
-"""The smallest size of every effect that a plan shows, and `hexdbb plan check` that lists it."""
+"""The smallest detectable size of every effect, and `hexdbb plan check` that lists it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ TAKEN = plan_sensitivity(STANDARD, with_every_effect(MODEL), 250.0)
 
 
 def test_a_signature_of_that_size_leaves_three_times_the_noise() -> None:
-    """By plain least squares of the whole plan: what nothing else explains of the best-seen value's signature."""
+    """By plain least squares of the whole plan: what no other value explains of the signature."""
     found = detectable_sizes(TAKEN, NOISE_MM)["bar_length"]
     assert found.size is not None
     own = TAKEN.whose(lambda each: each.effect == "bar_length")
@@ -45,11 +45,11 @@ def test_sizes_grow_with_the_noise() -> None:
     assert fine["leg_length"].size is not None
 
 
-def test_what_others_absorb_wholly_never_shows() -> None:
+def test_what_others_explain_wholly_is_never_detectable() -> None:
     found = detectable_sizes(TAKEN, NOISE_MM)
     for effect in ("guideway_rotation_centre", "guideway_rotation_xy", "cup_position"):
         assert (found[effect].size, found[effect].hardest, found[effect].kept) == (None, None, 0.0)
-    # A guideway along itself is absorbed by its sliders, outwards it is not.
+    # Its sliders explain a guideway moved along itself, not one moved outwards.
     assert found["guideway_translation"].size is not None
     assert found["guideway_translation"].hardest is None
 
@@ -61,34 +61,34 @@ def test_noise_includes_the_rounding_and_is_unknown_where_not_stated() -> None:
     assert gauge.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0}).stated_noise_mm == 1e-6
 
 
-def test_check_lists_every_effect_of_the_catalogue_and_all_that_a_plan_can_tell() -> None:
+def test_check_lists_every_effect_of_the_catalogue_and_all_that_a_plan_determines() -> None:
     done = CliRunner().invoke(command, ["check", "standard", "--json"], catch_exceptions=False)
-    told = json.loads(done.stdout)
-    assert told["reachable"] is True
-    assert (told["rank"], told["values"]) == (21, 33)
-    assert told["condition"] == pytest.approx(506, rel=0.005)
-    assert list(told["detectable"]) == list(_core.effect_names())
-    assert {"size", "unit"} <= set(told["detectable"]["leg_length"])
-    assert len(told["minimal_set"]) == 21
-    assert len(told["unidentifiable"]) == 13
-    assert [each["circle"] for each in told["circles"]] == list(range(7))
-    sides = [each for each in told["parameters"] if each["effect"] == "platform_side"]
+    found = json.loads(done.stdout)
+    assert found["reachable"] is True
+    assert (found["rank"], found["values"]) == (21, 33)
+    assert found["condition"] == pytest.approx(506, rel=0.005)
+    assert list(found["detectable"]) == list(_core.effect_names())
+    assert {"size", "unit"} <= set(found["detectable"]["leg_length"])
+    assert len(found["minimal_set"]) == 21
+    assert len(found["unidentifiable"]) == 13
+    assert [each["circle"] for each in found["circles"]] == list(range(7))
+    sides = [each for each in found["parameters"] if each["effect"] == "platform_side"]
     assert [(each["unit"], each["identifiable"]) for each in sides] == [("um", True)] * 3
     assert all(0.1 < each["sigma"] < 2.0 for each in sides)
 
 
-def test_a_gauge_without_stated_noise_is_assumed_ordinary_and_that_is_said(tmp_path: Path) -> None:
+def test_a_noise_that_is_not_stated_is_assumed_and_reported(tmp_path: Path) -> None:
     path = tmp_path / "plan.toml"
     path.write_text(shipped("plans", "thesis.toml").read_text().replace("noise_um = 0.5\n", ""))
     done = CliRunner().invoke(command, ["check", str(path), "--json"], catch_exceptions=False)
     assert json.loads(done.stdout)["noise_um"] == 0.5
-    assert "states no noise: 0.5 um assumed" in done.stderr
+    assert "no stated noise: 0.5 µm assumed" in done.stderr
     asked = CliRunner().invoke(command, ["check", str(path), "--json", "--noise", "2"], catch_exceptions=False)
     assert json.loads(asked.stdout)["noise_um"] == 2.0
     assert asked.stderr == ""
 
 
-def test_table_for_people_says_what_cannot_be_told() -> None:
+def test_printed_table_names_what_is_not_identifiable() -> None:
     done = CliRunner().invoke(command, ["check", "standard"], catch_exceptions=False, env={"COLUMNS": "80"})
     assert "rank 21 of 33" in done.stdout
     assert "platform_side" in done.stdout

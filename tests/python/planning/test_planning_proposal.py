@@ -14,7 +14,7 @@ from hexdbb.identifiability import Observability, observability, plan_sensitivit
 from hexdbb.machine import shipped
 from hexdbb.model import new_model
 from hexdbb.plan import Plan, load_plan
-from hexdbb.planning import Demands, Grid, Question, circle_clearances, propose, unknowns_of
+from hexdbb.planning import Grid, PlanRequest, RequiredClearances, circle_clearances, planned_unknowns, propose
 from hexdbb.trajectory import plan_programme
 
 ROOT = Path(__file__).parents[3]
@@ -47,14 +47,14 @@ def test_best_plans_of_the_page_beat_standard(count: int) -> None:
 
 
 @pytest.mark.parametrize("count", [5, 7])
-def test_best_plans_of_the_page_can_be_driven_with_the_clearances_demanded(count: int) -> None:
+def test_best_plans_of_the_page_can_be_driven_with_the_required_clearances(count: int) -> None:
     plan = load_plan(BEST[count])
     machine = plan.machine_file()
     plan_programme(plan, machine, 1.0 / RATE_HZ, "best")
     for circle in plan.circles:
         found = circle_clearances(machine, circle, plan.mount_of(circle).cup_mm)
         assert found is not None
-        assert Demands().met_by(found)
+        assert RequiredClearances().met_by(found)
 
 
 def test_the_table_of_the_page_is_what_its_command_prints() -> None:
@@ -63,14 +63,14 @@ def test_the_table_of_the_page_is_what_its_command_prints() -> None:
     assert f"hexdbb plan compare {' '.join(names)}" in page
     paths = [names[0], *(str(ROOT / name) for name in names[1:])]
     done = CliRunner().invoke(command, ["compare", *paths, "--json"], catch_exceptions=False)
-    for name, told in zip(names, json.loads(done.stdout).values(), strict=True):
+    for name, found in zip(names, json.loads(done.stdout).values(), strict=True):
         row = next(line.split() for line in page.splitlines() if line.split()[:1] == [name])
-        indices = [f"{told['observability'][each]:.2e}" for each in ("o1", "o3", "o4")]
-        assert row[3:8] == [str(told["rank"]), f"{told['condition']:.0f}", *indices]
+        indices = [f"{found['observability'][each]:.2e}" for each in ("o1", "o3", "o4")]
+        assert row[3:8] == [str(found["rank"]), f"{found['condition']:.0f}", *indices]
 
 
 @pytest.mark.parametrize("suffix", [".png", ".svg"])
-def test_plans_can_be_drawn_beside_each_other(tmp_path: Path, suffix: str) -> None:
+def test_plans_can_be_drawn_in_one_picture(tmp_path: Path, suffix: str) -> None:
     drawn = tmp_path / f"plans{suffix}"
     CliRunner().invoke(command, ["compare", "thesis", "standard", "--plot", str(drawn)], catch_exceptions=False)
     text = drawn.read_bytes()
@@ -80,7 +80,7 @@ def test_plans_can_be_drawn_beside_each_other(tmp_path: Path, suffix: str) -> No
     assert "expected .png or .svg" in str(done.exception)
 
 
-def test_tilted_planes_are_found_because_they_see_the_cups_height(tmp_path: Path) -> None:
+def test_tilted_planes_are_chosen_because_they_determine_the_cups_height(tmp_path: Path) -> None:
     plan = proposed(tmp_path / "plan.toml", "--circles", "5")
     assert any(any(circle.plane_rpy_deg) for circle in plan.circles)
     assert "cup_position:1 z changes no reading" in seen(load_plan("standard")).unidentifiable
@@ -104,13 +104,13 @@ def test_circles_about_two_cups_stand_cup_by_cup() -> None:
     grid = Grid(
         heights=(0.0,), places=(0.0, 0.2), place_azimuths=(30.0,), tilts=(0.0,), yaws=(-15.0, 15.0), plane_tilts=(0.0,)
     )
-    unknowns = unknowns_of(new_model(machine), None, 0.5e-3, RATE_HZ)
-    said: list[str] = []
-    plan = propose(Question(like, machine, unknowns, circles=4, most_mounts=2, grid=grid), said.append)
+    unknowns = planned_unknowns(new_model(machine), None, 0.5e-3, RATE_HZ)
+    steps: list[str] = []
+    plan = propose(PlanRequest(like, machine, unknowns, circles=4, most_mounts=2, grid=grid), steps.append)
     assert sorted(mount.cup_mm for mount in plan.mounts) == [(0.0, 0.0, 340.0), (17.32, 10.0, 340.0)]
     assert [circle.mount for circle in plan.circles] == [0, 0, 1, 1]
     assert [circle.id for circle in plan.circles] == [0, 1, 2, 3]
-    assert said
+    assert steps
     plan_programme(plan, machine, 1.0 / RATE_HZ, "two cups")
 
 
@@ -122,8 +122,8 @@ def test_each_criterion_wins_by_its_own_measure(tmp_path: Path) -> None:
     assert smallest.o3 > volume.o3
 
 
-def test_a_plan_aimed_at_an_effect_shows_a_smaller_one(tmp_path: Path) -> None:
-    """The bar's length: a plan for it shows a smaller error of it than one for the machine as a whole."""
+def test_a_plan_aimed_at_an_effect_detects_a_smaller_one(tmp_path: Path) -> None:
+    """The bar's length: a plan for it detects a smaller error of it than one for the machine as a whole."""
     sizes = {}
     for name, options in (("aimed", ["--aim", "bar_length"]), ("whole", [])):
         proposed(tmp_path / f"{name}.toml", "--circles", "4", *options)
@@ -146,12 +146,12 @@ def test_the_file_names_its_machine_from_where_it_stands(tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--circles", "0"], r"^circles 0: nothing to choose \(expected 1 or more\)$"),
-        (["--circles", "3", "--mounts", "0"], r"^mounts 0: a cup has to stand somewhere \(expected 1 or more\)$"),
+        (["--circles", "0"], r"^circles 0: no circle to choose \(expected 1 or more\)$"),
+        (["--circles", "3", "--mounts", "0"], r"^mounts 0: no position for the cup \(expected 1 or more\)$"),
         (["--circles", "3", "--criterion", "E"], r"^criterion E: not known \(expected one of D, minmax\)$"),
         (["--circles", "3", "--aim", "rust"], r'^no effect is called "rust" \(known: leg_length, '),
         (["--circles", "3", "--like", "none"], r"^none: no such file"),
-        (["--circles", "999"], r"^circles 999: not so many candidates about 1 cup places"),
+        (["--circles", "999"], r"^circles 999: fewer candidates about 1 cup position\(s\)"),
     ],
 )
 def test_what_cannot_be_proposed_is_one_line_and_writes_nothing(

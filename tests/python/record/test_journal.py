@@ -107,9 +107,9 @@ def test_killed_capture_is_recovered_without_having_been_told_to_flush(record: R
         assert process.stdout is not None
         assert process.stdout.readline() == "appended\n"
         wait_for(lambda: rows_on_disk(journal_path(target)) == 30)
-        with pytest.raises(InputError, match="a running capture writes it"):
+        with pytest.raises(InputError, match="in use by a running capture"):
             recover(journal_path(target))
-        with pytest.raises(InputError, match="a running capture writes it"):
+        with pytest.raises(InputError, match="in use by a running capture"):
             journal_of(record, target, overwrite=True)
         process.send_signal(signal.SIGKILL)
     recovered = recover(journal_path(target))

@@ -18,6 +18,7 @@ from hypothesis.extra import numpy as hnp
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile, shipped_machine
 from hexdbb.record import REQUIRED_COLUMNS, Record, read_record, write_record
+from hexdbb.record.summary import SWEEPS_SHOWN_MAX
 
 DiskFullAfter = Callable[[int], AbstractContextManager[None]]
 FORMS = [".parquet", ".csv"]
@@ -64,7 +65,9 @@ def test_floats_survive_every_form_to_the_last_bit(
     record: Record, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject, count: int
 ) -> None:
     within = {"angle_deg": any_float, "temperature_c": any_float, "target1_mm": any_float}
-    within |= {f"s{k}_mm": st.floats(20.0, 846.0) for k in range(1, 7)} | {"reading_um": st.floats(-1000.0, 1000.0)}
+    within |= {f"s{k}_mm": st.floats(*record.machine.sliders.travel_mm) for k in range(1, 7)} | {
+        "reading_um": st.floats(-1000.0, 1000.0)
+    }
     columns: dict[str, Any] = {name: values[:count] for name, values in record.columns.items()}
     for name, values in within.items():
         columns[name] = data.draw(hnp.arrays(np.float64, count, elements=values))
@@ -126,6 +129,34 @@ def test_failed_write_leaves_what_was_there(record: Record, tmp_path: Path, disk
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_record_shows_its_sweeps(record: Record) -> None:
+    record.columns["reading_um"][:] = np.linspace(-12.34, 45.67, len(record))
+    assert repr(record) == (
+        "<Record record: 50 samples, 2 sweeps, 1 circle, feed 753.98 mm/min, readings -12.3 to 45.7 µm, complete>"
+    )
+    shown = record._repr_html_()
+    assert shown.count("<tr>") == 1 + 1 + 2, "caption, heads and a row per sweep"
+    assert "<td>1</td><td>0</td><td>0</td><td>+1</td><td>753.98</td><td>1</td><td>25</td><td>0.100</td>" in shown
+    part = record.part(np.zeros(len(record), dtype=bool))
+    assert repr(part) == "<Record record: no samples>"
+    assert "no samples" in part._repr_html_()
+
+
+def test_a_record_of_many_sweeps_is_shown_in_part(record: Record) -> None:
+    many = replace(record, columns={**record.columns, "sweep": np.arange(50) % 25}, complete=False)
+    assert "25 sweeps" in repr(many) and "incomplete" in repr(many)
+    tiled = {name: np.tile(values, 3) for name, values in record.columns.items()}
+    shown = replace(record, columns={**tiled, "sweep": np.arange(150)})._repr_html_()
+    assert f"<td>{150 - SWEEPS_SHOWN_MAX} more</td>" in shown
+
+
+def test_a_record_is_a_frame(record: Record) -> None:
+    frame = record.to_frame()
+    assert list(frame.columns) == list(record.columns)
+    assert frame.dtypes.to_dict() == {name: values.dtype for name, values in record.columns.items()}
+    np.testing.assert_array_equal(frame["s4_mm"], record.sliders_mm[:, 3])
+
+
 def test_sweeps_come_in_the_order_they_were_captured(record: Record) -> None:
     swapped = replace(record, columns={**record.columns, "sweep": 7 - 5 * record.columns["sweep"]})
     assert [swapped.columns["sweep"][rows][0] for rows in swapped.sweeps()] == [7, 2]
@@ -168,7 +199,7 @@ BAD_VALUES = [
     ("s3_mm", 0, np.inf, "row 1: s3_mm: inf (expected a finite number)"),
     ("direction", 30, 0, "row 31: direction: 0 (expected 1 (counter-clockwise) or -1 (clockwise))"),
     ("circle", 10, 4, "row 11: circle: 4 (expected the id of a circle: 0)"),
-    ("reading_um", 49, 1000.5, "row 50: reading_um: 1000.5 (expected a reading within the gauge's range of +-1000 um)"),
+    ("reading_um", 49, 1000.5, "row 50: reading_um: 1000.5 (expected a reading within the gauge's range of ±1000 µm)"),
     ("reading_um", 49, -1001, "row 50: reading_um: -1001 (expected a reading within"),
     ("s6_mm", 5, 848.0, "row 6: s6_mm: 848 (expected within the travel of the machine's sliders, 20 to 846 mm)"),
     ("s1_mm", 5, 0.4, "row 6: s1_mm: 0.4 (expected within the travel"),

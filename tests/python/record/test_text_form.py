@@ -123,7 +123,7 @@ BAD_CELLS = [
     ("0.5,0,0", "0.5,1e99,0", "a.csv: row 2 (line 3): circle: 1e+99 (expected a whole number from"),
     ("s4_mm", "s4_um", "a.csv: column s4_um (expected s4_mm: the unit is part of the name)"),
     ("s4_mm", "fourth", "a.csv: missing column s4_mm (columns present: reading_um, t_s"),
-    ("lap", "t_s", "a.csv: column t_s: stands twice"),
+    ("lap", "t_s", "a.csv: column t_s: occurs twice"),
     (",", ";", "a.csv: line 1: one column 'reading_um;t_s;"),
 ]
 

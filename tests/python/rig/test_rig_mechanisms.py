@@ -1,4 +1,4 @@
-"""Mechanisms of the true machine: each does what its physics says, at its ports, in stretches of any length."""
+"""Mechanisms of the true machine: each follows its physics, at its ports, in stretches of any length."""
 
 from __future__ import annotations
 

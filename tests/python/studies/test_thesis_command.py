@@ -62,7 +62,7 @@ def test_estimate_as_table_and_json(record_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "said"),
+    ("arguments", "message"),
     [
         (["estimate", "{record}", "--errors", "leg1,leg2"], "singular, rank 1 of 2: leg2 = -1.000 leg1"),
         (["estimate", "{record}", "--errors", "leg1,foot"], 'error "foot": not known (expected one of: leg1'),
@@ -72,17 +72,17 @@ def test_estimate_as_table_and_json(record_path: Path) -> None:
     ],
 )
 def test_wrong_use_is_one_line_and_writes_nothing(
-    record_path: Path, tmp_path: Path, arguments: list[str], said: str
+    record_path: Path, tmp_path: Path, arguments: list[str], message: str
 ) -> None:
     before = sorted(tmp_path.iterdir())
     ended = run(*(each.format(record=record_path, tmp=tmp_path) for each in arguments))
     assert (ended.returncode, ended.stdout) == (2, "")
-    assert said in ended.stderr
+    assert message in ended.stderr
     assert ended.stderr.count("\n") == 1
     assert sorted(tmp_path.iterdir()) == before
 
 
-def test_minimum_norm_says_what_coincides(record_path: Path) -> None:
+def test_minimum_norm_names_dependent_contours(record_path: Path) -> None:
     ended = run("estimate", record_path, "--errors", "leg1,leg2,y1", "--minimum-norm")
     assert ended.returncode == 0
-    assert "contours coincide, in unit errors: leg2 = -1.000 leg1" in ended.stdout
+    assert "dependent contours, in unit errors: leg2 = -1.000 leg1" in ended.stdout

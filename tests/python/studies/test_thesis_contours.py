@@ -94,15 +94,15 @@ def test_table_has_every_error_at_every_angle(in_plane: CircularTest) -> None:
 
 
 @pytest.mark.parametrize(
-    ("names", "said"),
+    ("names", "message"),
     [
         (["leg7"], r'error "leg7": not known \(expected one of: leg1, leg2'),
         (["leg1", "y1", "leg1"], r'error "leg1": named twice'),
         ([], "no error named"),
     ],
 )
-def test_wrong_names_are_refused(in_plane: CircularTest, names: list[str], said: str) -> None:
-    with pytest.raises(InputError, match=said):
+def test_wrong_names_are_refused(in_plane: CircularTest, names: list[str], message: str) -> None:
+    with pytest.raises(InputError, match=message):
         reference_contours(in_plane, names)
 
 

@@ -1,4 +1,4 @@
-"""The thesis' estimator: it gives back what it should, refuses what it cannot, and says where it ends."""
+"""The thesis' estimator: it identifies what it should, refuses what it cannot, and is limited to small errors."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_singular_normal_equations_are_refused_by_name(in_plane: CircularTest) -
         InputError, match=r"A'A of equation \(5.4\) is singular, rank 5 of 6: y3 = -1\.000 y1 - 1\.000 y2"
     ):
         thesis_estimate(in_plane, np.zeros(360), ["leg1", "leg3", "leg5", "y1", "y2", "y3"])
-    with pytest.raises(InputError, match="rank 1 of 2: z3 leaves no trace"):
+    with pytest.raises(InputError, match="rank 1 of 2: z3 has no contour"):
         thesis_estimate(in_plane, np.zeros(360), ["y1", "z3"])
 
 
@@ -76,9 +76,9 @@ def test_smallest_solution_of_all_thirty_three(in_plane: CircularTest) -> None:
 
 
 def test_sentence_of_coincidence_is_true_of_the_contours(in_plane: CircularTest) -> None:
-    said = thesis_estimate(in_plane, np.zeros(360), [*SEVEN, "centre1"], minimum_norm=True).dependent
-    assert len(said) == 1
-    left, _, right = said[0].partition(" = ")
+    sentences = thesis_estimate(in_plane, np.zeros(360), [*SEVEN, "centre1"], minimum_norm=True).dependent
+    assert len(sentences) == 1
+    left, _, right = sentences[0].partition(" = ")
     numbers = right.replace("- ", "-").replace("+ ", "").split()
     amounts, names = [float(each) for each in numbers[::2]], numbers[1::2]
     contours = reference_contours(in_plane, [left, *names]).first_order_mm
@@ -86,7 +86,7 @@ def test_sentence_of_coincidence_is_true_of_the_contours(in_plane: CircularTest)
 
 
 def test_record_gives_back_its_seven_errors(in_plane: CircularTest, record: Record) -> None:
-    """Within four standard deviations of what the gauge's noise and rounding do."""
+    """Within four standard deviations of the error from the gauge's noise and rounding."""
     found = thesis_estimate_record(record, SEVEN)
     matrix = record_test(record).first_order[:, [UNKNOWNS[name].column for name in SEVEN]]
     noise_mm = np.hypot(0.5e-3, 0.1e-3 / np.sqrt(12.0))
@@ -96,16 +96,16 @@ def test_record_gives_back_its_seven_errors(in_plane: CircularTest, record: Reco
     assert len(record) == 2 * in_plane.samples.size
 
 
-def test_cup_takes_the_translations_away(record: Record) -> None:
+def test_translations_are_not_identified_beside_the_cup(record: Record) -> None:
     with pytest.raises(InputError, match=r"rank 7 of 9: y1 = -0\.667 cup_y; y2 = 0\.577 cup_x \+ 0\.333 cup_y"):
         thesis_estimate_record(record, [*SEVEN, "cup_x", "cup_y"])
 
 
 def test_wrong_contours_and_records_are_refused(in_plane: CircularTest, record: Record) -> None:
-    with pytest.raises(InputError, match=r"contour of shape \(359,\) \(expected \(360,\), one a sample\)"):
+    with pytest.raises(InputError, match=r"contour of shape \(359,\) \(expected \(360,\), one per sample\)"):
         thesis_estimate(in_plane, np.zeros(359), ["leg1"])
     few = replace(record, columns={name: values[:3] for name, values in record.columns.items()})
-    with pytest.raises(InputError, match=r"record: 3 samples for 7 errors \(expected no fewer\)"):
+    with pytest.raises(InputError, match=r"record: 3 samples for 7 errors \(expected at least as many\)"):
         thesis_estimate_record(few, SEVEN)
     none = replace(record, columns={name: values[:0] for name, values in record.columns.items()})
     with pytest.raises(InputError, match=r"record: no samples"):

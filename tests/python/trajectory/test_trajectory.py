@@ -98,6 +98,7 @@ def test_captured_angles_cover_the_laps_in_the_right_sense(laps: int) -> None:
         step = np.diff(travelled).mean()
         assert table.angle_deg[rows][0] == pytest.approx(0.0, abs=1e-6)
         assert laps * 2 * math.pi - step * 1.001 < travelled[-1] < laps * 2 * math.pi
+        assert ((table.angle_deg[rows] >= 0.0) & (table.angle_deg[rows] < 360.0)).all()
         assert table.lap[rows].tolist() == np.floor(travelled / (2 * math.pi) + 1e-9).astype(int).tolist()
     assert (table.lap[~table.capture] == -1).all()
 

@@ -1,7 +1,7 @@
-"""The thesis' own way: reference contours of unit errors, linear least squares on them, its tables.
+"""The thesis' method: reference contours of unit errors, linear least squares on them, its tables.
 
-This is a documented mode to hold beside the thesis (sections 3.4, 5-2, 5-3); `hexdbb.diagnosis` is what a user fits
-with. All kinematics are the engine's.
+A documented mode for comparison with the thesis (sections 3.4, 5-2, 5-3); to fit a machine, use `hexdbb.diagnosis`.
+All kinematics are the engine's.
 """
 
 from hexdbb.studies.thesis.circular_test import CircularTest, circle_test, joint_plane_test, plan_test, record_test

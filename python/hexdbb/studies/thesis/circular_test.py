@@ -1,8 +1,8 @@
-"""The thesis' circular test as the engine sees it: slider coordinates of one circle about one cup.
+"""The thesis' circular test: slider coordinates of one circle about one cup, and the readings there.
 
 Formula: contour(values) = reading(values) - reading(0) at the slider coordinates of the nominal machine on its circle,
 equation (5.3). The slider coordinates come from inverse kinematics, or from a record as the encoders reported them.
-Assumption users get wrong: what the cup is off by goes into the contour too, and the thesis has no unknown for it.
+Assumption users get wrong: a misplaced cup contributes to the contour too, and the thesis has no unknown for it.
 """
 
 from __future__ import annotations
@@ -26,29 +26,29 @@ from hexdbb.studies.thesis.unknowns import SHORT_NAMES, UNKNOWNS
 Floats = NDArray[np.float64]
 
 SAMPLES = 360
-"""Samples of a computed contour, one a degree."""
+"""Samples of a computed contour: one per degree resolves its harmonics, of which the sixth is below 1 % already."""
 
 
 @dataclass(frozen=True)
 class CircularTest:
-    """Samples of a circular test with one fixing of the cup."""
+    """Samples of a circular test with one mount of the cup."""
 
     machine: MachineFile
     samples: _core.Samples
     sliders_mm: Floats
-    """Slider coordinates of the samples, shape (n, 6)."""
+    """Slider coordinates of the samples, shape (n, 6), mm."""
     angle_rad: Floats
-    """Polar angle of each sample, shape (n,)."""
+    """Polar angle of each sample, shape (n,), rad."""
     origin: str
-    """Names the test in errors and titles."""
+    """Name of the test in error messages and titles."""
 
     @cached_property
     def nominal_mm(self) -> Floats:
-        """What the bar reads on the nominal machine, shape (n,)."""
+        """Reading on the nominal machine, shape (n,), mm."""
         return self._predict(np.zeros(len(UNKNOWNS)), False).reading_mm
 
     def contour_mm(self, values: Floats) -> Floats:
-        """Radial deviation that errors cause together, by exact kinematics.
+        """Return the radial deviation that errors cause together, by exact kinematics.
 
         Parameters
         ----------
@@ -58,6 +58,7 @@ class CircularTest:
         Returns
         -------
         ndarray, shape (n,)
+            mm.
 
         Raises
         ------
@@ -73,7 +74,7 @@ class CircularTest:
         return self._predict(np.zeros(len(UNKNOWNS)), True).jacobian
 
     def model(self, values: Floats) -> Model:
-        """Give the model whose values are the unknowns, in their order."""
+        """Return the model whose values are the unknowns, in their order."""
         model = new_model(self.machine, list(SHORT_NAMES))
         return model.with_values(values, np.full(len(values), np.nan), np.zeros(len(values), bool))
 
@@ -89,7 +90,16 @@ class CircularTest:
 def circle_test(
     machine: MachineFile, circle: Circle, mount: Mount, bar_length_mm: float, origin: str = "circle"
 ) -> CircularTest:
-    """Compute the test of one circle, `SAMPLES` samples evenly spaced from angle 0.
+    """Return the test of one circle: `SAMPLES` samples, evenly spaced from angle 0.
+
+    Parameters
+    ----------
+    machine : MachineFile
+    circle : Circle
+    mount : Mount
+    bar_length_mm : float
+    origin : str
+        Name of the test in error messages.
 
     Raises
     ------
@@ -112,12 +122,12 @@ def circle_test(
 
 
 def plan_test(plan: Plan, identity: int, origin: str) -> CircularTest:
-    """Compute the test of one circle of a plan.
+    """Return the test of the circle with an id in a plan.
 
     Raises
     ------
     InputError
-        The plan has no circle of that id, or it is out of reach.
+        The plan has no circle with that id, or it is out of reach.
     """
     circle = next((each for each in plan.circles if each.id == identity), None)
     if circle is None:
@@ -127,10 +137,17 @@ def plan_test(plan: Plan, identity: int, origin: str) -> CircularTest:
 
 
 def joint_plane_circle() -> tuple[MachineFile, Circle, Mount, float]:
-    """Give the shipped plan `thesis` with its ball in the plane of the ball joints and the cup as much lower.
+    """Return the circle of the shipped plan `thesis`, with the ball in the plane of the ball joints.
 
-    The thesis does not say how high its ball sits. With the ball in the joint plane one level circle identifies the
-    seven errors that the thesis found.
+    The cup is lowered by the same amount. The thesis does not state the height of its ball; with the ball in the joint
+    plane one level circle identifies exactly the seven errors that the thesis found.
+
+    Returns
+    -------
+    machine : MachineFile
+    circle : Circle
+    mount : Mount
+    bar_length_mm : float
     """
     plan = load_plan("thesis")
     machine, circle = plan.machine_file(), plan.circles[0]
@@ -144,17 +161,17 @@ def joint_plane_circle() -> tuple[MachineFile, Circle, Mount, float]:
 
 
 def joint_plane_test() -> CircularTest:
-    """Compute the test of `joint_plane_circle`."""
+    """Return the test of `joint_plane_circle`."""
     return circle_test(*joint_plane_circle(), origin="level circle, ball in the joint plane")
 
 
 def record_test(record: Record) -> CircularTest:
-    """Give the test that was measured, at the slider coordinates the encoders reported.
+    """Return the test of a record, at the slider coordinates that the encoders reported.
 
     Raises
     ------
     InputError
-        Where the record has no samples or several mounts: the thesis' way knows one fixing of the cup.
+        The record has no samples, or several mounts: the thesis' estimator assumes one.
     """
     if not len(record):
         raise InputError(f"{record.name}: no samples (expected a circular test)")
@@ -162,8 +179,8 @@ def record_test(record: Record) -> CircularTest:
     if len(used) > 1:
         mounts = ", ".join(map(str, used))
         raise InputError(
-            f"{record.name}: samples of mounts {mounts} (expected one: the thesis' estimator knows one fixing of the"
-            " cup; hexdbb diagnose takes several)"
+            f"{record.name}: samples of mounts {mounts} (expected one: the thesis' estimator assumes one mount;"
+            " hexdbb diagnose takes several)"
         )
     nominal = new_model(record.machine, list(SHORT_NAMES))
     angle_rad = np.radians(record.columns["angle_deg"])

@@ -1,9 +1,9 @@
 """Reference contours: the radial deviation that a unit error alone causes along the circle (thesis Figures 3.16-3.20).
 
-Two forms: `exact`, the reading with the unit error minus the nominal machine's, by exact kinematics, as the thesis
-computes them; and `first_order`, the derivative times the unit error. The harmonics of a contour,
+Two forms: `exact`, the reading with the unit error minus that of the nominal machine by exact kinematics, as in the
+thesis; and `first_order`, the derivative times the unit error. The harmonics of a contour,
     contour(angle) = sum over h of amplitude_h cos(h angle - phase_h),
-say which errors one circle can tell apart: see docs/thesis-tables.md.
+determine which errors one circle can separate: see docs/thesis-tables.md.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ COLUMNS = ("error", "effect", "element", "parameter", "size", "unit", "angle_deg
 
 @dataclass(frozen=True)
 class ReferenceContours:
-    """Contours of unit errors, one column an error."""
+    """Contours of unit errors, one column per error."""
 
     test: CircularTest
     unknowns: tuple[Unknown, ...]
     exact_mm: Floats
-    """Shape (n, errors): of the unit error, exact kinematics."""
+    """Contour of each unit error by exact kinematics, shape (n, errors), mm."""
     first_order_mm: Floats
-    """Shape (n, errors): derivative times unit error."""
+    """Derivative times unit error, shape (n, errors), mm."""
 
     @property
     def sizes(self) -> Floats:
@@ -42,7 +42,7 @@ class ReferenceContours:
         return np.array([each.unit_size for each in self.unknowns])
 
     def to_csv(self) -> str:
-        """Give the contours as a table with one row per error and angle; its columns are `COLUMNS`."""
+        """Return the contours as CSV text with one row per error and angle; the columns are `COLUMNS`."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         writer.writerow(COLUMNS)
@@ -59,18 +59,18 @@ class ReferenceContours:
 
 
 def reference_contours(test: CircularTest, errors: Sequence[str] = GEOMETRIC_ERRORS) -> ReferenceContours:
-    """Compute the reference contours of errors.
+    """Return the reference contours of errors.
 
     Parameters
     ----------
     test : CircularTest
     errors : sequence of str
-        Short names; the thesis' 33 where not given.
+        Short names; by default the thesis' 33.
 
     Raises
     ------
     InputError
-        An error is not known or named twice, or the machine has no pose with one of the unit errors.
+        An error is unknown or named twice, or the machine has no pose with one of the unit errors.
     """
     chosen = find_unknowns(errors)
     columns = [each.column for each in chosen]
@@ -80,7 +80,7 @@ def reference_contours(test: CircularTest, errors: Sequence[str] = GEOMETRIC_ERR
 
 
 def harmonic_amplitudes(contours: Floats, highest: int) -> Floats:
-    """Amplitudes of harmonics 0..highest of contours sampled evenly over one turn.
+    """Return the amplitudes of harmonics 0 to `highest` of contours sampled evenly over one turn.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def harmonic_amplitudes(contours: Floats, highest: int) -> Floats:
 
 
 def without_harmonics(contours: Floats, up_to: int) -> Floats:
-    """What is left of contours (n, k) sampled evenly over one turn without their harmonics 0..up_to."""
+    """Return contours (n, k), sampled evenly over one turn, with their harmonics 0 to `up_to` removed."""
     spectrum = np.fft.rfft(contours, axis=0)
     spectrum[: up_to + 1] = 0.0
     return np.asarray(np.fft.irfft(spectrum, n=len(contours), axis=0), dtype=np.float64)

@@ -1,4 +1,4 @@
-"""docs/thesis-contours.md: reference contours and the symmetry of their circle, computed."""
+"""Generator of docs/thesis-contours.md: reference contours and the symmetry of their circle."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from hexdbb.studies.thesis.symmetry import symmetry_departure_mm
 from hexdbb.studies.thesis.unknowns import GEOMETRIC_ERRORS, UNIT_MM, UNIT_RAD, UNKNOWNS
 
 SYMMETRY_SEED = 120
+"""Seed of the errors for which the symmetry is tested; any other gives the same zeros."""
 
 
 def contours_page() -> str:
-    """Write the page."""
+    """Return the page as Markdown."""
     in_plane, above = joint_plane_test(), plan_test(load_plan("thesis"), 0, "plan thesis, circle 0")
     return fill_page(
         "thesis-contours.md",

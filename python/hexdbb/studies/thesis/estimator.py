@@ -3,7 +3,7 @@
 Model: the measured contour is a sum of reference contours, b = A x + r, column k of A being the contour of error k.
 Formula: A'A x = A'b, equation (5.4), written out in (5.10); x is in multiples of the unit errors.
 Assumptions users get wrong: errors are so small that contours add (docs/thesis-tables.md shows up to where), no error
-beside the chosen ones exists, the cup stands where planned, and A'A is not singular. No uncertainty comes out of it.
+beside the chosen ones exists, the cup is where planned, and A'A is not singular. It yields no uncertainties.
 `hexdbb.diagnosis` assumes none of these.
 """
 
@@ -25,47 +25,54 @@ from hexdbb.studies.thesis.unknowns import Unknown, find_unknowns
 Floats = NDArray[np.float64]
 
 SINGULAR = 1e-7
-"""A'A counts as singular where A's smallest singular value is below this part of its largest: A'A squares the ratio,
-and 1e-14 is where double precision ends. Taken of the derivatives: contours of finite unit errors are never quite
-dependent, because what they differ by in second order passes for information."""
+"""Ratio of A's smallest to its largest singular value below which A'A counts as singular: A'A squares the ratio, and
+1e-14 is where double precision ends. A is that of the derivatives: contours of finite unit errors are never exactly
+dependent, because their second-order difference passes for information."""
 SMALL = 1e-3
-"""Coefficients below this part of the largest are left out of a sentence."""
+"""Coefficients below this share of the largest are omitted from a sentence, which prints three decimals."""
 
 
 @dataclass(frozen=True)
 class ThesisEstimate:
-    """Values of the chosen errors."""
+    """Result of the thesis' estimator."""
 
     unknowns: tuple[Unknown, ...]
+    """The errors assumed to exist."""
     values: Floats
-    """mm and rad, shape (errors,); of the smallest norm (in unit errors) where A'A is singular."""
+    """Values in mm and rad, shape (errors,); of the smallest norm (in unit errors) where A'A is singular."""
     determined: NDArray[np.bool_]
-    """Which values the contour determines; all of them unless A'A is singular."""
+    """Which values the contour determines, shape (errors,); all unless A'A is singular."""
     rank: int
+    """Rank of A."""
     condition: float
-    """Of A over its rank; that of A'A is the square."""
+    """Condition of A over its rank; that of A'A is the square."""
     dependent: tuple[str, ...]
-    """Which columns are combinations of which others, one sentence each."""
+    """Contours that are combinations of others, one sentence each."""
     rms_before_mm: float
+    """RMS of the contour, mm."""
     rms_after_mm: float
-    """Of the contour, and of what the estimate leaves of it."""
+    """RMS of the residual, mm."""
 
 
 def thesis_estimate(
     test: CircularTest, contour_mm: Floats, errors: Sequence[str], *, minimum_norm: bool = False
 ) -> ThesisEstimate:
-    """Estimate errors from a contour the thesis' way.
+    """Estimate errors from a contour by the thesis' equations (5.4)-(5.10).
 
     Parameters
     ----------
     test : CircularTest
-        Where the contour was taken.
+        The circle on which the contour was taken.
     contour_mm : ndarray, shape (n,)
-        Radial deviation: reading minus the nominal machine's.
+        Radial deviation, mm: reading minus that of the nominal machine.
     errors : sequence of str
-        Short names of the errors taken to exist.
+        Short names of the errors assumed to exist.
     minimum_norm : bool
-        Where A'A is singular, give the solution of smallest norm instead of refusing.
+        Where A'A is singular, return the solution of smallest norm instead of raising.
+
+    Returns
+    -------
+    ThesisEstimate
 
     Raises
     ------
@@ -76,10 +83,12 @@ def thesis_estimate(
     chosen = find_unknowns(errors)
     if np.shape(contour_mm) != (test.samples.size,):
         raise InputError(
-            f"{test.origin}: contour of shape {np.shape(contour_mm)} (expected ({test.samples.size},), one a sample)"
+            f"{test.origin}: contour of shape {np.shape(contour_mm)} (expected ({test.samples.size},), one per sample)"
         )
     if test.samples.size < len(chosen):
-        raise InputError(f"{test.origin}: {test.samples.size} samples for {len(chosen)} errors (expected no fewer)")
+        raise InputError(
+            f"{test.origin}: {test.samples.size} samples for {len(chosen)} errors (expected at least as many)"
+        )
     sizes = np.array([each.unit_size for each in chosen])
     matrix = test.first_order[:, [each.column for each in chosen]] * sizes
     known = _core.identifiability(matrix, relative=SINGULAR)
@@ -104,7 +113,7 @@ def thesis_estimate(
 
 
 def thesis_estimate_record(record: Record, errors: Sequence[str], *, minimum_norm: bool = False) -> ThesisEstimate:
-    """Estimate errors from a record the thesis' way: all its samples, one fixing of the cup.
+    """Estimate errors from all samples of a record with one mount by the thesis' equations (5.4)-(5.10).
 
     Raises
     ------
@@ -116,7 +125,7 @@ def thesis_estimate_record(record: Record, errors: Sequence[str], *, minimum_nor
 
 
 def coinciding(null_space: Floats, chosen: Sequence[Unknown]) -> list[str]:
-    """Say which reference contours are combinations of which others.
+    """Return sentences that name reference contours which are combinations of others.
 
     Parameters
     ----------
@@ -127,7 +136,7 @@ def coinciding(null_space: Floats, chosen: Sequence[Unknown]) -> list[str]:
     if not null_space.shape[1]:
         return []
     rows, pivots = echelon(null_space)
-    said = []
+    sentences = []
     for row, pivot in sorted(zip(rows, pivots, strict=True), key=lambda each: each[1]):
         terms = [
             (float(-amount), chosen[k].name)
@@ -135,8 +144,8 @@ def coinciding(null_space: Floats, chosen: Sequence[Unknown]) -> list[str]:
             if k != pivot and abs(amount) > SMALL * np.abs(row).max()
         ]
         name = chosen[pivot].name
-        said.append(f"{name} = {_combination(terms)}" if terms else f"{name} leaves no trace")
-    return said
+        sentences.append(f"{name} = {_combination(terms)}" if terms else f"{name} has no contour")
+    return sentences
 
 
 def _combination(terms: Sequence[tuple[float, str]]) -> str:

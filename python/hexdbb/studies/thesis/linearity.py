@@ -1,9 +1,9 @@
-"""Up to which size of errors the thesis' linear estimator holds, beside the exact diagnosis on the same readings.
+"""The size of errors up to which the thesis' linear estimator holds, compared with the exact diagnosis.
 
-Setting: the seven errors of Table 5.5, one level circle, ball in the joint plane, cup known, one lap with the gauge's
-noise. Every draw gives each error a size of its own between half and all of the stated one, with a random sign; turns
-count as lengths at `ARM_MM`. The linear estimator's error grows with the square of the size, because contours add to
-first order only; the exact one's stays that of the noise.
+Setting, the same for both: the seven errors of Table 5.5, one level circle, ball in the joint plane, cup known, one lap
+with the gauge's noise. In every draw each error has a random sign and a size between half the stated one and all of it;
+rotations count as lengths at `ARM_MM`. The error of the linear estimate grows with the square of the size, because
+contours add to first order only; that of the exact estimate stays that of the noise.
 """
 
 from __future__ import annotations
@@ -24,23 +24,24 @@ from hexdbb.studies.thesis.unknowns import UNKNOWNS
 Floats = NDArray[np.float64]
 
 ARM_MM = 400.0
-"""Arm at which a turn counts as a length: 2 mm go with 5 mrad."""
+"""Lever arm by which a rotation counts as a length, of the size of a leg: 2 mm correspond to 5 mrad."""
 SIZES_MM = (0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0, 2.0)
+"""From where the noise dominates to where readings leave the range of a gauge."""
 RANGE_MM = 1.0
-"""Largest reading of a ball bar's gauge, to either side."""
+"""Largest reading of a common ball bar, to either side."""
 DRAWS = 12
+"""Draws per size: 12 times 7 values determine an RMS to 8 %."""
 SEED = 54
 UNITS = np.array([ARM_MM if UNKNOWNS[name].unit == "rad" else 1.0 for name in SEVEN])
 
 
 @dataclass(frozen=True)
 class LinearityRow:
-    """Errors of both estimators for given errors of one size."""
+    """Errors of both estimates for given errors of one size, over draws and the seven errors, rotations at `ARM_MM`."""
 
     size_mm: float
     linear_rms_mm: float
     exact_rms_mm: float
-    """Over draws and the seven errors, turns at `ARM_MM`."""
     linear_largest_mm: float
     exact_largest_mm: float
     peak_reading_mm: float
@@ -53,33 +54,33 @@ class LinearityStudy:
 
     rows: tuple[LinearityRow, ...]
     noise_rms_mm: float
-    """What the gauge's noise alone does to a linear estimate (standard deviation, root mean square of the seven)."""
+    """Standard deviation of a linear estimate due to the gauge noise alone, root mean square of the seven errors."""
     curvature_per_mm: float
     """c in: noise-free error of the linear estimate = c size², root mean square of the seven, at the smallest size."""
     curvature_of_lengths_per_mm: float
-    """The same where the five lengths alone are given, and the turns are zero."""
-    curvature_of_turns_per_mm: float
-    """The same where the two turns alone are given; size is that of their lengths at `ARM_MM`."""
+    """The same where the five lengths alone are given, and the rotations are zero."""
+    curvature_of_rotations_per_mm: float
+    """The same where the two rotations alone are given; size is that of their lengths at `ARM_MM`."""
 
     @property
     def break_mm(self) -> float:
-        """Size of the given errors at which the neglected terms do as much as the noise."""
+        """Size of the given errors at which the neglected terms cause as large an error as the noise, mm."""
         return self.break_at_mm(self.curvature_per_mm)
 
     def break_at_mm(self, curvature_per_mm: float) -> float:
-        """Size at which the neglected terms of this curvature do as much as the noise."""
+        """Return the size, mm, at which the neglected terms of this curvature cause as large an error as the noise."""
         return float(np.sqrt(self.noise_rms_mm / curvature_per_mm))
 
     @property
     def range_mm(self) -> float:
-        """Size at which the largest reading leaves a gauge's `RANGE_MM`, between the rows on either side of it."""
+        """Size at which the largest reading reaches `RANGE_MM`, interpolated between rows, mm."""
         peaks, sizes = ([getattr(row, name) for row in self.rows] for name in ("peak_reading_mm", "size_mm"))
         return float(np.interp(RANGE_MM, peaks, sizes))
 
 
 @cache
 def linearity_study() -> LinearityStudy:
-    """Run both estimators on growing errors."""
+    """Return the errors of both estimators for growing given errors."""
     test, rng = joint_plane_test(), np.random.default_rng(SEED)
     patterns = rng.uniform(0.5, 1.0, (DRAWS, len(SEVEN))) * rng.choice([-1.0, 1.0], (DRAWS, len(SEVEN)))
     noise = rng.normal(0.0, GAUGE_NOISE_UM / 1e3, (DRAWS, test.samples.size))
@@ -87,29 +88,29 @@ def linearity_study() -> LinearityStudy:
     columns = [UNKNOWNS[name].column for name in SEVEN]
     scaled = test.first_order[:, columns] / UNITS
     variances = np.diag(np.linalg.inv(scaled.T @ scaled)) * (GAUGE_NOISE_UM / 1e3) ** 2
-    is_turn = UNITS != 1.0
+    is_rotation = UNITS != 1.0
     return LinearityStudy(
         rows=rows,
         noise_rms_mm=float(np.sqrt(variances.mean())),
         curvature_per_mm=_curvature_per_mm(test, patterns),
-        curvature_of_lengths_per_mm=_curvature_per_mm(test, patterns * ~is_turn),
-        curvature_of_turns_per_mm=_curvature_per_mm(test, patterns * is_turn),
+        curvature_of_lengths_per_mm=_curvature_per_mm(test, patterns * ~is_rotation),
+        curvature_of_rotations_per_mm=_curvature_per_mm(test, patterns * is_rotation),
     )
 
 
 def _curvature_per_mm(test: CircularTest, patterns: Floats) -> float:
-    """Fit error = c size² of the linear estimate without noise, root mean square over draws and errors: c."""
-    size_mm, silent = SIZES_MM[0], np.zeros(test.samples.size)
-    misses = [_linear(test, size_mm * each, silent)[0] for each in patterns]
-    return _rms(np.array(misses)) / size_mm**2
+    """Return c of error = c size² of the linear estimate without noise, root mean square over draws and errors."""
+    size_mm, no_noise = SIZES_MM[0], np.zeros(test.samples.size)
+    errors_mm = [_linear(test, size_mm * each, no_noise)[0] for each in patterns]
+    return _rms(np.array(errors_mm)) / size_mm**2
 
 
 def _row(test: CircularTest, size_mm: float, patterns: Floats, noise: Floats) -> LinearityRow:
     linear, exact, peaks = [], [], []
     for pattern, added in zip(patterns, noise, strict=True):
         given = size_mm * pattern
-        miss, contour_mm = _linear(test, given, added)
-        linear.append(miss)
+        error_mm, contour_mm = _linear(test, given, added)
+        linear.append(error_mm)
         exact.append(_exact(test, contour_mm) - given)
         peaks.append(np.abs(contour_mm).max())
     return LinearityRow(
@@ -123,13 +124,13 @@ def _row(test: CircularTest, size_mm: float, patterns: Floats, noise: Floats) ->
 
 
 def _linear(test: CircularTest, given_mm: Floats, noise_mm: Floats) -> tuple[Floats, Floats]:
-    """Miss of the linear estimate (turns at the arm), and the contour it was made from."""
+    """Return the error of the linear estimate (rotations at the arm), and the contour it was made from."""
     contour_mm = test.contour_mm(all_values(SEVEN, given_mm / UNITS)) + noise_mm
     return thesis_estimate(test, contour_mm, SEVEN).values * UNITS - given_mm, contour_mm
 
 
 def _exact(test: CircularTest, contour_mm: Floats) -> Floats:
-    """Estimate of the engine's diagnosis with the same seven errors free, turns at the arm."""
+    """Return the estimate of the engine's diagnosis with the same seven errors free, rotations at the arm."""
     free = [name in SEVEN for name in UNKNOWNS]
     model = test.model(np.zeros(len(UNKNOWNS))).engine()
     result = _core.fit(model, test.samples, test.nominal_mm + contour_mm, noise_mm=GAUGE_NOISE_UM / 1e3, free=free)

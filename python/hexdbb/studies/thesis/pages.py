@@ -1,4 +1,4 @@
-"""The generated pages and their pictures: written by one command, held against it by a test."""
+"""The generated pages and their pictures; `test_thesis_pages.py` compares the committed pages with the generators."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from hexdbb.files.atomic_file import replacing
+from hexdbb.files.atomic_file import write_text
 from hexdbb.plan import load_plan
 from hexdbb.plots import save_figure
 from hexdbb.studies.thesis.circular_test import joint_plane_test, plan_test
@@ -32,20 +32,8 @@ PICTURES: dict[str, Callable[[], Figure]] = {
 """Stem below `images/` to the figure."""
 
 
-def write_text(path: Path, text: str) -> None:
-    """Write a text file whole or not at all.
-
-    Raises
-    ------
-    RunError
-        It cannot be written.
-    """
-    with replacing(path) as temporary:
-        temporary.write_text(text, encoding="utf-8")
-
-
 def write_pages(directory: Path) -> list[Path]:
-    """Write pages and pictures (PNG, in `images/`) into a directory that exists.
+    """Write pages and pictures (PNG, in `images/`) into an existing directory, and return their paths.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""Pictures of the thesis' way: reference contours as small polar plots, and where its linear estimator ends.
+"""Pictures of the thesis' method: reference contours as small polar plots, and the limit of its linear estimator.
 
-A contour is drawn as a ring: nominal circle in grey, deviation magnified so that the largest of its panel is
-`LARGEST_SHARE` of the radius. The magnification differs from panel to panel; the largest deviation stands beneath each.
+A contour is drawn as a ring: nominal circle in grey, deviation magnified so that the largest in its panel is
+`LARGEST_SHARE` of the radius. The magnification differs from panel to panel; the largest deviation is in the centre.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from hexdbb.units import shown_factor
 
 PANELS_PER_ROW = 6
 LARGEST_SHARE = 0.4
-UNSEEN_UM = 0.05
-"""A contour smaller than this, half the gauge's resolution, is drawn as the nominal circle."""
+NEGLIGIBLE_UM = 0.05
+"""Largest deviation of a contour that is drawn as the nominal circle: half the resolution of the gauge."""
 DRAWN_EVERY = 3
-"""Samples from one drawn point to the next."""
+"""Samples from one drawn point to the next: 3 deg, finer than a panel resolves."""
 
 LABEL_BACKING = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.8}
 EXACT_COLOUR = "#004B76"
@@ -33,7 +33,7 @@ NOMINAL_COLOUR = "0.6"
 
 
 def contours_figure(contours: ReferenceContours) -> Figure:
-    """Draw the reference contours, one panel an error."""
+    """Return a figure of reference contours, one panel per error."""
     rows = -(-len(contours.unknowns) // PANELS_PER_ROW)
     figure = Figure(figsize=(9.6, 1.75 * rows + 1.0), layout="constrained")
     panels = figure.subplots(rows, PANELS_PER_ROW, squeeze=False, subplot_kw={"projection": "polar"}).flat
@@ -45,7 +45,7 @@ def contours_figure(contours: ReferenceContours) -> Figure:
         axes.set_axis_off()
     figure.suptitle(
         f"Radial deviation of unit errors, {contours.test.origin}\n"
-        "each panel to its own magnification, its largest deviation in the centre; 0° to the right, counter-clockwise",
+        "each panel at its own magnification, its largest deviation in the centre; 0° to the right, counter-clockwise",
         fontsize=11,
     )
     handles = [
@@ -58,7 +58,7 @@ def contours_figure(contours: ReferenceContours) -> Figure:
 
 
 def linearity_figure(study: LinearityStudy) -> Figure:
-    """Draw the error of both estimators against the size of the given errors."""
+    """Return a figure of the error of both estimators against the size of the given errors."""
     figure = Figure(figsize=(7.2, 4.6), layout="constrained")
     axes = figure.subplots()
     size_um = [1e3 * row.size_mm for row in study.rows]
@@ -83,10 +83,10 @@ def linearity_figure(study: LinearityStudy) -> Figure:
         label="hexdbb's diagnosis, exact kinematics",
     )
     neglected = [1e3 * study.curvature_per_mm * row.size_mm**2 for row in study.rows]
-    axes.loglog(size_um, neglected, ":", color="0.3", label="what linearity neglects: grows with the square")
+    axes.loglog(size_um, neglected, ":", color="0.3", label="second-order terms neglected by the linear estimator")
     axes.axvline(1e3 * study.break_mm, color="0.6", linewidth=0.9)
     axes.annotate(
-        f"{1e3 * study.break_mm:.0f} µm: as large\nas the gauge's noise",
+        f"{1e3 * study.break_mm:.0f} µm: as large as\nthe error from the noise",
         (1e3 * study.break_mm, 0.02),
         xytext=(-6, 0),
         textcoords="offset points",
@@ -94,8 +94,8 @@ def linearity_figure(study: LinearityStudy) -> Figure:
         ha="right",
     )
     axes.set_ylim(bottom=0.01)
-    axes.set_xlabel(f"size of the seven given errors, µm (turns at {ARM_MM:g} mm)")
-    axes.set_ylabel("rms error of the identified values, µm")
+    axes.set_xlabel(f"size of the seven given errors, µm (rotations at {ARM_MM:g} mm)")
+    axes.set_ylabel("RMS error of the identified values, µm")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.grid(which="major", color="0.88", linewidth=0.6)
@@ -108,11 +108,11 @@ def _draw_contour(axes: PolarAxes, contours: ReferenceContours, index: int) -> N
     largest_um = float(np.abs(exact_um).max())
     turn = np.linspace(0.0, 2.0 * np.pi, 121)
     axes.plot(turn, np.ones_like(turn), color=NOMINAL_COLOUR, linewidth=0.8)
-    if largest_um >= UNSEEN_UM:
+    if largest_um >= NEGLIGIBLE_UM:
         share = LARGEST_SHARE / largest_um
         axes.plot(*_ring(contours.test.angle_rad, share * exact_um), color=EXACT_COLOUR, linewidth=2.4)
         axes.plot(*_ring(contours.test.angle_rad, share * linear_um), "--", color=LINEAR_COLOUR, linewidth=1.0)
-    label = f"{largest_um:.1f} µm" if largest_um >= UNSEEN_UM else f"below\n{UNSEEN_UM:g} µm"
+    label = f"{largest_um:.1f} µm" if largest_um >= NEGLIGIBLE_UM else f"below\n{NEGLIGIBLE_UM:g} µm"
     axes.text(0.0, 0.0, label, fontsize=8, ha="center", va="center", bbox=LABEL_BACKING)
     axes.set_ylim(0.0, 1.0 + LARGEST_SHARE + 0.05)
     axes.set_yticks([])
@@ -122,7 +122,7 @@ def _draw_contour(axes: PolarAxes, contours: ReferenceContours, index: int) -> N
 
 
 def _ring(angle_rad: Floats, deviation: Floats) -> tuple[Floats, Floats]:
-    """Closed line of a contour, sorted by angle."""
+    """Return the closed line of a contour, sorted by angle."""
     order = np.argsort(angle_rad)[::DRAWN_EVERY]
     order = np.append(order, order[0])
     return angle_rad[order], 1.0 + deviation[order]

@@ -1,7 +1,8 @@
-"""A record of the thesis' circular test as a machine with known errors gives it: clockwise, then counter-clockwise.
+"""Simulated record of the thesis' circular test on a machine with known errors: clockwise, then counter-clockwise.
 
-The engine computes the readings; noise is normal, then rounded to the gauge's resolution. For trying estimators out;
-`hexdbb-run` on the simulated rig gives records whose truth shares no code with the engine.
+The engine computes the readings; normal noise is added and the sum rounded to the gauge's resolution. It tests
+estimators against each other; `hexdbb-run` on the simulated rig makes records whose truth shares no code with the
+engine.
 """
 
 from __future__ import annotations
@@ -17,15 +18,16 @@ from hexdbb.studies.thesis.circular_test import SAMPLES, circle_test
 Floats = NDArray[np.float64]
 
 FEED_MM_MIN = 753.98
-"""Feed of the thesis, section 4-3."""
+"""Feed of the thesis, section 4-3, mm/min."""
 GAUGE_NOISE_UM = 0.5
 RESOLUTION_UM = 0.1
+"""Gauge specification of the shipped plans."""
 
 
 def simulated_record(
     machine: MachineFile, circle: Circle, mount: Mount, bar_length_mm: float, values: Floats, seed: int
 ) -> Record:
-    """Simulate one lap in each direction.
+    """Return a simulated record of one lap in each direction.
 
     Parameters
     ----------
@@ -34,7 +36,7 @@ def simulated_record(
     values : ndarray, shape (len(UNKNOWNS),)
         The machine's errors, mm and rad.
     seed : int
-        Of the noise.
+        Seed of the noise.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a contour's 120 degree symmetry is, exactly (thesis section 5-3: "the error contour rotates 120 degrees ...").
+"""The exact 120 degree symmetry of contours (thesis section 5-3: "the error contour rotates 120 degrees ...").
 
 The nominal machine turned by 120 degrees about z is itself: guideway i becomes guideway i + 1. Mirrored in the plane
 y = 0 it is itself too: guideway 1 stays, 2 and 3 change places, and so do the two legs of a pair. Where the circle has
@@ -44,7 +44,7 @@ _ELEMENTS = {
     "ball_offset": (_SAME, _SAME),
     "bar_length": (_SAME, _SAME),
 }
-"""Effect to what its elements become, turned and mirrored."""
+"""Effect to the elements that its elements become under the turn and under the mirror."""
 
 _CHANGES_SIGN = {
     ("slider_offset", "offset"),  # slider coordinates run the other way in the mirror
@@ -55,14 +55,14 @@ _CHANGES_SIGN = {
     ("cup_position", "y"),
     ("ball_offset", "y"),
 }
-"""Parameters that a mirror reverses."""
+"""Parameters whose sign the mirror reverses."""
 
 _VECTORS = ("cup_position", "ball_offset")
 """Effects whose x and y are components in a frame common to all guideways, and turn as a vector does."""
 
 
 def turned(values: Floats) -> Floats:
-    """Give the errors of the machine turned by 120 degrees: what guideway i had, guideway i + 1 has.
+    """Return the errors of the machine turned by 120 degrees: guideway i + 1 has the errors of guideway i.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def turned(values: Floats) -> Floats:
 
 
 def mirrored(values: Floats) -> Floats:
-    """Give the errors of the machine mirrored in the plane y = 0; shapes as `turned`."""
+    """Return the errors of the machine mirrored in the plane y = 0; shapes as in `turned`."""
     moved = _moved(values, 1)
     for each in UNKNOWNS.values():
         if (each.parameter.effect, each.parameter.name) in _CHANGES_SIGN:
@@ -90,7 +90,7 @@ def mirrored(values: Floats) -> Floats:
 
 
 def symmetry_departure_mm(test: CircularTest, errors: Floats) -> tuple[float, float]:
-    """Say how far a test is from both symmetries for some errors: largest departure in mm, turn and mirror.
+    """Return the largest departures, mm, of a test from the turn and from the mirror symmetry for given errors.
 
     Parameters
     ----------

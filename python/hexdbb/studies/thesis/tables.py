@@ -1,8 +1,8 @@
-"""The thesis' Tables 5.1-5.8: given errors against those its estimator identifies (section 5-3).
+"""The thesis' Tables 5.1-5.8: given errors against those that its estimator identifies (section 5-3).
 
 One level circle, ball in the joint plane, cup where planned, guideway 3 the reference without errors. The scan has the
 tables' captions but not their numbers: the given values here are our own. Where A'A is singular, equation (5.5) has no
-value; the solution of smallest norm stands in for it, which is the same on every computer.
+solution; the solution of smallest norm is used instead, which is unique.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ ROTATIONS = ("xy1", "xy2", "yz1", "yz2", "centre1", "centre2")
 
 @dataclass(frozen=True)
 class ThesisTable:
-    """One of the thesis' tables: which errors were given, and whether it found the identified ones to agree."""
+    """One of the thesis' tables: the given errors, and whether the thesis finds all of them identified."""
 
     number: str
     errors: tuple[str, ...]
@@ -51,7 +51,7 @@ TABLES = (
     ThesisTable("5.6 (third rotation: centre1)", (*SEVEN, "centre1"), False),
     ThesisTable("5.7", (*SEVEN, "yz1", "yz2"), False),
 )
-"""Which third translation and which rotations the thesis took is not in its text: both kinds are shown."""
+"""The thesis does not state which third translation and which rotations it used: both kinds are computed."""
 
 GIVEN = {
     "leg1": 0.050,
@@ -71,32 +71,33 @@ GIVEN = {
 """Given values, mm and rad."""
 
 AGREES = 1e-9
-"""Identified values agree where they are this near to the given ones, in unit errors."""
+"""Largest difference between given and identified values that counts as agreement, in unit errors: rounding of the
+normal equations, far below any contour."""
 
 
 @dataclass(frozen=True)
 class TableResult:
-    """A table, computed."""
+    """A table as computed."""
 
     table: ThesisTable
     given: Floats
-    """mm and rad, shape (errors,)."""
+    """Given values, mm and rad, shape (errors,)."""
     from_sum: ThesisEstimate
-    """Of the sum of the contours of each error alone, to first order, as the thesis synthesises it."""
+    """Estimate from the sum of the first-order contours of each error alone, as the thesis synthesises it."""
     from_exact: ThesisEstimate
-    """Of the contour of all the errors at once, by exact kinematics."""
-    smallest_singular: float
-    """Of the matrix A of unit contours by exact kinematics, over its largest: what a check of A'A would see."""
+    """Estimate from the contour of all errors together, by exact kinematics."""
+    singular_ratio: float
+    """Smallest over largest singular value of the matrix A of exact unit contours: what a check of A'A would use."""
 
     @property
     def agrees(self) -> NDArray[np.bool_]:
-        """Which identified values (of the sum of contours) are the given ones, shape (errors,)."""
+        """Which values identified from the sum of contours agree with the given ones, shape (errors,)."""
         sizes = np.array([each.unit_size for each in self.from_sum.unknowns])
         return np.asarray(np.abs(self.from_sum.values - self.given) <= AGREES * sizes)
 
 
 def table_result(table: ThesisTable, test: CircularTest) -> TableResult:
-    """Compute one table."""
+    """Return one table, computed."""
     given = np.array([GIVEN[name] for name in table.errors])
     values = all_values(table.errors, given)
     exact = reference_contours(test, table.errors).exact_mm
@@ -106,26 +107,26 @@ def table_result(table: ThesisTable, test: CircularTest) -> TableResult:
         given=given,
         from_sum=thesis_estimate(test, test.first_order @ values, table.errors, minimum_norm=True),
         from_exact=thesis_estimate(test, test.contour_mm(values), table.errors, minimum_norm=True),
-        smallest_singular=float(singular[-1] / singular[0]),
+        singular_ratio=float(singular[-1] / singular[0]),
     )
 
 
 @cache
 def table_results() -> tuple[TableResult, ...]:
-    """Compute Tables 5.1-5.7."""
+    """Return Tables 5.1-5.7, computed."""
     test = joint_plane_test()
     return tuple(table_result(table, test) for table in TABLES)
 
 
 def all_values(errors: Sequence[str], values: Floats) -> Floats:
-    """Give the vector of all unknowns, shape (len(UNKNOWNS),), in which the named ones have these values."""
+    """Return the vector of all unknowns, shape (len(UNKNOWNS),), with these values for the named ones and zero else."""
     whole = np.zeros(len(UNKNOWNS))
     whole[[UNKNOWNS[name].column for name in errors]] = values
     return whole
 
 
 def rank_of(test: CircularTest, errors: Sequence[str]) -> int:
-    """Count the independent reference contours among those of some errors."""
+    """Return the number of independent reference contours among those of some errors."""
     matrix = reference_contours(test, errors).first_order_mm
     return int(np.linalg.matrix_rank(matrix, tol=SINGULAR * np.linalg.norm(matrix, 2)))
 
@@ -133,7 +134,7 @@ def rank_of(test: CircularTest, errors: Sequence[str]) -> int:
 def identified_additions(
     test: CircularTest, base: Sequence[str], candidates: Sequence[str], count: int
 ) -> list[tuple[str, ...]]:
-    """List which `count` of the candidates can be added to the base so that all are identified."""
+    """Return the combinations of `count` candidates that can be added to the base so that all are identified."""
     return [
         added for added in combinations(candidates, count) if rank_of(test, [*base, *added]) == len(base) + len(added)
     ]
@@ -153,7 +154,7 @@ class ProcedureResult:
 
 @cache
 def table_5_8() -> tuple[ProcedureResult, ...]:
-    """Run the procedure of Table 5.8 on two simulated records: of the seven errors alone, and of all 33 and the cup."""
+    """Return the procedure of Table 5.8 on two simulated records, with seven errors and with all 33 and the cup's."""
     machine, circle, mount, bar_length_mm = joint_plane_circle()
     given = np.array([GIVEN[name] for name in SEVEN])
     alone = all_values(SEVEN, given)
@@ -165,7 +166,7 @@ def table_5_8() -> tuple[ProcedureResult, ...]:
     everything[[UNKNOWNS["cup_x"].column, UNKNOWNS["cup_y"].column]] = 0.02, -0.03
     cases = {
         "only the seven errors exist": alone,
-        "all 33 errors exist and the cup is off by (20, -30) µm": everything,
+        "all 33 errors exist and the cup is misplaced by (20, -30) µm": everything,
     }
     results = []
     for description, values in cases.items():

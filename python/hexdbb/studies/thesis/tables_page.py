@@ -1,4 +1,4 @@
-"""docs/thesis-tables.md: Tables 5.1-5.8, why they come out so, and where linearity ends, computed."""
+"""Generator of docs/thesis-tables.md: Tables 5.1-5.8, the reason for their results, and the limit of linearity."""
 
 from __future__ import annotations
 
@@ -27,13 +27,15 @@ from hexdbb.studies.thesis.tables import (
 from hexdbb.studies.thesis.unknowns import GEOMETRIC_ERRORS, UNKNOWNS
 
 HIGHEST = 6
+"""Highest harmonic in the table; those above are below 1 % of the first."""
 PRESENT = 0.02
-"""A harmonic counts where it is above this part of its contour's largest."""
+"""Share of a contour's largest harmonic above which a harmonic counts as present. Any share from 0.9 to 2.2 % gives the
+same table: legs, the only errors with more than two harmonics, then have four."""
 TRANSLATIONS = ("x1", "z1", "x2", "z2", "x3", "y3", "z3")
 
 
 def tables_page() -> str:
-    """Write the page."""
+    """Return the page as Markdown."""
     test, study = joint_plane_test(), linearity_study()
     return fill_page(
         "thesis-tables.md",
@@ -56,7 +58,7 @@ def tables_page() -> str:
         noise_rms_um=number(1e3 * study.noise_rms_mm, 1),
         break_um=number(1e3 * study.break_mm, 0),
         lengths_break_um=number(1e3 * study.break_at_mm(study.curvature_of_lengths_per_mm), 0),
-        turns_break_urad=number(1e6 * study.break_at_mm(study.curvature_of_turns_per_mm) / ARM_MM, 0),
+        rotations_break_urad=number(1e6 * study.break_at_mm(study.curvature_of_rotations_per_mm) / ARM_MM, 0),
         range_um=number(1e3 * study.range_mm, 0),
         break_urad=number(1e6 * study.break_mm / ARM_MM, 0),
     )
@@ -65,14 +67,14 @@ def tables_page() -> str:
 def _summary(results: Sequence[TableResult]) -> str:
     rows = []
     for each in results:
-        says = "identified" if each.table.thesis_says_identified else "part not identified"
+        stated = "identified" if each.table.thesis_says_identified else "part not identified"
         found = "identified" if each.agrees.all() else f"{int(each.agrees.sum())} of {len(each.agrees)} identified"
         rank = f"{each.from_sum.rank} of {len(each.agrees)}"
-        coincide = "; ".join(each.from_sum.dependent) or "none"
-        ratio = f"{each.smallest_singular:.1e}"
-        rows.append([each.table.number, ", ".join(each.table.errors), says, found, rank, coincide, ratio])
-    heads = ["table", "errors", "thesis", "found", "rank", "columns that coincide, in unit errors"]
-    return markdown_table([*heads, "singular values, exact"], rows, left=6)
+        dependent = "; ".join(each.from_sum.dependent) or "none"
+        ratio = f"{each.singular_ratio:.1e}"
+        rows.append([each.table.number, ", ".join(each.table.errors), stated, found, rank, dependent, ratio])
+    heads = ["table", "errors", "thesis", "found", "rank", "dependent contours, in unit errors"]
+    return markdown_table([*heads, "singular value ratio, exact"], rows, left=6)
 
 
 def _tables(results: Iterable[TableResult]) -> str:
@@ -85,7 +87,7 @@ def _given_and_identified(result: TableResult) -> str:
         values = (result.given[index], result.from_sum.values[index], result.from_exact.values[index])
         agrees = "yes" if result.agrees[index] else "**no**"
         rows.append([each.name, UNITS[each.unit], *(shown(each, value) for value in values), agrees])
-    heads = ["error", "unit", "given", "identified from the sum", "from the exact contour", "corresponds"]
+    heads = ["error", "unit", "given", "identified from the sum", "from the exact contour", "agrees"]
     return markdown_table(heads, rows, left=2)
 
 
@@ -106,16 +108,16 @@ def _harmonics(test: CircularTest) -> str:
 
 
 def _ranks(test: CircularTest) -> str:
-    """Count independent contours, group by group, and of what harmonics leave of them."""
+    """Return the numbers of independent contours by group, and of the contours without their lower harmonics."""
     effects = {name: UNKNOWNS[name].parameter.effect for name in GEOMETRIC_ERRORS}
     vertical = ("guideway_rotation_xy", "guideway_rotation_centre")
     legs = [name for name, effect in effects.items() if effect == "leg_length"]
-    turns = [name for name, effect in effects.items() if effect in vertical]
-    others = [name for name in GEOMETRIC_ERRORS if name not in {*legs, *turns}]
+    rotations = [name for name, effect in effects.items() if effect in vertical]
+    others = [name for name in GEOMETRIC_ERRORS if name not in {*legs, *rotations}]
     rows = [
         ["harmonic 1 only (sliders, translations, yz, sides)", str(len(others)), str(rank_of(test, others))],
-        ["with the turns about vertical axes (harmonics 1, 2)", "+6", str(rank_of(test, [*others, *turns]))],
-        ["turns, harmonics 0-1 removed", "6", str(_rank_without(test, turns, 1))],
+        ["with the rotations about vertical axes (harmonics 1, 2)", "+6", str(rank_of(test, [*others, *rotations]))],
+        ["rotations, harmonics 0-1 removed", "6", str(_rank_without(test, rotations, 1))],
         ["legs, harmonics 0-2 removed", "6", str(_rank_without(test, legs, 2))],
         ["all 33", "33", str(rank_of(test, GEOMETRIC_ERRORS))],
     ]
@@ -133,7 +135,7 @@ def _leg_decay(test: CircularTest) -> str:
 
 
 def _pair(test: CircularTest) -> dict[str, str]:
-    """Say how far the contours of two legs of a pair are from opposite."""
+    """Return how far the contours of the two legs of a pair are from opposite, and their size."""
     pair = 1e3 * reference_contours(test, ("leg1", "leg2")).first_order_mm
     return {
         "pair_sum_um": number(float(np.abs(pair.sum(axis=1)).max()), 6),
@@ -142,14 +144,14 @@ def _pair(test: CircularTest) -> dict[str, str]:
 
 
 def _choices(test: CircularTest) -> str:
-    """List how many of the possible choices are identified."""
+    """Return the choices of further errors that are identified."""
     choices = [
         ("third translation, to Table 5.1", FIVE, TRANSLATIONS, 1),
         ("fourth leg, to three", LEGS, ("leg2", "leg4", "leg6"), 1),
         ("one rotation, to Table 5.1", FIVE, ROTATIONS, 1),
         ("two rotations, to Table 5.1", FIVE, ROTATIONS, 2),
         ("three rotations, to Table 5.1", FIVE, ROTATIONS, 3),
-        ("place of the cup, to Table 5.5", SEVEN, ("cup_x", "cup_y"), 1),
+        ("position of the cup, to Table 5.5", SEVEN, ("cup_x", "cup_y"), 1),
         ("any other of the 33, to Table 5.5", SEVEN, tuple(name for name in GEOMETRIC_ERRORS if name not in SEVEN), 1),
     ]
     rows = []
@@ -169,7 +171,7 @@ def _procedure(results: Sequence[ProcedureResult]) -> str:
         rows.append([each.name, UNITS[each.unit], shown(each, results[0].given[index], 1), *identified])
     before = [f"{1e3 * result.estimate.rms_before_mm:.2f}" for result in results]
     after = [f"{1e3 * result.estimate.rms_after_mm:.2f}" for result in results]
-    rows += [["contour, rms", "µm", "", *before], ["left of it, rms", "µm", "", *after]]
+    rows += [["contour, RMS", "µm", "", *before], ["residual, RMS", "µm", "", *after]]
     return markdown_table(heads, rows, left=2)
 
 
@@ -179,5 +181,5 @@ def _linearity(study: LinearityStudy) -> str:
         lengths = (row.linear_rms_mm, row.exact_rms_mm, row.linear_largest_mm, row.exact_largest_mm)
         size = [f"{1e3 * row.size_mm:g} µm, {1e6 * row.size_mm / ARM_MM:g} µrad"]
         rows.append([*size, *(number(1e3 * each, 1) for each in lengths), number(row.peak_reading_mm, 2)])
-    heads = ["size", "linear, rms µm", "exact, rms µm", "linear, largest µm", "exact, largest µm"]
+    heads = ["size", "linear, RMS µm", "exact, RMS µm", "linear, largest µm", "exact, largest µm"]
     return markdown_table([*heads, "largest reading, mm"], rows)

@@ -1,7 +1,7 @@
-"""Names of the thesis' 33 errors and of the set-up's unknowns, short enough for a table's head and a command's option.
+"""Short names of the thesis' 33 errors and of the set-up's unknowns, for table heads and options.
 
 Each stands for one value of an effect of the engine. Units are the engine's, mm and rad; the unit error of a reference
-contour is `UNIT_MM` or `UNIT_RAD`. The thesis as scanned does not say how large its unit errors are.
+contour is `UNIT_MM` or `UNIT_RAD`. The thesis as scanned does not state the size of its unit errors.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from hexdbb.model import Parameter, new_model
 
 UNIT_MM = 0.1
 UNIT_RAD = math.radians(0.02)
-"""Unit errors: both move a guideway's slider by about 0.1 mm, the turn at 300 mm from its axis."""
+"""Unit errors: both move a guideway's slider by about 0.1 mm, the rotation at 300 mm from its axis."""
 
 UNIT_SIZES = {"mm": UNIT_MM, "rad": UNIT_RAD}
 
@@ -32,15 +32,17 @@ SHORT_NAMES = {
     "ball_offset": "ball_{parameter}",
     "bar_length": "bar",
 }
-"""Effects the thesis' estimator knows, in the order of its values, and the short name of a value of each."""
+"""Effects of the thesis' estimator in the order of its values, and the pattern of their values' short names."""
 
 
 @dataclass(frozen=True)
 class Unknown:
-    """One error: its short name, where it stands among the values, and what it is."""
+    """One error."""
 
     name: str
+    """Short name."""
     column: int
+    """Index among the values."""
     parameter: Parameter
 
     @property
@@ -56,7 +58,7 @@ class Unknown:
 
 def _all() -> dict[str, Unknown]:
     found = {}
-    # Names and units are the effects', which no dimension of a machine changes.
+    # Names and units belong to the effects and are the same for every machine.
     for column, each in enumerate(new_model(shipped_machine(), list(SHORT_NAMES)).parameters()):
         name = SHORT_NAMES[each.effect].format(element=each.element, parameter=each.name)
         found[name] = Unknown(name, column, each)
@@ -64,19 +66,19 @@ def _all() -> dict[str, Unknown]:
 
 
 UNKNOWNS = _all()
-"""Every unknown by its short name, in the order of the values."""
+"""All unknowns by short name, in the order of the values."""
 
 GEOMETRIC_ERRORS = tuple(name for name, each in UNKNOWNS.items() if not each.parameter.is_set_up)
 """The thesis' 33 errors (section 3.2)."""
 
 
 def find_unknowns(names: Sequence[str]) -> list[Unknown]:
-    """Look up unknowns by name.
+    """Return unknowns by name.
 
     Raises
     ------
     InputError
-        No name, one that is not known, or one given twice.
+        No name, an unknown one, or one given twice.
     """
     if not names:
         raise InputError("no error named (expected at least one of: " + ", ".join(UNKNOWNS) + ")")

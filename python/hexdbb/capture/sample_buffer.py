@@ -1,8 +1,8 @@
-"""From answers to samples: the columns of a record, handed to its journal in blocks.
+"""From answers to samples: rows of the record, collected and appended to its journal in blocks.
 
-Pairing: the positions and the reading of a row come from the answers to one SYNC; the row's commanded angle and
-targets are those of the SYNC before, where the drives have been led to by then (`exchange`). What the position loop
-lags behind is in the difference between target and position columns.
+Pairing: positions and reading of a row are the answers to one SYNC; commanded angle and targets of the row are those of
+the SYNC before, which the drives have reached by then (`exchange`). The lag of the position loops is the difference
+between target and position columns.
 """
 
 from __future__ import annotations
@@ -17,23 +17,28 @@ from hexdbb.record import SLIDER_COLUMNS, TARGET_COLUMNS, Journal
 from hexdbb.trajectory import Programme
 
 BLOCK_S = 0.25
-"""Machine time of the samples handed over at once: with the journal's own period, well under a second is unwritten."""
+"""Machine time of one block, s. At worst the block (0.25 s) and the journal's writing period (0.5 s) are lost when the
+controller is killed: less than the second that is allowed."""
 MISSED_BEFORE = 1 << 8
 """Bit of the status column: cycles were missed just before this sample. Bits 0-7 are the gauge's status 6150h."""
 
 
-class Samples:
-    """Collects the captured rows of a programme.
+class SampleBuffer:
+    """Collects the captured rows of a programme and appends them to a journal.
 
     Parameters
     ----------
-    programme : whose table the rows are of
-    journal : where blocks go
-    counts_per_mm : scale of the positions
+    programme : Programme
+        The table that the rows belong to.
+    journal : Journal
+        Receives the blocks.
+    counts_per_mm : float
+        Encoder scale.
 
     Attributes
     ----------
-    count : samples collected
+    count : int
+        Samples collected so far.
     """
 
     def __init__(self, programme: Programme, journal: Journal, counts_per_mm: float) -> None:
@@ -47,16 +52,33 @@ class Samples:
         self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
         self.count = 0
 
-    def keep(self, row: int, slot: int, missed: int, feedback: Feedback) -> None:
-        """Take the answers of one captured row, sampled in time slot `slot`."""
+    def keep(self, row: int, cycle_index: int, missed: int, feedback: Feedback) -> None:
+        """Collect the answers of one captured row.
+
+        Parameters
+        ----------
+        row : int
+            Row of the table of targets.
+        cycle_index : int
+            Time of motion of the sample, in cycles.
+        missed : int
+            Cycles missed immediately before the sample.
+        feedback : Feedback
+            The answers.
+
+        Raises
+        ------
+        RunError
+            Earlier samples could not be written.
+        """
         status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
-        self._block.append((row, slot, status, feedback.reading_um, *feedback.position))
+        self._block.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
         self.count += 1
         if len(self._block) >= self._block_size:
             self.flush()
 
     def flush(self) -> None:
-        """Hand over what has been collected; raises `RunError` where earlier samples could not be written."""
+        """Append the collected samples to the journal; raises `RunError` if earlier samples could not be written."""
         if self._block:
             block = np.array(self._block)
             self._block.clear()

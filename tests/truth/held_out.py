@@ -1,8 +1,7 @@
-"""Circles that no machine was fitted on: other heights and places of the cup, other tilts and radii, another feed.
+"""Held-out circles: other heights and positions of the cup, other tilts and radii, another feed than the fitted ones.
 
-Drawn once, the same for every machine; each keeps the clearances that `hexdbb plan propose` demands of its own circles
-(travel, gap, bar angle, condition of the machine), so that it lies where one would measure. A bar of another length is
-another record.
+Drawn once, the same for every machine; each keeps the clearances that `hexdbb plan propose` requires (travel, gap, bar
+angle, condition of the machine), so that it could be measured. Each bar length is a record of its own.
 """
 
 from __future__ import annotations
@@ -13,41 +12,43 @@ import numpy as np
 
 from hexdbb.errors import InputError
 from hexdbb.plan import Circle, Mount, Plan, load_plan
-from hexdbb.planning.clearances import Demands, circle_clearances
+from hexdbb.planning.clearances import RequiredClearances, circle_clearances
 
 BARS_MM = (60.0, 80.0, 100.0, 120.0)
 CIRCLES_PER_BAR = 5
 FEED_MM_MIN = 2000.0
 RANGE_UM = 2000.0
-"""Nobody has centred the bar on these machines: the cup is off by 0.1 mm, the platform by some tenths."""
+"""Range of the gauge, µm: the bar is not centred on these machines; the cup is misplaced by 0.1 mm, the platform by
+some tenths."""
 CUP_XY_MM, CUP_Z_MM = (-25.0, 25.0), (300.0, 355.0)
 PLANE_DEG, PLATFORM_DEG, YAW_DEG = 20.0, 15.0, 20.0
 SEED = 2006
-MOST_TRIALS = 5000
+MAX_DRAWS = 5000
+"""Limit of random circles tried per bar, against an endless loop where none keeps the clearances."""
 
 
 @cache
-def unseen_plans() -> tuple[Plan, ...]:
-    """Give one plan for each bar; every circle has a mount of its own."""
+def held_out_plans() -> tuple[Plan, ...]:
+    """Return one plan per bar; every circle has a mount of its own."""
     return tuple(_plan(bar_mm) for bar_mm in BARS_MM)
 
 
 def _plan(bar_mm: float) -> Plan:
     known = load_plan("standard")
-    machine, draw, demands = known.machine_file(), np.random.default_rng([SEED, int(bar_mm)]), Demands()
+    machine, draw, required = known.machine_file(), np.random.default_rng([SEED, int(bar_mm)]), RequiredClearances()
     circles: list[Circle] = []
     mounts: list[Mount] = []
-    for _ in range(MOST_TRIALS):
+    for _ in range(MAX_DRAWS):
         mount, circle = _drawn(draw, bar_mm, len(circles))
         found = circle_clearances(machine, circle, mount.cup_mm)
-        if found is not None and demands.met_by(found):
+        if found is not None and required.met_by(found):
             circles.append(circle)
             mounts.append(mount)
         if len(circles) == CIRCLES_PER_BAR:
             gauge = known.gauge.model_copy(update={"bar_length_mm": bar_mm, "range_um": RANGE_UM})
             changed = {"mounts": tuple(mounts), "circles": tuple(circles), "gauge": gauge}
             return known.model_copy(update={**changed, "feeds_mm_min": (FEED_MM_MIN,), "laps": 1})
-    raise InputError(f"unseen circles: {len(circles)} of radius {bar_mm:g} mm found (expected {CIRCLES_PER_BAR})")
+    raise InputError(f"held-out circles: {len(circles)} of radius {bar_mm:g} mm found (expected {CIRCLES_PER_BAR})")
 
 
 def _drawn(draw: np.random.Generator, bar_mm: float, number: int) -> tuple[Mount, Circle]:

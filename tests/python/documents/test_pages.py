@@ -10,7 +10,7 @@ import pytest
 from hexdbb.cli import cli
 from hexdbb.effects import load_effects
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 FOLDERS = ("firmware_interfaces", "docs")
 PAGES = [ROOT / "README.md", *(page for folder in FOLDERS for page in sorted((ROOT / folder).rglob("*.md")))]
 
