@@ -37,6 +37,9 @@ TIMES_OVER = 1.5
 """... and how many times more often they must have it than all samples: of white noise none does (tests)."""
 NEAR_REVERSAL_S = 1.0
 """Time after a reversal that counts as near it: longer than a reversal spike, shorter than a slow circle's quarter."""
+ALIKE = 0.05
+"""Difference of the ratio in all / in worst below which the earlier of two circumstances is named: what was commanded
+(direction, feed, circle, angle) comes before the sliders' positions, which follow from it."""
 MOST_NAMED = 6
 """Largest number of circumstances named."""
 
@@ -87,15 +90,12 @@ class WorstSamples:
     @property
     def sentences(self) -> list[str]:
         """Number and residual, and each circumstance, in words."""
-        first = (
-            f"{self.samples} with a residual of {self.rms_um:.2f} µm RMS, the others {_shown(self.rms_elsewhere_um)}"
-        )
+        others = _shown(self.rms_elsewhere_um)
+        first = f"{self.samples} with a residual of {self.rms_um:.2f} µm RMS, the others {others}"
         if not self.common:
             return [f"{first}; no circumstance is over-represented among them"]
-        return [
-            f"{first}; over-represented among them (not always the cause):",
-            *(each.sentence for each in self.common),
-        ]
+        heading = f"{first}; over-represented among them (not always the cause):"
+        return [heading, *(each.sentence for each in self.common)]
 
 
 def worst_samples(samples: Samples, residual_mm: FloatArray) -> WorstSamples:
@@ -111,7 +111,7 @@ def worst_samples(samples: Samples, residual_mm: FloatArray) -> WorstSamples:
     worst = _worst(samples, residual_um)
     rated = [(_rated(what, has, worst, residual_um), has) for what, has in _circumstances(samples, worst)]
     rated = [each for each in rated if _over(each[0].in_worst, each[0].in_all)]
-    rated.sort(key=lambda each: each[0].in_all / each[0].in_worst)
+    rated.sort(key=lambda each: round(each[0].in_all / each[0].in_worst / ALIKE))
     common: list[Circumstance] = []
     so_far = np.ones(len(worst), bool)
     for circumstance, has in rated:

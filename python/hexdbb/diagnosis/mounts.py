@@ -53,9 +53,11 @@ def _with_mount_effects(model: Model) -> Model:
 
 
 def _sentence(record: str, model: Model, element: str, key: MountKey) -> str:
-    moved = [
-        f"{parameter.name} {value * shown_factor(parameter.unit):+.1f} {readable_unit(shown_unit(parameter.unit))}"
-        for parameter, value in zip(model.parameters(), model.values, strict=True)
-        if model.info(parameter.effect).element_kind == "mount" and parameter.element == element
-    ]
-    return f"{record}: mount {key.mount_id} is new to the model; its cup was fitted first: {', '.join(moved)}"
+    """State a mount's fitted values, effect by effect: cup and ball both have x, y and z."""
+    values: dict[str, list[str]] = {}
+    for parameter, value in zip(model.parameters(), model.values, strict=True):
+        if model.info(parameter.effect).element_kind == "mount" and parameter.element == element:
+            shown = f"{value * shown_factor(parameter.unit):+.1f} {readable_unit(shown_unit(parameter.unit))}"
+            values.setdefault(parameter.effect, []).append(f"{parameter.name} {shown}")
+    fitted = "; ".join(f"{effect} {', '.join(each)}" for effect, each in values.items())
+    return f"{record}, mount {key.mount_id}: not known to the model, so its set-up was fitted first: {fitted}"

@@ -65,10 +65,13 @@ def of_records(records: Sequence[Record]) -> Whole:
     Raises
     ------
     InputError
-        No record, or records of different machines.
+        No record, one without samples, or records of different machines.
     """
     if not records:
         raise InputError("no record (expected at least one)")
+    for record in records:
+        if not len(record):
+            raise InputError(f"{record.name}: no samples (expected at least one)")
     for record in records[1:]:
         record.require_machine(records[0].machine, records[0].name)
     set_ups: list[_core.SetUp] = []

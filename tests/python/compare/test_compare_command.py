@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -16,7 +17,7 @@ from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model, save_model
 from hexdbb.plan import Plan, load_plan
 from hexdbb.record import Record, write_record
-from hexdbb.samples import predict_reading_mm
+from hexdbb.samples import Samples, predict
 
 NOISE_UM = 0.5
 SAMPLES_PER_LAP = 360
@@ -51,7 +52,7 @@ def measured(plan: Plan, circles: int, seed: int) -> Record:
     rng = np.random.default_rng(seed)
     truth = new_model(machine, ["leg_length"])
     truth = truth.with_values(0.02 * rng.standard_normal(len(truth.values)), truth.sigma, np.ones(6, bool))
-    noisy_um = 1e3 * predict_reading_mm(record, truth) + NOISE_UM * rng.standard_normal(count)
+    noisy_um = 1e3 * predict(Samples.of([record]), truth).reading_mm + NOISE_UM * rng.standard_normal(count)
     return replace(record, columns=record.columns | {"reading_um": noisy_um})
 
 
@@ -64,7 +65,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_record(one, folder / "one.parquet")
     write_record(two, folder / "two.parquet")
     save_model(new_model(plan.machine_file(), []), folder / "nominal.toml")
-    save_model(diagnose([two], new_model(plan.machine_file())).model, folder / "diagnosed.toml")
+    save_model(diagnose(Samples.of([two]), new_model(plan.machine_file())).model, folder / "diagnosed.toml")
     return folder
 
 
@@ -84,8 +85,12 @@ def test_a_new_mount_is_fitted_first_and_said(folder: Path) -> None:
     """The nominal machine's circle is shifted onto the measured one: the offset goes, the shape stays unexplained."""
     done = run_compare(folder / "one.parquet", "-m", folder / "nominal.toml", "--json", "--no-plot")
     assert done.returncode == 0, done.stderr
-    assert "mount 0 is new to the model" in done.stderr
     found = json.loads(done.stdout)
+    (said,) = found["fitted_mounts"]
+    place, _, values = said.partition(": not known to the model, so its set-up was fitted first: ")
+    assert place.endswith("one.parquet, mount 0")
+    effects = [re.findall(r"^\w+|(?<= )[xyz](?= [+-]\d+\.\d µm)", each) for each in values.split("; ")]
+    assert effects == [["cup_position", "x", "y", "z"], ["ball_eccentricity", "x", "y", "z"]]
     assert found["rms_um"] > 4 * NOISE_UM
     assert found["circles"][0]["predicted"]["circular_deviation_um"] < 0.1
 
@@ -93,7 +98,7 @@ def test_a_new_mount_is_fitted_first_and_said(folder: Path) -> None:
 def test_tables_and_pictures(folder: Path, tmp_path: Path) -> None:
     done = run_compare(folder / "two.parquet", "-m", folder / "diagnosed.toml", "--plot", tmp_path / "week")
     assert done.returncode == 0, done.stderr
-    assert "Where the prediction fails worst:" in done.stdout
+    assert "Largest residuals (arcs of ten degrees):" in done.stdout
     assert "…" not in done.stdout
     names = {f"week{page}{suffix}" for page in ("", "-circle0", "-circle1", *RESIDUAL) for suffix in (".png", ".svg")}
     assert {path.name for path in tmp_path.iterdir()} == names

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -15,16 +14,15 @@ from hypothesis import strategies as st
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from tests.python.compare.made_up import MakeRecord, compared
 
-from hexdbb.compare import Comparison, compare
+from hexdbb.compare import Comparison
 from hexdbb.compare.iso230 import even_angles, make_path
 from hexdbb.errors import RunError
 from hexdbb.plots import choose_scale, comparison_pages, save_figure
 from hexdbb.plots.magnification import LARGEST_SHARE_OF_RADIUS, SERIES
 from hexdbb.plots.polar import curve, draw_polar, drawn_paths, largest_drawn_mm
-from hexdbb.record import Record
 
-MakeRecord = Callable[..., Record]
 RESIDUAL = ["-state", "-directions", "-harmonics"]
 """Pages of the residual, after those of the circles."""
 
@@ -36,13 +34,13 @@ def backlash_off_centre(angle_rad: np.ndarray, direction: int) -> np.ndarray:
 @pytest.fixture
 def comparison(make_record: MakeRecord) -> Comparison:
     record = make_record(backlash_off_centre)
-    return compare([record], [record.reading_mm - 0.001 * np.sin(np.radians(5.0 * record.columns["angle_deg"]))])
+    return compared([record], [record.reading_mm - 0.001 * np.sin(np.radians(5.0 * record.columns["angle_deg"]))])
 
 
 @pytest.fixture
 def seven_circles(make_record: MakeRecord) -> Comparison:
     record = make_record(backlash_off_centre, circles=7, feeds=(753.98, 3000.0), laps=2)
-    return compare([record], [record.reading_mm - 0.001])
+    return compared([record], [record.reading_mm - 0.001])
 
 
 @given(st.floats(20.0, 500.0), st.floats(1e-4, 1.0))
@@ -113,10 +111,10 @@ def test_one_circle_makes_one_page_and_several_an_overview_each(
 
 def test_pages_of_several_records_do_not_overwrite_each_other(make_record: MakeRecord) -> None:
     records = [make_record(backlash_off_centre, path=Path(name)) for name in ("monday.parquet", "tuesday.csv")]
-    pages = comparison_pages(compare(records, [record.reading_mm for record in records]))
+    pages = comparison_pages(compared(records, [record.reading_mm for record in records]))
     assert [page.suffix for page in pages] == ["", "-1-monday-circle0", "-2-tuesday-circle0", *RESIDUAL]
     same = [replace(record, path=Path(day) / "demo.csv") for record, day in zip(records, "ab", strict=True)]
-    suffixes = [page.suffix for page in comparison_pages(compare(same, [record.reading_mm for record in same]))]
+    suffixes = [page.suffix for page in comparison_pages(compared(same, [record.reading_mm for record in same]))]
     assert len(set(suffixes)) == 3 + len(RESIDUAL)
 
 
@@ -127,8 +125,8 @@ def test_nothing_is_cut_off(seven_circles: Comparison, page: int) -> None:
 
 def test_long_names_of_variables_fit_above_their_panels(seven_circles: Comparison) -> None:
     named = "guideway 1 position (vertical), growing with time"
-    long = [replace(each, variable=named, share=0.5) for each in seven_circles.dependences if each.profiles]
-    figure = comparison_pages(replace(seven_circles, dependences=tuple(long)))[-3].draw()
+    long = [replace(each, variable=named, share=0.5) for each in seven_circles.predictors if each.profiles]
+    figure = comparison_pages(replace(seven_circles, predictors=tuple(long)))[-3].draw()
     require_all_is_seen(figure)
     titles = [axes.title.get_window_extent() for axes in figure.axes if axes.get_title()]
     assert len(titles) > 4
