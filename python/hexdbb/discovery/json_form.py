@@ -80,8 +80,8 @@ class DiscoveryJson(JsonResult):
     SCHEMA = "hexdbb.discover/1"
 
     verdict: Literal["effect", "ambiguous", "none", "unknown"]
-    """effect: it is known which; ambiguous: several are confounded; none: what is left is noise; unknown: no known effect
-    explains it."""
+    """effect: it is known which; ambiguous: several are confounded; none: what is left is noise; unknown: no known
+    effect explains it."""
     noise_um: NotNegative
     """Standard deviation of one reading."""
     rms_before_um: NotNegative
@@ -103,4 +103,4 @@ class DiscoveryJson(JsonResult):
     remarks: tuple[str, ...]
     """Remarks, in sentences; effects of the user's own that were left out, with file and line."""
     steps: tuple[AddedJson, ...]
-    """With --auto, what was done to the model, each as hexdbb add prints it; the rest of the object is the last look."""
+    """With --auto, what was done to the model, each as hexdbb add prints it; the rest is the last verdict."""

@@ -23,8 +23,8 @@ Basis = Callable[[Samples], Any]
 KINDS = {1: "machine", 3: "guideway", 6: "slider"}
 """What an element is, by their number."""
 LIMIT_OF_SIGMA = 100.0
-"""Limit of a value in prior standard deviations where the effect states none: far beyond any fault of a working machine,
-so that it stops a diverging fit and nothing else."""
+"""Limit of a value in prior standard deviations where the effect states none: far beyond any fault of a working
+machine, so that it stops a diverging fit and nothing else."""
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 HALF_WINDOW_S = 30.0
-"""Half the time over which the temperature changes evenly: short against a machine's time constants of many minutes, long
-against the sensor's sampling."""
+"""Half the time over which the temperature changes evenly: short against a machine's time constants of many minutes,
+long against the sensor's sampling."""
 
 
 def smoothed(time_s: Floats, sweep: NDArray[np.integer], temperature_c: Floats) -> Floats:

@@ -31,6 +31,7 @@ from hexdbb.plan import load_plan
 from hexdbb.record import read_record, write_record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import TruthFile
+from hexdbb.samples import Samples
 
 EFFECTS = ["leg_length", "guideway_rotation_xy", "backlash", "gravity_sag", "cup_position", "reversal_spike"]
 
