@@ -106,9 +106,10 @@ def silent(truth: TruthFile) -> TruthFile:
 def found_in(records: Sequence[Record], model: Model, report_step: ReportStep) -> Found:
     """Return the model diagnosed and extended until nothing is missing, as `hexdbb discover --auto` does."""
     report_step("diagnosing")
-    diagnosis = diagnose(Samples.of(records), model, check_held_out=False)
+    samples = Samples.of(records)
+    diagnosis = diagnose(samples, model, check_held_out=False)
     added: list[str] = []
-    for step in discover_all(records, diagnosis.model, progress=report_step):
+    for step in discover_all(samples, diagnosis.model, progress=report_step):
         if not isinstance(step, AutoStep):
             return Found(diagnosis.model, tuple(added), step.verdict == "none", diagnosis.rms_after_um)
         diagnosis = step.diagnosis

@@ -25,8 +25,8 @@ from hexdbb.samples import Samples
 from hexdbb.units import readable_unit
 
 DETERMINED = 1e-4
-"""Relative pivot below which `--minimal` holds a value: a record's path leaves its circles by the servos' lag, and
-what only that determines is not worth a value."""
+"""Relative pivot below which `--minimal` holds a value: a record's path leaves its circles by the servos' lag, and what
+only that determines is not worth a value."""
 
 
 @click.command()

@@ -17,8 +17,7 @@ from hexdbb.model import Model, Parameter
 from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 CLEAR_OF_ZERO = 2.0
-"""Stated standard deviations above which a value has a sign: below, the other sign lies within its uncertainty
-anyway."""
+"""Stated standard deviations above which a value has a sign: below, the other sign is within its uncertainty."""
 HARDLY_PREFERRED = 9.0
 """Difference of twice the log-posterior below which neither sign is preferred: three standard deviations, squared."""
 

@@ -26,8 +26,7 @@ FAR_MM = 1e9
 NOT_OF_PLACE = {"cup", "reading"}
 """Ports whose pushes move nothing on the machine."""
 HALF_WIDTH_MM, HALF_HEIGHT_MM, TILT_RAD = 90.0, 15.0, 0.15
-"""Poses about the circle: to either side of its centre, and tilts; what the shipped machine reaches nearly
-everywhere."""
+"""Poses about the circle: to either side of its centre, and tilts; nearly all within reach of the shipped machine."""
 STEPS = 4
 """Poses along each horizontal axis: the uncertainty varies smoothly, and 4 x 4 x 3 positions with 7 tilts map it."""
 

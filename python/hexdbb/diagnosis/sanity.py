@@ -23,8 +23,8 @@ TOGETHER = 0.95
 """Correlation above which only a sum or difference of two values is known: its standard deviation is then a sixth of
 theirs."""
 LACK_OF_FIT = 1.5
-"""Residual over noise above which the model lacks something: more than the noise itself is then unexplained in
-amplitude (1.5^2 = 1 + 1.12^2)."""
+"""Residual over noise above which the model lacks something: more than the noise itself is then unexplained, as
+1.5^2 = 1 + 1.12^2."""
 NO_BETTER = 0.98
 """Part of the start's error to which the cross-validation error must fall where the training error did: 2 % is
 the scatter of a root mean square over a thousand readings."""

@@ -61,7 +61,7 @@ def write_handbook(folder: Path) -> list[Path]:
 
 
 def signatures(info: _core.EffectInfo, samples: Sequence[Samples]) -> list[Signature]:
-    """Compute the signature of every parameter that pushes by itself: the largest over some tables of samples."""
+    """Compute the signature of every parameter that pushes by itself: the largest of those in some tables."""
     still = new_model(_machine(), [info.name])
     found = []
     for index, parameter in enumerate(info.parameters):

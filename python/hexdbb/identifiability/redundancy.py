@@ -22,8 +22,8 @@ KNOWN_PART = 0.2
 LEVER_MM = 300.0
 """Lever arm by which an angle is compared with a length: about half a guideway, whose end an angle moves so."""
 SMALL = 0.02
-"""Coefficients below this part of a row's largest are left out of its sentence: they are a machine's errors, by
-which it differs from the nominal one."""
+"""Coefficients below this part of a row's largest are left out of its sentence: they stem from the
+machine's errors."""
 MAX_NAMED = 4
 """Values named in a sentence, the others are counted: more are not read."""
 
@@ -79,7 +79,7 @@ def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
 
 
 def _beside(moves_mm: Floats, named: Sequence[Floats]) -> Floats:
-    """Return the directions that remain, free of one value of the machine in each named move, lest one is named twice.
+    """Return the directions that remain, free of one value of the machine in each named move: none is named twice.
 
     Returns
     -------

@@ -1,9 +1,8 @@
 """The table of samples: what everything from prediction to verdict takes, together with a model.
 
 Built once, from records alone. Every column has one name, with its unit in it: those of the engine's state
-(`state.hpp`,
-`for_each_column`), and `record`, `set_up`, `mount` (places in `Samples.records`, `set_ups`, `mounts`), `sliders_mm` and
-`reading_mm`. Columns of sliders and legs have shape (n, 6), all others (n,).
+(`state.hpp`, `for_each_column`), and `record`, `set_up`, `mount` (places in `Samples.records`, `set_ups`, `mounts`),
+`sliders_mm` and `reading_mm`. Columns of sliders and legs have shape (n, 6), all others (n,).
 
 Held-out circles, halves and single rows are views of the same table (`Samples.part`): nothing is derived or evaluated
 again for them. For the engine the table takes the form of `block`: mounts are then numbered as a model numbers them.

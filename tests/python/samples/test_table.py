@@ -91,7 +91,7 @@ def test_every_record_has_its_rows(samples: Samples, records: tuple[Record, Reco
 
 def test_mounts_are_numbered_as_the_model_numbers_them(samples: Samples, model: Model) -> None:
     turned = replace(model, mounts=model.mounts[::-1])
-    cups = list(np.split(model.values[-3 * len(model.mounts) :], len(model.mounts)))
+    cups = np.split(model.values[-3 * len(model.mounts) :], len(model.mounts))
     values = np.concatenate([model.values[: -3 * len(model.mounts)], *cups[::-1]])
     expected = predict(samples, model).reading_mm
     np.testing.assert_allclose(predict(samples, turned.with_values(values)).reading_mm, expected, rtol=0, atol=1e-12)
