@@ -6,7 +6,9 @@ import sys
 
 from rich.console import Console
 
-REDIRECTED_WIDTH = 110
+from hexdbb.files.plain_text import WIDTH
+
+REDIRECTED_WIDTH = WIDTH
 """Limits the line length, in characters, where stdout is not a terminal: rich would fold at its default of 80, and the
 table of `hexdbb plan compare` is 103 wide."""
 

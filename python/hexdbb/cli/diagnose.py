@@ -8,21 +8,18 @@ from pathlib import Path
 import click
 import numpy as np
 from rich.console import Console
-from rich.table import Table
 
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option, own_effects
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
-from hexdbb.diagnosis import Diagnosis
+from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.identifiability import measured_sensitivity, minimal_set
 from hexdbb.ledger import fit_model
 from hexdbb.model import Model, load_model, new_model, save_model
-from hexdbb.model.tables import sigma_shown
 from hexdbb.record import read_record
 from hexdbb.samples import Samples
-from hexdbb.units import readable_unit
 
 DETERMINED = 1e-4
 """Relative pivot below which `--minimal` holds a value: a record's path leaves its circles by the servos' lag, and what
@@ -72,18 +69,12 @@ def command(
         model = hold_redundant(samples, model)
     with messages.status(f"fitting {int(model.free.sum())} values to {len(samples):,} readings"):
         found = fit_model(samples, model, robust=robust)
-        place = found.place
+        _ = found.place  # computed here: it takes a moment
     save_model(found.model.with_free(usual), model_path)
     if as_json:
         click.echo(json.dumps(found.to_json(), indent=2, allow_nan=False))
     else:
-        console = output_console()
-        print_diagnosis(found, console)
-        console.print(
-            f"position of the ball over the workspace: standard uncertainty {place.median_um:.2f} µm (median),"
-            f" {place.worst_um:.2f} µm (worst), a rigid shift of the base aside",
-            soft_wrap=True,
-        )
+        output_console().print(diagnosis_text(found), soft_wrap=True)
     messages.print(f"{model_path}: values written")
 
 
@@ -120,68 +111,6 @@ def hold_redundant(samples: Samples, model: Model) -> Model:
     return known.with_values(values, sigma, known.identifiable & ~redundant).with_free(known.free & ~redundant)
 
 
-def print_diagnosis(found: Diagnosis, console: Console) -> None:
-    """Print a diagnosis for people: the fall of the error, values and uncertainties, what is not identifiable."""
-    console.print(
-        f"reading error {found.rms_before_um:.2f} µm -> {found.rms_after_um:.2f} µm RMS"
-        f" (noise {found.noise.sigma_mm * 1e3:.2f} µm, from {_source(found)})",
-        highlight=False,
-    )
-    if found.held_out is not None:
-        console.print(
-            f"held-out circles: {found.held_out.before_um:.2f} µm -> {found.held_out.after_um:.2f} µm RMS",
-            highlight=False,
-        )
-    console.print(
-        f"rank {found.rank} of {_machine_values(found.model)} errors of the machine (set-up unknowns taken out),"
-        f" condition {found.condition:.0f}, {found.iterations} iterations",
-        highlight=False,
-    )
-    console.print(_values_table(found.model))
-    console.print(
-        "~: known only in combination with others; the value shown is the smallest that explains the readings."
-    )
-    if found.unidentifiable:
-        console.print("\nNot identifiable from these readings:")
-        for sentence in found.unidentifiable:
-            console.print(f"  {sentence}", highlight=False, soft_wrap=True)
-    for warning in found.warnings:
-        console.print(f"warning: {warning}", style="yellow", highlight=False, soft_wrap=True)
-
-
-def _values_table(model: Model) -> Table:
-    table = Table(box=None, header_style="bold", pad_edge=False)
-    for name in ("effect", "element", "parameter"):
-        table.add_column(name)
-    for name in ("value", "± 1 sigma"):
-        table.add_column(name, justify="right")
-    table.add_column("unit")
-    columns = model.columns()
-    last = ""
-    for row in np.flatnonzero(columns["free"] | (columns["value"] != 0.0)):
-        effect = str(columns["effect"][row])
-        table.add_row(
-            "" if effect == last else effect,
-            columns["element"][row],
-            columns["name"][row],
-            f"{columns['value'][row]:.2f}",
-            sigma_shown(columns, row),
-            readable_unit(columns["unit"][row]),
-        )
-        last = effect
-    return table
-
-
 def _new_model(samples: Samples, path: Path, messages: Console) -> Model:
     messages.print(f"{path}: new model of {samples.machine.name} with the thesis' geometric errors")
     return new_model(samples.machine)
-
-
-def _source(found: Diagnosis) -> str:
-    return {"stated": "the gauge specification", "roughness": "the readings' roughness"}.get(
-        found.noise.source, found.noise.source
-    )
-
-
-def _machine_values(model: Model) -> int:
-    return sum(not each.is_set_up for each, free in zip(model.parameters(), model.free, strict=True) if free)

@@ -13,11 +13,13 @@ from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.comparison.json_form import ComparisonJson
 from hexdbb.comparison.notebook import comparison_html
 from hexdbb.comparison.radial import RadialError, radial_errors
+from hexdbb.comparison.tables import comparison_text
 from hexdbb.comparison.worst_arcs import WorstArc, worst_arcs
 from hexdbb.comparison.worst_samples import WorstSamples, worst_samples
 from hexdbb.diagnosis import fit_mounts, noise_of
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
+from hexdbb.files.plain_text import plain_text
 from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
 from hexdbb.samples import Samples, predict
@@ -73,6 +75,9 @@ class Comparison:
     def to_json(self) -> dict[str, Any]:
         """Return the object `hexdbb compare --json` prints: micrometres, None where a quantity cannot be evaluated."""
         return ComparisonJson.of(self).to_json()
+
+    def __str__(self) -> str:
+        return plain_text(comparison_text(self))
 
     def to_frame(self) -> Any:
         """Return the samples with predicted reading and residual as a ``pandas.DataFrame``, a row for each.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from rich import box
 from rich.console import Group, RenderableType
@@ -10,9 +11,11 @@ from rich.table import Table
 
 from hexdbb.comparison import iso230
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
-from hexdbb.comparison.comparison import Comparison
 from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantity
 from hexdbb.comparison.residual_tables import residual_text
+
+if TYPE_CHECKING:
+    from hexdbb.comparison.comparison import Comparison
 
 
 def comparison_text(comparison: Comparison) -> RenderableType:

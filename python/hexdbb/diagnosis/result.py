@@ -20,7 +20,9 @@ from hexdbb.diagnosis.heldout import HeldOut
 from hexdbb.diagnosis.json_form import DiagnosisJson, PlaceSigmaJson, value_json
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
+from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.files.frames import to_frame
+from hexdbb.files.plain_text import plain_text
 from hexdbb.model import Model
 from hexdbb.model.tables import values_html
 from hexdbb.samples import Samples
@@ -98,6 +100,9 @@ class Diagnosis:
     def to_frame(self) -> Any:
         """Return `columns` as a ``pandas.DataFrame``; `InputError` where pandas is not installed."""
         return to_frame(self.columns())
+
+    def __str__(self) -> str:
+        return plain_text(diagnosis_text(self))
 
     def _repr_html_(self) -> str:
         fall = f"reading error {self.rms_before_um:.2f} → {self.rms_after_um:.2f} µm RMS"
