@@ -26,8 +26,8 @@ PAGE = """\
 # Real time
 
 `Compensator::sliders` and `Compensator::pose` (C: `hexdbb_sliders_from_pose`, `hexdbb_pose_from_sliders`) are made for
-the cycle of a motion controller: after creation they do not allocate, throw, lock or make system calls, and they take at
-most four inverse solutions (`kMaxIterations`), each in closed form. Each claim has a test:
+the cycle of a motion controller: after creation they do not allocate, throw, lock or make system calls, and they take
+at most four inverse solutions (`kMaxIterations`), each in closed form. Each claim has a test:
 
 | claim | test |
 |---|---|
@@ -39,8 +39,8 @@ most four inverse solutions (`kMaxIterations`), each in closed form. Each claim 
 ## Time of a call
 Machine: {processor}. Compiler: {compiler}, `-O3` for any x86-64, AVX2 chosen at load time.
 A circle of 90 mm at 3000 mm/min, one pose per millisecond, platform tilted; single calls timed, the time of the clock
-subtracted. Medians of {repetitions} repetitions; made by `make bench`. Goal: 300 ns, and 99.9 % of calls within five times
-the median.
+subtracted. Medians of {repetitions} repetitions; made by `make bench`. Goal: 300 ns, and 99.9 % of calls within five
+times the median.
 
 | work | median | 99.9 % within | tail / median | most iterations |
 |---|---|---|---|---|

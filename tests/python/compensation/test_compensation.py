@@ -21,10 +21,10 @@ from hexdbb.compensation import (
     read_poses,
     write_compensation,
 )
-from hexdbb.diagnosis import diagnose
 from hexdbb.effects import load_effects
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
+from hexdbb.ledger import fit_model
 from hexdbb.machine import shipped_machine
 from hexdbb.model import Model, new_model, new_term, save_model
 from hexdbb.plan import load_plan
@@ -223,9 +223,8 @@ def warmed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     record = simulate(TruthFile(mechanism=(growth,)), plan, 1, temperature=True)
     write_record(record, folder / "warm.parquet")
     write_record(simulate(TruthFile(mechanism=(growth,)), plan, 2), folder / "other.parquet")
-    found = diagnose(
-        Samples.of([read_record(folder / "warm.parquet")]), new_model(record.machine, ["leg_thermal", "cup_position"])
-    )
+    samples = Samples.of([read_record(folder / "warm.parquet")])
+    found = fit_model(samples, new_model(record.machine, ["leg_thermal", "cup_position"]))
     save_model(found.model, folder / "model.toml")
     return folder
 
