@@ -13,7 +13,8 @@ import pytest
 from tests.truth.cases import case
 from tests.truth.plans import PACE
 
-from hexdbb.diagnosis import evaluate_fit, stated_noise
+from hexdbb.diagnosis import evaluate_fit
+from hexdbb.discovery.judging import judging_noise
 from hexdbb.machine import shipped_machine
 from hexdbb.model import new_model
 from hexdbb.plan import Circle, Gauge, Mount
@@ -28,8 +29,7 @@ Made = Callable[[], Samples]
 def left(name: str) -> tuple[Samples, np.ndarray, Pushes, float]:
     """Samples of a case, the residual after a fit of geometry, the pushes, and the noise."""
     samples = Samples.of([case(name, replace(PACE, rate_hz=0.5 * PACE.rate_hz)).record()])
-    known, noise = new_model(samples.machine).with_mounts(samples.mounts), stated_noise(samples)
-    assert noise is not None
+    known, noise = new_model(samples.machine).with_mounts(samples.mounts), judging_noise(samples).noise
     fitted, result = evaluate_fit(samples, known, known.free, noise)
     return samples, result.residual_mm, Pushes.of(samples, fitted), noise.sigma_mm
 
