@@ -123,7 +123,9 @@ def _draw_predictor(axes: Axes, predictor: Predictor) -> None:
     title = f"{predictor.variable}: {100.0 * predictor.share:.0f} %"
     axes.set_title(textwrap.fill(title, TITLE_WIDTH), fontsize=8)
     if classes:
-        axes.set_xticks(sorted({float(each) for means in predictor.profiles for each in means.centre}))
+        names = dict(predictor.classes)
+        ticks = sorted({float(each) for means in predictor.profiles for each in means.centre})
+        axes.set_xticks(ticks, [names.get(tick, f"{tick:g}") for tick in ticks])
         axes.margins(x=0.2)
     else:
         axes.set_xlabel(predictor.unit, fontsize=7, labelpad=1)

@@ -42,8 +42,8 @@ class Predictor:
 
     Attributes
     ----------
-    subject, variable, unit, pushes : str
-        As `subject`, `name`, `unit` and `pushes` of `Variable`.
+    subject, variable, unit, pushes, classes
+        As `subject`, `name`, `unit`, `pushes` and `classes` of `Variable`.
     share : float
         Explained share of the mean square residual, cross-validated, 0 to 1.
     values : int
@@ -70,6 +70,7 @@ class Predictor:
     size_um: float | None = None
     sampled_hz: float | None = None
     profiles: tuple[Profile, ...] = ()
+    classes: tuple[tuple[float, str], ...] = ()
 
     @property
     def worth(self) -> float:

@@ -111,6 +111,7 @@ def _means(variable: Variable, tested: CrossValidation) -> Predictor:
         share=max(share, 0.0),
         values=len(cut.centre),
         profiles=profiles,
+        classes=variable.classes,
     )
     if share < LEAST_SHARE or variable.apart is not None or not (variable.is_place or variable.is_time):
         return whole

@@ -64,6 +64,8 @@ class Variable:
         Whether values follow the order of the samples, so that laps do not repeat them.
     signs : tuple of str, optional
         Words for a positive and a negative push.
+    classes : tuple of (value, name)
+        Names of values that are classes, where they have some.
     """
 
     subject: str
@@ -77,6 +79,7 @@ class Variable:
     is_place: bool = False
     is_time: bool = False
     signs: tuple[str, str] | None = None
+    classes: tuple[tuple[float, str], ...] = ()
 
 
 def variables(samples: Samples, pushes: Pushes | None = None) -> Iterator[Variable]:
@@ -111,7 +114,8 @@ def _of_reading(samples: Samples) -> Iterator[Variable]:
     yield read("angle", "deg", angle_deg)
     yield Variable("angle", "angle, each direction", "deg", ((one, angle_deg),), apart=ccw, names=DIRECTIONS)
     yield Variable("angle", "angle, each circle", "deg", ((one, angle_deg),), apart=circle)
-    yield read("direction", "", samples["direction"])
+    senses = ((-1.0, DIRECTIONS[0]), (1.0, DIRECTIONS[1]))
+    yield Variable("direction", "direction", "", ((one, samples["direction"]),), classes=senses)
     yield read("circle", "", circle.astype(np.float64))
     yield read("feed", "mm/min", SECONDS_PER_MINUTE * samples["feed_mm_s"])
     yield Variable("time", "time", "s", ((one, samples["time_s"]),), is_time=True)
@@ -126,7 +130,8 @@ def _of_slider(samples: Samples, k: int, pushes: Pushes | None) -> Iterator[Vari
     yield Variable(subject, f"{subject} position", "mm", ((weight, position_mm),), where, is_place=True)
     up, parts = (travel > 0.0).astype(np.intp), ((weight, position_mm),)
     yield Variable(subject, f"{subject} position, each direction of travel", "mm", parts, where, up, TRAVEL_NAMES)
-    yield Variable(subject, f"{subject} direction of travel", "", ((weight, travel),), where)
+    senses = ((-1.0, "down"), (1.0, "up"))
+    yield Variable(subject, f"{subject} direction of travel", "", ((weight, travel),), where, classes=senses)
     timed = ((weight * travel, samples["time_s"]),)
     yield Variable(subject, f"{subject} direction of travel, over time", "s", timed, where, is_time=True)
     yield Variable(subject, f"{subject} velocity", "mm/s", ((weight, samples["velocity_mm_s"][:, of]),), where)

@@ -17,7 +17,7 @@ from tests.truth.plans import discovery_plan
 from tests.truth.simulate import Pace, simulate
 
 from hexdbb.cli import cli
-from hexdbb.cli.schemas import COMMANDS, json_schema
+from hexdbb.cli.schemas import COMMANDS, DECLARED, json_schema, schema_text
 from hexdbb.diagnosis import diagnose
 from hexdbb.errors import InputError
 from hexdbb.machine import shipped
@@ -65,6 +65,12 @@ def test_every_file_is_a_schema_and_every_schema_a_command() -> None:
     for command in COMMANDS:
         jsonschema.Draft202012Validator.check_schema(json_schema(command))
         assert command in cli.list_commands(None)
+
+
+def test_the_files_are_those_of_the_declared_results() -> None:
+    for command in DECLARED:
+        written = shipped("schemas", f"{command}.schema.json").read_text(encoding="utf-8")
+        assert written == schema_text(command), "write them anew: python -m hexdbb.cli.schemas"
 
 
 def test_an_unknown_command_is_named() -> None:

@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 
 from hexdbb import kinematics
+from hexdbb.comparison import compare
 from hexdbb.diagnosis import diagnose
-from hexdbb.model import new_model, save_model
+from hexdbb.model import load_model, new_model, save_model
 from hexdbb.plan import Plan, load_plan
-from hexdbb.record import Record, write_record
+from hexdbb.record import Record, read_record, write_record
 from hexdbb.samples import Samples, predict
 
 NOISE_UM = 0.5
@@ -93,6 +94,20 @@ def test_a_new_mount_is_fitted_first_and_said(folder: Path) -> None:
     assert effects == [["cup_position", "x", "y", "z"], ["ball_eccentricity", "x", "y", "z"]]
     assert found["rms_um"] > 4 * NOISE_UM
     assert found["circles"][0]["predicted"]["circular_deviation_um"] < 0.1
+
+
+@pytest.mark.parametrize("names", [("two.parquet",), ("one.parquet", "two.parquet")])
+def test_the_command_prints_what_the_function_returns(folder: Path, names: tuple[str, ...]) -> None:
+    """Known mounts and unknown ones: JSON, tables and the sentence on the set-up fitted first."""
+    paths = [folder / name for name in names]
+    comparison = compare(Samples.of([read_record(path) for path in paths]), load_model(folder / "diagnosed.toml"))
+    assert len(comparison.fitted_mounts) == len(names) - 1
+    printed = run_compare(*paths, "-m", folder / "diagnosed.toml", "--json", "--no-plot")
+    assert json.loads(printed.stdout) == comparison.to_json()
+    assert printed.stderr == ""
+    tables = run_compare(*paths, "-m", folder / "diagnosed.toml", "--no-plot")
+    assert all(sentence in " ".join(tables.stdout.split()) for sentence in comparison.fitted_mounts)
+    assert comparison.to_json()["schema"] == "hexdbb.compare/1"
 
 
 def test_tables_and_pictures(folder: Path, tmp_path: Path) -> None:

@@ -133,6 +133,14 @@ def test_long_names_of_variables_fit_above_their_panels(seven_circles: Compariso
     assert not any(one.overlaps(other) for one, other in itertools.combinations(titles, 2))
 
 
+def test_classes_are_named_below_their_panels(make_record: MakeRecord) -> None:
+    record = make_record(backlash_off_centre)
+    page = comparison_pages(compared([record], [record.reading_mm - 0.002 * record.columns["direction"]]))[-3].draw()
+    FigureCanvasAgg(page).draw()
+    panel = next(axes for axes in page.axes if axes.get_title().startswith("direction:"))
+    assert [label.get_text() for label in panel.get_xticklabels()] == ["cw", "ccw"]
+
+
 def require_all_is_seen(figure: Figure) -> None:
     canvas = FigureCanvasAgg(figure)
     canvas.draw()

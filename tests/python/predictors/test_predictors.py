@@ -13,7 +13,8 @@ import pytest
 from tests.truth.cases import case
 from tests.truth.plans import PACE
 
-from hexdbb.diagnosis import evaluate_fit, stated_noise
+from hexdbb.diagnosis import evaluate_fit
+from hexdbb.discovery.judging import judging_noise
 from hexdbb.machine import shipped_machine
 from hexdbb.model import new_model
 from hexdbb.plan import Circle, Gauge, Mount
@@ -28,8 +29,7 @@ Made = Callable[[], Samples]
 def left(name: str) -> tuple[Samples, np.ndarray, Pushes, float]:
     """Samples of a case, the residual after a fit of geometry, the pushes, and the noise."""
     samples = Samples.of([case(name, replace(PACE, rate_hz=0.5 * PACE.rate_hz)).record()])
-    known, noise = new_model(samples.machine).with_mounts(samples.mounts), stated_noise(samples)
-    assert noise is not None
+    known, noise = new_model(samples.machine).with_mounts(samples.mounts), judging_noise(samples).noise
     fitted, result = evaluate_fit(samples, known, known.free, noise)
     return samples, result.residual_mm, Pushes.of(samples, fitted), noise.sigma_mm
 
@@ -37,6 +37,11 @@ def left(name: str) -> tuple[Samples, np.ndarray, Pushes, float]:
 def found_in(name: str) -> tuple[Predictor, ...]:
     samples, residual_mm, pushes, noise_mm = left(name)
     return tuple(main_predictors(rank_predictors(samples, residual_mm, pushes, noise_mm, beyond_noise=True), 6))
+
+
+def begin_s(name: str) -> float:
+    """Time of the record's first sample, from which the table of samples counts."""
+    return float(left(name)[0].records[0].columns["t_s"][0])
 
 
 def hidden(name: str) -> SimpleNamespace:
@@ -76,7 +81,8 @@ def test_a_cup_that_shifts_is_named_with_the_instant(name: str) -> None:
     assert first.place is not None
     times_s = left(name)[0]["time_s"]
     # The noise may take a few samples more.
-    before, after = times_s[times_s < truth.at_s][-20], times_s[times_s >= truth.at_s][20]
+    at_s = truth.at_s - begin_s(name)
+    before, after = times_s[times_s < at_s][-20], times_s[times_s >= at_s][20]
     assert before <= first.place.begin < first.place.end <= after
 
 
@@ -85,7 +91,8 @@ def test_a_burst_of_stick_slip_is_named_with_slider_and_time(name: str) -> None:
     first, truth = found_in(name)[0], hidden(name)
     assert first.variable == f"slider {truth.element} direction of travel, over time"
     assert first.place is not None
-    inside = min(first.place.end, truth.begin_s + truth.duration_s) - max(first.place.begin, truth.begin_s)
+    burst_s = truth.begin_s - begin_s(name)
+    inside = min(first.place.end, burst_s + truth.duration_s) - max(first.place.begin, burst_s)
     assert inside > 0.6 * (first.place.end - first.place.begin)
 
 
