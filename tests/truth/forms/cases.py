@@ -30,7 +30,7 @@ from tests.truth.forms.labels import VARIABLES, Label, equivalents
 from tests.truth.forms.measure import Measured
 from tests.truth.forms.outside import OUTSIDE, Outside
 from tests.truth.forms.ports import Action
-from tests.truth.forms.sizes import UnreachableSizeError, size_of
+from tests.truth.forms.sizes import UnreachableSizeError, shown_deviation, size_of
 
 from hexdbb.errors import InputError
 from hexdbb.record import SLIDER_COLUMNS, Record, write_record
@@ -163,6 +163,13 @@ class Case:
         scene = self.measured.scene(self.history.samples)
         return tuple(
             None if each.formed is None else measured_deviation(each.formed, scene, each.size) for each in self.hidden
+        )
+
+    def shown_deviation(self) -> tuple[float | None, ...]:
+        """Return the share of what each fault leaves in the readings that its formula does not explain."""
+        return tuple(
+            None if each.formed is None else shown_deviation(each.formed, self.measured, each.size)
+            for each in self.hidden
         )
 
     def record(self) -> Record:

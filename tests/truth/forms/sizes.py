@@ -1,6 +1,6 @@
 """How large a fault must be so that, geometry and set-up fitted, as much remains as a case asks for.
 
-Model: remaining(size) is the root mean square of what `fit.remaining_mm` leaves of the noise-free readings of every
+Model: remaining(size) is the root mean square of what `fit.fitted` leaves of the noise-free readings of every
 `THINNED`-th sample. It grows with the size, nearly in proportion while geometry does not bend, so that a secant on its
 logarithm finds the size in two to six fits.
 Accuracy: within `NEAR_ENOUGH` of the stated multiple on the thinned samples; what all samples give differs from that by
@@ -13,11 +13,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from tests.truth.forms.fit import remaining_mm
+from tests.truth.forms.deviation import Formed
+from tests.truth.forms.fit import Fitted, fitted, true_values
 from tests.truth.forms.measure import Measured, Sized
 from tests.truth.forms.ports import Action
 
 from hexdbb.errors import HexdbbError
+from hexdbb.rig.geometry import Array
 
 THINNED = 7
 """Every seventh sample: prime to the samples of a lap, so that no place is left out; 1,400 of 10,000 readings."""
@@ -53,30 +55,54 @@ def size_of(
     """
     wanted = times_noise * measured.truth.gauge.noise_um * 1e-3
     known: list[tuple[float, float]] = []
-    size = start
+    size, begin, usual = start, None, true_values(measured.truth, len(measured.history.plan.mounts))
     for _ in range(MAX_TRIALS):
         try:
-            left = remaining_rms_mm([(action, size), *others], measured)
+            fit = remaining([(action, size), *others], measured, begin=begin)
         except (HexdbbError, np.linalg.LinAlgError):
             # The machine falls apart, or the gauge is read outside a run: too large.
             limit = min(limit, size)
             size = math.sqrt(size * known[-1][0]) if known else 0.3 * size
             continue
+        left = fit.rms_mm
         if abs(left / wanted - 1.0) < NEAR_ENOUGH:
             return size
         known.append((size, max(left, 1e-12)))
         size = min(_next(known, wanted), limit)
+        # Geometry bends about in proportion to the fault.
+        begin = usual + size / known[-1][0] * (fit.value - usual)
         if size >= limit and any(tried >= limit for tried, _ in known):
             break
     raise UnreachableSizeError(f"{times_noise:g} x noise is beyond {limit:g}")
 
 
-def remaining_rms_mm(actions: Sequence[Sized], measured: Measured, thinned: int = THINNED) -> float:
-    """Return the root mean square (mm) that geometry and set-up leave of the noise-free readings."""
+def remaining(
+    actions: Sequence[Sized], measured: Measured, thinned: int = THINNED, begin: Array | None = None
+) -> Fitted:
+    """Return the fit of the noise-free readings of every `thinned`-th sample by geometry and set-up.
+
+    `begin` has the values to begin with; the machine's own where none are given.
+    """
     rows = measured.history.samples[::thinned]
     readings = measured.readings_mm(actions, rows)
-    left = remaining_mm(readings, rows, measured.history, measured.truth.gauge.noise_um * 1e-3)
-    return float(np.sqrt(np.mean(left**2)))
+    begin = true_values(measured.truth, len(measured.history.plan.mounts)) if begin is None else begin
+    return fitted(readings, rows, measured.history, measured.truth.gauge.noise_um * 1e-3, begin)
+
+
+def shown_deviation(formed: Formed, measured: Measured, size: float) -> float:
+    """Return the share of what a fault leaves in the readings that its catalogue formula does not explain.
+
+    To first order about the fit of geometry and set-up, which is taken along. Where geometry absorbs most of the
+    formula (straightness, lead) but not of the strange part, it exceeds the deviation at the port.
+    """
+    rows = measured.history.samples[::THINNED]
+    fit, before = remaining([(formed.action(), size)], measured), measured.readings_mm([], rows)
+    formulas = (formed.exact, *formed.others)
+    columns = []
+    for formula in formulas:
+        action = Action(formed.port, formed.elements, formula)
+        columns.append(measured.readings_mm([(action, size)], rows) - before)
+    return fit.rms_with_mm(np.stack(columns, axis=1)) / fit.rms_mm
 
 
 def _next(known: list[tuple[float, float]], wanted: float) -> float:

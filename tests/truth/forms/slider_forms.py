@@ -237,7 +237,7 @@ def _lead_kinked(draw: Draw, exact: Exact) -> Values:
 
 def _lead_wavy(draw: Draw, exact: Exact) -> Values:
     """Waves that are long against the lead."""
-    return _shaped(exact, waves(draw, 0.7, 1.8))
+    return _shaped(exact, waves(draw, 1.2, 2.5))
 
 
 # --- servo_lag --------------------------------------------------------------------------------------------------------

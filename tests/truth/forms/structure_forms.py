@@ -71,13 +71,13 @@ def _bow_part(exact: Exact, shape: object, axis: int) -> Values:
 
 
 def _bow_waves(draw: Draw, exact: Exact) -> Values:
-    """The rail follows its screws: waves of some tenths of its length."""
-    return _bow_shaped(draw, exact, waves(draw, 0.5, 1.5, 3))
+    """The rail follows its screws: long waves."""
+    return _bow_shaped(draw, exact, waves(draw, 1.2, 3.0))
 
 
 def _bow_joined(draw: Draw, exact: Exact) -> Values:
     """Two rails butt at an angle."""
-    at, soft = draw.uniform(-0.5, 0.5), draw.uniform(0.03, 0.1)
+    at, soft = draw.uniform(-0.5, 0.5), draw.uniform(0.2, 0.5)
     return _bow_shaped(draw, exact, lambda place: np.hypot(place - at, soft))
 
 
