@@ -141,6 +141,11 @@ def true_values(truth: TruthFile, mounts: int) -> Array:
     return np.concatenate([np.ravel(part) for part in parts])
 
 
+def geometry_readings_mm(value: Array, rows: Rows, history: History) -> Array:
+    """Return the readings of a machine of fitted geometry and set-up, without faults."""
+    return _Geometry(history, rows).readings_mm(value)
+
+
 class _Geometry:
     """Readings of a machine without faults as a function of its 33 errors, cups and ball."""
 
