@@ -36,5 +36,5 @@ engine or of what is built on it.
 
     for one in reachable(alone("calibrate", kinds=["straightness"], seeds=range(3))): ...
 
-Finding a size takes 0.1 to 1 s, a record 0.1 s, on one core.
+Set OMP_NUM_THREADS=1: the small matrices here gain nothing from threads, and many trials share the cores.
 """

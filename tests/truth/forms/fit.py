@@ -25,7 +25,7 @@ from hexdbb.rig.pose_solver import Poses
 from hexdbb.rig.truth import TruthFile
 
 LENGTH_PRIOR_MM, ANGLE_PRIOR_RAD, SETUP_PRIOR_MM = 0.1, 0.1 / 300.0, 1.0
-"""Standard deviations of a new model's geometry and set-up: what somebody expects who knows nothing of the machine."""
+"""Standard deviations of a new model's geometry and set-up: what is expected of an unknown machine."""
 GEOMETRY_SIZE = 33
 STEP = 1e-4
 """Central difference of points (not of readings) by a free value, mm or rad: exact to rounding, as points are smooth."""
@@ -164,7 +164,7 @@ class _Geometry:
         self._known: tuple[Array, TrueGeometry, Poses] | None = None
 
     def readings_mm(self, value: Array) -> Array:
-        geometry, poses = self._solved(value)
+        _, poses = self._solved(value)
         bar, _ = self._bar(value, poses)
         return np.asarray(np.linalg.norm(bar, axis=1) - self._history.plan.gauge.bar_length_mm)
 

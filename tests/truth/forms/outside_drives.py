@@ -13,7 +13,7 @@ from tests.truth.forms.ports import Action, Scene
 from hexdbb.rig.geometry import Array
 
 NEAR_THE_LEAD = 0.15
-"""Periods this near to the screw's lead, its half or its double, relatively, are not drawn: they would be pitch error."""
+"""Periods this near, relatively, to the screw's lead or its double are not drawn: they would be pitch error."""
 
 
 def _tape_period(draw: Draw) -> Fault:

@@ -86,7 +86,9 @@ def _ball_lobes(draw: Draw) -> Fault:
         bar = np.einsum("nij,ni->nj", scene.history.rotation[scene.rows], scene.history.bar_direction(scene.rows))
         return column(1e-3 * size * np.cos(lobes * np.arctan2(bar[:, 1], bar[:, 0]) + phase))
 
-    return Fault(Action("reading", (), values), (Equivalent("ball", "angle", None, "along the bar, ball and reading are one"),))
+    return Fault(
+        Action("reading", (), values), (Equivalent("ball", "angle", None, "along the bar, ball and reading are one"),)
+    )
 
 
 def _bar_whirls(draw: Draw) -> Fault:

@@ -110,7 +110,9 @@ def _joint_sticks(draw: Draw) -> Fault:
         way = np.tanh(history.slider_joint_rate_rad_s[scene.rows, k] / 0.005)
         return column(1e-3 * size * way * np.exp(-0.5 * ((at - place) / width) ** 2))
 
-    same = Equivalent("slider", "direction", (k + 1,), "the joint's angle follows its slider's position, and turns with it")
+    same = Equivalent(
+        "slider", "direction", (k + 1,), "the joint's angle follows its slider's position, and turns with it"
+    )
     return Fault(Action("leg", (k,), values), (same,))
 
 

@@ -3,9 +3,9 @@
 Model: remaining(size) is the root mean square of what `fit.fitted` leaves of the noise-free readings of every
 `THINNED`-th sample. It grows with the size, nearly in proportion while geometry does not bend, so that a secant on its
 logarithm finds the size in two to six fits.
-Accuracy: within 2 %, at most 5 %, of the stated multiple, RMS of all samples with geometry as fitted to the thinned ones.
-`hexdbb diagnose` leaves the same within 3 % for most faults; where the valley is long (bar_drift, joint_offset, thermal
-growth) one fit or the other stops up to 10 % above the lowest point.
+Accuracy: within 2 %, at most 5 %, of the stated multiple, RMS of all samples with geometry as fitted to the thinned
+ones. `hexdbb diagnose` leaves the same within 3 % for most faults; where geometry bends far (bar_drift, joint_offset,
+leg_slips: rotations at their bounds) the two differ by up to 10 %.
 """
 
 from __future__ import annotations
