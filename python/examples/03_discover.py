@@ -2,17 +2,17 @@
 
 import sys
 
-from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import discover
-from hexdbb.ledger import add_effect, history
+from hexdbb.ledger import add_effect, fit_model, history
 from hexdbb.model import new_model
 from hexdbb.record import read_record
+from hexdbb.samples import Samples
 
-record = read_record(sys.argv[1])
-model = diagnose([record], new_model(record.machine)).model
-found = discover([record], model)
+samples = Samples.of([read_record(sys.argv[1])])
+model = fit_model(samples, new_model(samples.machine)).model
+found = discover(samples, model)
 while found.verdict == "effect" and found.best is not None:
     print(found.sentence)
-    model, _ = add_effect([record], model, found.best.choice)
-    found = discover([record], model)
+    model = add_effect(samples, model, found.best.choice).model
+    found = discover(samples, model)
 print(found.sentence, history(model).text, sep="\n")
