@@ -6,11 +6,9 @@ Single calls are timed, so that the page can tell the tail; a busy machine makes
 
 from __future__ import annotations
 
-import argparse
-import sys
 from pathlib import Path
 
-from measured_by import compiler, median_rows, processor
+from measured_by import compiler, median_rows, processor, report
 
 REPETITIONS = 5
 TITLES = {
@@ -83,18 +81,5 @@ def page(rows: dict[str, dict[str, float]]) -> str:
     )
 
 
-def main() -> None:
-    """Run the benchmark and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    arguments = parser.parse_args()
-    print("running the benchmark of the compensator ...", file=sys.stderr)
-    text = page(results(arguments.program))
-    if arguments.output:
-        arguments.output.write_text(text, encoding="utf-8")
-    print(text)
-
-
 if __name__ == "__main__":
-    main()
+    report(__doc__, "the benchmark of the compensator", lambda program: page(results(program)))

@@ -10,6 +10,7 @@ from tests.truth.simulate import Pace
 
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
+from hexdbb.samples import Samples
 
 PACE = Pace(rate_hz=11.5, instants_per_sample=15, travel_s=10.0)
 """About 20,000 samples on the standard plan."""
@@ -35,7 +36,7 @@ def discovery_rows() -> list[str]:
         seconds = []
         for _ in range(REPETITIONS):
             begin = time.perf_counter()
-            found = discover([record], model)
+            found = discover(Samples.of([record]), model)
             seconds.append(time.perf_counter() - begin)
         called = found.verdict if found.best is None else f"{found.verdict}, {found.best.effect}"
         hidden = name.rsplit("-s", 1)[0].replace("-x3", ", three times the noise").replace("none", "nothing")

@@ -1,12 +1,38 @@
-"""Shared by both pages of benchmarks: running a benchmark program, and naming processor and compiler."""
+"""Shared by both pages of benchmarks: their command line, running a program, naming processor and compiler."""
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import platform
 import subprocess
+import sys
+from collections.abc import Callable
 from pathlib import Path
+
+
+def report(description: str | None, benchmark: str, make_page: Callable[[Path], str]) -> None:
+    """Run the command line of a page: benchmark the program it names, print the page and write it to -o.
+
+    Parameters
+    ----------
+    description : str
+        Help text.
+    benchmark : str
+        Description of the benchmark in the message on stderr.
+    make_page : callable
+        Returns the page, given the path of the benchmark program.
+    """
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("-o", "--output", type=Path)
+    arguments = parser.parse_args()
+    print(f"running {benchmark} ...", file=sys.stderr)
+    page = make_page(arguments.program)
+    if arguments.output:
+        arguments.output.write_text(page, encoding="utf-8")
+    print(page)
 
 
 def median_rows(program: Path, repetitions: int) -> dict[str, dict[str, float]]:

@@ -6,9 +6,7 @@ Times are medians of repetitions on a machine that may be busy: compare ratios.
 
 from __future__ import annotations
 
-import argparse
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 from discovery_times import discovery_rows
-from measured_by import compiler, median_rows, processor
+from measured_by import compiler, median_rows, processor, report
 from numpy.typing import NDArray
 from scipy.optimize import fsolve, least_squares
 
@@ -190,18 +188,10 @@ def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, 
     return "\n".join(lines)
 
 
-def main() -> None:
-    """Run both sides and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    arguments = parser.parse_args()
-    print("running the engine's benchmark and SciPy ...", file=sys.stderr)
-    page = table(engine_times_ns(arguments.program), scipy_forward_ns(), diagnosis_times_ms(), discovery_rows())
-    if arguments.output:
-        arguments.output.write_text(page, encoding="utf-8")
-    print(page)
+def page(program: Path) -> str:
+    """Run both sides and return the page as Markdown."""
+    return table(engine_times_ns(program), scipy_forward_ns(), diagnosis_times_ms(), discovery_rows())
 
 
 if __name__ == "__main__":
-    main()
+    report(__doc__, "the engine's benchmark and SciPy", page)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tests.linuxcnc.program import BALL_OFFSET_MM, Arc, Circle
 from tests.linuxcnc.session import PERIOD_S, Session
 
-from hexdbb.compare.iso230 import (
+from hexdbb.comparison.iso230 import (
     Path,
     bidirectional_circular_deviation_mm,
     circular_hysteresis_mm,

@@ -16,7 +16,7 @@ from tests.linuxcnc.program import CIRCLES, arcs, program
 from tests.linuxcnc.readings import measured_paths, roundness
 from tests.linuxcnc.session import PERIOD_S, Session, run_linuxcnc
 
-from hexdbb.compare import iso230
+from hexdbb.comparison import iso230
 from hexdbb.machine import shipped_machine
 
 Paths = dict[tuple[str, bool, int], iso230.Path]

@@ -51,8 +51,8 @@ ALLOWED: dict[str, set[str]] = {
     # which variables of the samples predict a residual
     "predictors": {"record", "model", "samples", "effects", "_core"},
     # where the model fails; readings come in as arrays, predicted or measured
-    "compare": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
-    "plots": {"errors", "files", "plan", "compare", "predictors"},
+    "comparison": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
+    "plots": {"errors", "files", "plan", "comparison", "predictors"},
     "discovery": {
         "errors",
         "files",
@@ -201,7 +201,7 @@ def test_the_table_has_no_cycle_and_no_part_that_is_gone() -> None:
         ("hexdbb.model.file", "from hexdbb.rig.truth import TruthFile"),
         ("hexdbb.diagnosis", "import hexdbb.capture.session as session"),
         ("hexdbb.capture.session", "from hexdbb.rig.bus import Rig"),
-        ("hexdbb.compare.tables", "from hexdbb.cli.exits import reports_errors"),
+        ("hexdbb.comparison.tables", "from hexdbb.cli.exits import reports_errors"),
         ("hexdbb", "from hexdbb.machine import load_machine"),
         ("hexdbb.new_module", ""),
     ],

@@ -20,7 +20,7 @@ from tests.truth.held_out import held_out_plans
 from tests.truth.simulate import Pace, simulate
 from tests.truth.timeline import Drive
 
-from hexdbb.compare.circles import compare_circles
+from hexdbb.comparison.circles import compare_circles
 from hexdbb.compensation import CompensatedTargets, make_compensation
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import AutoStep, discover_all

@@ -7,6 +7,7 @@ examines every answer; `sample_buffer` turns answers into rows of the record; `s
 Source: CiA 301 (application layer), CiA 402-2 (drives), CiA 404 (measuring devices).
 """
 
+from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.clock import Clock, Deadlines, Lockstep
 from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
@@ -19,8 +20,11 @@ __all__ = [
     "Lockstep",
     "Request",
     "RunProgress",
+    "SimulatedRig",
     "measure",
     "open_bus",
+    "opened_bus",
     "prepare",
+    "running_clock",
     "simulated_rig",
 ]

@@ -25,7 +25,7 @@ Confirm = Callable[[str], None]
 def setup_changes(programme: Programme) -> dict[int, CircleRun]:
     """Return the rows before which the set-up must be changed, each with the first run that needs the new set-up.
 
-    Such a row is the first of a run's feed-in, where the platform stands at the place at which the bar is mounted.
+    Such a row is the first of a run's feed-in, where the platform is at the mounting position of the bar.
     """
     changes: dict[int, CircleRun] = {}
     known = None

@@ -13,8 +13,8 @@ from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
-from hexdbb.compare import Comparison, compare
-from hexdbb.compare.tables import comparison_text
+from hexdbb.comparison import Comparison, compare
+from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.record import read_record

@@ -5,24 +5,18 @@ from __future__ import annotations
 import logging
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-import can
 import click
 from rich.console import Console
 
-from hexdbb.capture.clock import Clock, Deadlines, Lockstep
+from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.display import LIVE_PERIOD_S, display
-from hexdbb.capture.realtime import real_time_process
 from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
-from hexdbb.capture.simulated import simulated_rig
-from hexdbb.capture.transport import open_bus
 from hexdbb.cli.exits import reports_errors
 from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
@@ -116,9 +110,9 @@ def command(
         logging.getLogger(library).setLevel(logging.CRITICAL)
     console = Console(stderr=True)
     simulated = bus_spec is None
-    rig_options = _rig_options(truth, seed, faults)
-    if rig_options and not simulated:
-        raise InputError(f"{rig_options[0]}: option of the simulated rig (expected without --bus)")
+    rig = SimulatedRig(truth, seed, faults)
+    if rig.options and not simulated:
+        raise InputError(f"{rig.options[0]}: option of the simulated rig (expected without --bus)")
     refuse_existing(record, overwrite)
     lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), RunProgress()
@@ -139,7 +133,10 @@ def command(
         request = replace(request, confirm=_ask(console, progress))
     with console.status("computing and checking all targets"):
         programme = prepare(request)
-    with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
+    with (
+        opened_bus(rig if bus_spec is None else bus_spec, request.machine) as bus,
+        running_clock(lockstep, request.cycle_s, progress) as clock,
+    ):
         console.print(_announcement(programme, lockstep, request), highlight=False, soft_wrap=True)
         with display(progress, console):
             recorded = measure(request, programme, bus, clock, progress)
@@ -160,35 +157,6 @@ def _request(plan_name: str, record: Path, rate_hz: float | None, overwrite: boo
     metadata: dict[str, object] = {"plan": plan_name, "cycle_rate_hz": rate_hz}
     origin = str(plan.path) if plan.path is not None and Path(plan_name).exists() else plan_name
     return Request(plan, machine, origin, 1.0 / rate_hz, record, overwrite, metadata=metadata)
-
-
-def _rig_options(truth: Path | None, seed: int | None, faults: tuple[str, ...]) -> list[str]:
-    """Return the options of the simulated rig."""
-    options = [] if truth is None else ["--truth", str(truth)]
-    options += [] if seed is None else ["--seed", str(seed)]
-    return options + [word for fault in faults for word in ("--fault", fault)]
-
-
-@contextmanager
-def _bus(spec: str | None, request: Request, rig_options: list[str]) -> Iterator[can.BusABC]:
-    """Open the named bus, or start a simulated rig and open its bus."""
-    with ExitStack() as stack:
-        if spec is None:
-            path = request.machine.path
-            machine = [] if path is None else ["--machine", str(path)]
-            spec = stack.enter_context(simulated_rig([*machine, *rig_options]))
-        yield stack.enter_context(open_bus(spec, request.machine.can_setup.bitrate_bit_s))
-
-
-@contextmanager
-def _pace(lockstep: bool, cycle_s: float, progress: RunProgress) -> Iterator[Clock]:
-    """Yield the clock; in real time, with the real-time scheduling that the system grants."""
-    if lockstep:
-        yield Lockstep()
-        return
-    with real_time_process() as refused:
-        progress.notes += refused
-        yield Deadlines(cycle_s)
 
 
 def _ask(console: Console, progress: RunProgress) -> Confirm:

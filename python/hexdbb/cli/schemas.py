@@ -11,7 +11,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from hexdbb.compare.json_form import ComparisonJson
+from hexdbb.comparison.json_form import ComparisonJson
 from hexdbb.diagnosis.json_form import DiagnosisJson
 from hexdbb.discovery.json_form import DiscoveryJson
 from hexdbb.errors import InputError

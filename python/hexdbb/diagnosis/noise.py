@@ -36,7 +36,7 @@ HARMONICS = 8
 READINGS_PER_VALUE = 5
 """Readings for each harmonic's coefficient at least: fewer harmonics are removed from a shorter sweep."""
 CLIP = 3.0
-"""Standard deviations beyond which a difference is a jump: one in 370 of normal noise; `KEPT_VARIANCE` corrects."""
+"""Standard deviations beyond which a difference is a jump: one in 370 of normal noise, see `KEPT_VARIANCE`."""
 KEPT_VARIANCE = 1.0 - 2.0 * CLIP * float(stats.norm.pdf(CLIP)) / (2.0 * float(stats.norm.cdf(CLIP)) - 1.0)
 """Variance of a standard normal value given that it is within `CLIP`."""
 MAX_JUMPS = 0.1

@@ -1,6 +1,6 @@
 """Models: a machine and a list of effects with their values; the file that holds them; the ledger of what was done."""
 
-from hexdbb.model.catalogue import default_effects, effect_info
+from hexdbb.model.catalogue import default_effects, effect_info, effect_names
 from hexdbb.model.choice import Choice
 from hexdbb.model.file import load_model, save_model
 from hexdbb.model.ledger import LedgerStep, Size, Snapshot
@@ -23,6 +23,7 @@ __all__ = [
     "Term",
     "default_effects",
     "effect_info",
+    "effect_names",
     "load_model",
     "new_model",
     "new_term",

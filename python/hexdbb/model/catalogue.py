@@ -9,6 +9,11 @@ from hexdbb.machine import MachineFile
 from hexdbb.model.own import OwnEffects
 
 
+def effect_names(group: str = "") -> list[str]:
+    """Return the names of the effects of a group (``geometry``, ``set-up``, ``catalogue``), or of all."""
+    return _core.effect_names(group)
+
+
 def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects | None = None) -> _core.EffectInfo:
     """Return the description of an effect; `own` are the user's.
 
@@ -32,5 +37,5 @@ def default_effects(machine: MachineFile) -> dict[str, bool]:
     to a micrometre. The bar's length is calibrated and fixed. Effects of the catalogue are added when something asks
     for them.
     """
-    names = [*_core.effect_names("geometry"), *_core.effect_names("set-up")]
+    names = [*effect_names("geometry"), *effect_names("set-up")]
     return {name: name != "bar_length" for name in names}

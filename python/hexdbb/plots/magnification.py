@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from hexdbb.compare import UM_PER_MM
+from hexdbb.comparison import UM_PER_MM
 
 SERIES = (1.0, 2.0, 5.0)
 LARGEST_SHARE_OF_RADIUS = 0.4

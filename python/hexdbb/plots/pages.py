@@ -17,7 +17,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
-from hexdbb.compare import UM_PER_MM, CircleComparison, Comparison, iso230
+from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison, iso230
 from hexdbb.files.atomic_file import replacing
 from hexdbb.plan import Circle
 from hexdbb.plots.magnification import choose_scale

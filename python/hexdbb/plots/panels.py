@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
-from hexdbb.compare import QUANTITIES, UM_PER_MM, CircleComparison
-from hexdbb.compare.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
-from hexdbb.compare.iso230 import FloatArray, Path
+from hexdbb.comparison import QUANTITIES, UM_PER_MM, CircleComparison
+from hexdbb.comparison.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
+from hexdbb.comparison.iso230 import FloatArray, Path
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
 
 SMOOTHED_OVER_DEG = 3

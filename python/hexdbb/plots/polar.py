@@ -16,9 +16,9 @@ from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 
-from hexdbb.compare import UM_PER_MM, CircleComparison
-from hexdbb.compare.circles import DIRECTION_NAMES
-from hexdbb.compare.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
+from hexdbb.comparison import UM_PER_MM, CircleComparison
+from hexdbb.comparison.circles import DIRECTION_NAMES
+from hexdbb.comparison.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
 from hexdbb.plots.magnification import Scale
 
 MEASURED_COLOURS = {1: "#56B4E9", -1: "#E69F00"}

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hexdbb.compare import UM_PER_MM, Comparison
-from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison
-from hexdbb.compare.iso230 import FloatArray
+from hexdbb.comparison import UM_PER_MM, Comparison
+from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison
+from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.predictors import LEAST_SHARE, Predictor
 

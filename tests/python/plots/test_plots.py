@@ -16,8 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from tests.python.compare.made_up import MakeRecord, compared
 
-from hexdbb.compare import Comparison
-from hexdbb.compare.iso230 import even_angles, make_path
+from hexdbb.comparison import Comparison
+from hexdbb.comparison.iso230 import even_angles, make_path
 from hexdbb.errors import RunError
 from hexdbb.plots import choose_scale, comparison_pages, save_figure
 from hexdbb.plots.magnification import LARGEST_SHARE_OF_RADIUS, SERIES

@@ -107,8 +107,8 @@ def thesis_estimate(
         rank=known.rank,
         condition=known.condition,
         dependent=dependent,
-        rms_before_mm=_rms(contour_mm),
-        rms_after_mm=_rms(contour_mm - matrix @ amounts),
+        rms_before_mm=rms(contour_mm),
+        rms_after_mm=rms(contour_mm - matrix @ amounts),
     )
 
 
@@ -164,5 +164,6 @@ def _minimum_norm(matrix: Floats, contour_mm: Floats, known: _core.Identifiabili
     return np.asarray(seen @ _normal_equations(matrix @ seen, contour_mm))
 
 
-def _rms(values: Floats) -> float:
+def rms(values: Floats) -> float:
+    """Return the root mean square of all values."""
     return float(np.sqrt(np.mean(np.square(values))))

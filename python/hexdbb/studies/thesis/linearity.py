@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.studies.thesis.circular_test import CircularTest, joint_plane_test
-from hexdbb.studies.thesis.estimator import thesis_estimate
+from hexdbb.studies.thesis.estimator import rms, thesis_estimate
 from hexdbb.studies.thesis.simulated import GAUGE_NOISE_UM
 from hexdbb.studies.thesis.tables import SEVEN, all_values
 from hexdbb.studies.thesis.unknowns import UNKNOWNS
@@ -102,7 +102,7 @@ def _curvature_per_mm(test: CircularTest, patterns: Floats) -> float:
     """Return c of error = c size² of the linear estimate without noise, root mean square over draws and errors."""
     size_mm, no_noise = SIZES_MM[0], np.zeros(test.samples.size)
     errors_mm = [_linear(test, size_mm * each, no_noise)[0] for each in patterns]
-    return _rms(np.array(errors_mm)) / size_mm**2
+    return rms(np.array(errors_mm)) / size_mm**2
 
 
 def _row(test: CircularTest, size_mm: float, patterns: Floats, noise: Floats) -> LinearityRow:
@@ -115,8 +115,8 @@ def _row(test: CircularTest, size_mm: float, patterns: Floats, noise: Floats) ->
         peaks.append(np.abs(contour_mm).max())
     return LinearityRow(
         size_mm=size_mm,
-        linear_rms_mm=_rms(np.array(linear)),
-        exact_rms_mm=_rms(np.array(exact)),
+        linear_rms_mm=rms(np.array(linear)),
+        exact_rms_mm=rms(np.array(exact)),
         linear_largest_mm=float(np.abs(linear).max()),
         exact_largest_mm=float(np.abs(exact).max()),
         peak_reading_mm=float(max(peaks)),
@@ -135,7 +135,3 @@ def _exact(test: CircularTest, contour_mm: Floats) -> Floats:
     model = test.model(np.zeros(len(UNKNOWNS))).engine()
     result = _core.fit(model, test.samples, test.nominal_mm + contour_mm, noise_mm=GAUGE_NOISE_UM / 1e3, free=free)
     return np.asarray(result.values[[UNKNOWNS[name].column for name in SEVEN]] * UNITS)
-
-
-def _rms(values: Floats) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))

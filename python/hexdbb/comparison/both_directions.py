@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexdbb.compare.iso230 import FloatArray
+from hexdbb.comparison.iso230 import FloatArray
 
 ARC_DEG = 5
 """Width of an arc: short against the orders of interest (12 periods a turn are 30 degrees); a divisor of 360."""

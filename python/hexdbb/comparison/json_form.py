@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from hexdbb.compare import iso230
-from hexdbb.compare.circles import CircleComparison, DirectionComparison, root_mean_square
-from hexdbb.compare.harmonics import Harmonic
-from hexdbb.compare.iso230 import FloatArray
-from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities
-from hexdbb.compare.radial import RadialError
-from hexdbb.compare.worst_samples import Circumstance, WorstSamples
+from hexdbb.comparison import iso230
+from hexdbb.comparison.circles import CircleComparison, DirectionComparison, root_mean_square
+from hexdbb.comparison.harmonics import Harmonic
+from hexdbb.comparison.iso230 import FloatArray
+from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantities
+from hexdbb.comparison.radial import RadialError
+from hexdbb.comparison.worst_samples import Circumstance, WorstSamples
 from hexdbb.files.results import JsonPart, JsonResult, NotNegative, Share
 from hexdbb.predictors import Predictor, sentence
 
 if TYPE_CHECKING:
-    from hexdbb.compare.comparison import Comparison
+    from hexdbb.comparison.comparison import Comparison
 
 AtLeastOne = Annotated[int, Field(ge=1)]
 Degrees = Annotated[float, Field(ge=-180.0, le=180.0)]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hexdbb.compare.circles import SHORT_DIRECTION_NAMES
-from hexdbb.compare.quantities import UM_PER_MM
+from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES
+from hexdbb.comparison.quantities import UM_PER_MM
 from hexdbb.files.frames import html_table
 from hexdbb.predictors import sentence
 
 if TYPE_CHECKING:
-    from hexdbb.compare.comparison import Comparison
+    from hexdbb.comparison.comparison import Comparison
 
 MOST_SHOWN = 8
 """Number of predictors shown: a screen."""

@@ -11,8 +11,8 @@ import pytest
 from rich.console import Console
 from tests.python.compare.made_up import MakeRecord, compared
 
-from hexdbb.compare import QUANTITIES
-from hexdbb.compare.tables import comparison_text
+from hexdbb.comparison import QUANTITIES
+from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
 from hexdbb.record import Record
 

@@ -8,11 +8,11 @@ from rich import box
 from rich.console import Group, RenderableType
 from rich.table import Table
 
-from hexdbb.compare import iso230
-from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
-from hexdbb.compare.comparison import Comparison
-from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantity
-from hexdbb.compare.residual_tables import residual_text
+from hexdbb.comparison import iso230
+from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
+from hexdbb.comparison.comparison import Comparison
+from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantity
+from hexdbb.comparison.residual_tables import residual_text
 
 
 def comparison_text(comparison: Comparison) -> RenderableType:

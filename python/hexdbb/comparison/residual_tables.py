@@ -10,12 +10,12 @@ from rich import box
 from rich.console import RenderableType
 from rich.table import Table
 
-from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison, root_mean_square
-from hexdbb.compare.quantities import UM_PER_MM
+from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison, root_mean_square
+from hexdbb.comparison.quantities import UM_PER_MM
 from hexdbb.predictors import main_predictors, sentence
 
 if TYPE_CHECKING:
-    from hexdbb.compare.comparison import Comparison
+    from hexdbb.comparison.comparison import Comparison
 
 MOST_HARMONICS = 8
 """Number of harmonics printed, of all circles: a screen with the tables above."""

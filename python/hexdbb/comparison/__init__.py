@@ -6,11 +6,11 @@
     comparison.rms_mm, comparison.worst[0].where, comparison.to_json()
 """
 
-from hexdbb.compare.circles import CircleComparison, DirectionComparison
-from hexdbb.compare.comparison import Comparison, compare, compare_readings
-from hexdbb.compare.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
-from hexdbb.compare.radial import RadialError
-from hexdbb.compare.worst_arcs import WorstArc
+from hexdbb.comparison.circles import CircleComparison, DirectionComparison
+from hexdbb.comparison.comparison import Comparison, compare, compare_readings
+from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
+from hexdbb.comparison.radial import RadialError
+from hexdbb.comparison.worst_arcs import WorstArc
 
 __all__ = [
     "QUANTITIES",

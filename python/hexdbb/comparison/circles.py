@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hexdbb.compare import iso230
-from hexdbb.compare.both_directions import BothDirections, both_directions
-from hexdbb.compare.harmonics import Harmonic, harmonics
-from hexdbb.compare.iso230 import FloatArray, Path
-from hexdbb.compare.quantities import Quantities, evaluate_quantities
-from hexdbb.compare.set_up import without_set_up_mm
+from hexdbb.comparison import iso230
+from hexdbb.comparison.both_directions import BothDirections, both_directions
+from hexdbb.comparison.harmonics import Harmonic, harmonics
+from hexdbb.comparison.iso230 import FloatArray, Path
+from hexdbb.comparison.quantities import Quantities, evaluate_quantities
+from hexdbb.comparison.set_up import without_set_up_mm
 from hexdbb.plan import Circle
 from hexdbb.predictors import record_names
 from hexdbb.record import Record
@@ -46,7 +46,8 @@ class DirectionComparison:
         Measured minus predicted reading.
     radial_mm : (n,) array or None
         Radial error of each sample: reading less what the commanded circle would read about a cup that is off in its
-        plane, the offset found by least squares over both directions (`hexdbb.compare.set_up`). No model is in it: it
+        plane, the offset found by least squares over both directions (`hexdbb.comparison.set_up`). No model is in
+        it: it
         is what the machine, compensated or not, makes of a commanded circle. None where no direction is a full circle.
     measured, predicted : Path
         Mean path over the laps.

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from hexdbb.compare import iso230
-from hexdbb.compare.iso230 import FloatArray, Path
+from hexdbb.comparison import iso230
+from hexdbb.comparison.iso230 import FloatArray, Path
 
 UM_PER_MM = 1000.0
 """Quantities are kept in mm and shown in micrometres."""

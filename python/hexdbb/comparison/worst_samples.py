@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.compare.circles import DIRECTION_NAMES, SECONDS_PER_MINUTE
-from hexdbb.compare.iso230 import FloatArray
-from hexdbb.compare.quantities import UM_PER_MM
+from hexdbb.comparison.circles import DIRECTION_NAMES, SECONDS_PER_MINUTE
+from hexdbb.comparison.iso230 import FloatArray
+from hexdbb.comparison.quantities import UM_PER_MM
 from hexdbb.files.results import JsonPart, Share
 from hexdbb.predictors import record_names
 from hexdbb.predictors.variable import SLIDERS, TRAVEL_DIRECTION

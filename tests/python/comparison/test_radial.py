@@ -10,7 +10,7 @@ import pytest
 from rich.console import Console
 from tests.python.compare.made_up import MakeRecord, compared
 
-from hexdbb.compare.tables import comparison_text
+from hexdbb.comparison.tables import comparison_text
 from hexdbb.record import Record
 
 

@@ -26,7 +26,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from hexdbb.compare.circle_fit import least_squares_circle, minimum_zone
+from hexdbb.comparison.circle_fit import least_squares_circle, minimum_zone
 from hexdbb.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexdbb.compare.iso230 import FloatArray
+from hexdbb.comparison.iso230 import FloatArray
 
 HIGHEST_ORDER = 12
 """Highest order fitted; what is above depends on sliders' positions (screws) or on time, not on the angle."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexdbb.compare.circles import DIRECTION_NAMES, CircleComparison, DirectionComparison, root_mean_square
+from hexdbb.comparison.circles import DIRECTION_NAMES, CircleComparison, DirectionComparison, root_mean_square
 
 ARC_DEG = 10
 """Width of the arcs by which the residual is sorted, a divisor of 360: enough samples to average the noise out."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.compare.iso230 import FloatArray
+from hexdbb.comparison.iso230 import FloatArray
 
 STEPS = 5
 """Gauss-Newton steps: each reduces the error by c / R, 0.01 at most, so that 5 reach rounding."""

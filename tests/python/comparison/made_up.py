@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hexdbb.compare import Comparison, compare_readings
+from hexdbb.comparison import Comparison, compare_readings
 from hexdbb.machine import shipped_machine
 from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record import Record

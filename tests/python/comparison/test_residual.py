@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.python.compare.made_up import SAMPLES_PER_LAP, MakeRecord, compared
 
-from hexdbb.compare import Comparison
-from hexdbb.compare.harmonics import harmonics
+from hexdbb.comparison import Comparison
+from hexdbb.comparison.harmonics import harmonics
 from hexdbb.predictors.halves import halves
 from hexdbb.record import Record
 from hexdbb.samples import Samples

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from hexdbb.compare.circles import CircleComparison, compare_circles, root_mean_square
-from hexdbb.compare.iso230 import FloatArray
-from hexdbb.compare.json_form import ComparisonJson
-from hexdbb.compare.notebook import comparison_html
-from hexdbb.compare.radial import RadialError, radial_errors
-from hexdbb.compare.worst_arcs import WorstArc, worst_arcs
-from hexdbb.compare.worst_samples import WorstSamples, worst_samples
+from hexdbb.comparison.circles import CircleComparison, compare_circles, root_mean_square
+from hexdbb.comparison.iso230 import FloatArray
+from hexdbb.comparison.json_form import ComparisonJson
+from hexdbb.comparison.notebook import comparison_html
+from hexdbb.comparison.radial import RadialError, radial_errors
+from hexdbb.comparison.worst_arcs import WorstArc, worst_arcs
+from hexdbb.comparison.worst_samples import WorstSamples, worst_samples
 from hexdbb.diagnosis import fit_mounts, noise_of
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize
 
-from hexdbb.compare import iso230
-from hexdbb.compare.circle_fit import least_squares_circle, minimum_zone
+from hexdbb.comparison import iso230
+from hexdbb.comparison.circle_fit import least_squares_circle, minimum_zone
 from hexdbb.errors import InputError
 
 RADIUS_MM = 100.0

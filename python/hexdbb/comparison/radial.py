@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexdbb.compare.circles import CircleComparison, root_mean_square
+from hexdbb.comparison.circles import CircleComparison, root_mean_square
 
 
 @dataclass(frozen=True)
