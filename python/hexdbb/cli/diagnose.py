@@ -133,7 +133,7 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
             highlight=False,
         )
     console.print(
-        f"rank {found.rank} of {_machine_values(found.model)} errors of the machine (set-up unknowns taken out),"
+        f"rank {found.rank} of {found.machine_values} errors of the machine (set-up unknowns taken out),"
         f" condition {found.condition:.0f}, {found.iterations} iterations",
         highlight=False,
     )
@@ -181,7 +181,3 @@ def _source(found: Diagnosis) -> str:
     return {"stated": "the gauge specification", "roughness": "the readings' roughness"}.get(
         found.noise.source, found.noise.source
     )
-
-
-def _machine_values(model: Model) -> int:
-    return sum(not each.is_set_up for each, free in zip(model.parameters(), model.free, strict=True) if free)
