@@ -12,7 +12,8 @@ The functions a user needs, each loaded when it is first used::
     hx.save_model(found.model, "model.toml")
 
 ====================  ==================================================================================================
-measure               `measure`, `simulated_rig`, `Plan`, `load_plan`, `shipped_plans`, `load_machine`, `shipped_machine`
+measure               `measure`, `simulated_rig`, `Plan`, `load_plan`, `shipped_plans`, `load_machine`,
+                      `shipped_machine`
 records               `read_record`, `write_record`, `Record`; `Samples.of(records)` is the table that all below take
 models                `new_model`, `load_model`, `save_model`, `Model`, `effect_names`, `effect_info`
 why does it err       `diagnose`, `predict`, `compare`, `discover`, `discover_all`

@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+from hexdbb import _core
+
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "python" / "hexdbb"
 
@@ -219,3 +221,59 @@ def test_a_forbidden_import_is_caught(module: str, source: str) -> None:
 )
 def test_a_forbidden_include_is_caught(place: str, source: str) -> None:
     assert len(cpp_violations(place, source)) == 1
+
+
+def strings_of(source: str) -> set[str]:
+    """String constants of a source that are not docstrings or comments of fields."""
+    tree = ast.parse(source)
+    free_standing = {
+        id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    return {
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in free_standing
+    }
+
+
+NAME_BLIND = (
+    "model",
+    "samples",
+    "identifiability",
+    "diagnosis",
+    "ledger",
+    "predictors",
+    "compare",
+    "plots",
+    "discovery",
+)
+"""Parts that work on any list of effects and know none by name."""
+STILL_NAMING = {"hexdbb.identifiability.structure", "hexdbb.model.catalogue"}
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in PYTHON_FILES if part_of(module_name(path)) in NAME_BLIND], ids=module_name
+)
+def test_no_effect_is_known_by_name_above_effects(path: Path) -> None:
+    named = strings_of(path.read_text(encoding="utf-8")) & set(_core.effect_names())
+    assert bool(named) == (module_name(path) in STILL_NAMING), named
+
+
+def test_only_the_ledger_makes_its_steps() -> None:
+    makers = {
+        module_name(path)
+        for path in PYTHON_FILES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "LedgerStep"
+    }
+    assert makers == {"hexdbb.ledger.step", "hexdbb.model.file"}  # made; read from a file
+
+
+def test_samples_alone_give_the_engine_its_form_of_a_record() -> None:
+    """A record is prepared once: nothing above the table of samples makes another."""
+    makers = {
+        module_name(path) for path in PYTHON_FILES if re.search(r"\b_core\.Samples\(", path.read_text(encoding="utf-8"))
+    }
+    # Poses without a state: bare kinematics, the ball's position read by far cups, the thesis' nominal circle.
+    bare = {"hexdbb.kinematics.poses", "hexdbb.diagnosis.place_uncertainty", "hexdbb.studies.thesis.circular_test"}
+    assert makers == {"hexdbb.samples.whole", *bare}

@@ -34,7 +34,7 @@ UNKNOWN_PART = 0.5
 carry less than three times the prior's information."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Diagnosis:
     """What a fit found.
 
@@ -92,6 +92,21 @@ class Diagnosis:
         record = self.samples.records[0]
         circle = record.circles[0]
         return place_uncertainty(self.model, self.covariance, circle, record.mount(circle.mount).cup_mm)
+
+    @property
+    def machine_values(self) -> int:
+        """Number of the machine's own values that were fitted, of which `rank` combinations are determined."""
+        free = zip(self.model.parameters(), self.model.free, strict=True)
+        return sum(not parameter.is_set_up for parameter, is_free in free if is_free)
+
+    def __repr__(self) -> str:
+        held = self.held_out
+        checked = "" if held is None else f", held-out circles {held.before_um:.2f} -> {held.after_um:.2f} µm"
+        return (
+            f"<Diagnosis: reading error {self.rms_before_um:.2f} -> {self.rms_after_um:.2f} µm RMS{checked}, noise"
+            f" {self.noise.sigma_mm * 1e3:.2f} µm ({self.noise.source}), rank {self.rank} of {self.machine_values},"
+            f" {len(self.unidentifiable)} redundant combinations, {len(self.warnings)} warnings>"
+        )
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Return every value of the model with name, uncertainty and unit, one array a column."""

@@ -31,7 +31,7 @@ def _parts(found: Diagnosis) -> Iterator[RenderableType]:
     if found.held_out is not None:
         yield f"held-out circles: {found.held_out.before_um:.2f} µm -> {found.held_out.after_um:.2f} µm RMS"
     yield (
-        f"rank {found.rank} of {_machine_values(found.model)} errors of the machine (set-up unknowns taken out),"
+        f"rank {found.rank} of {found.machine_values} errors of the machine (set-up unknowns taken out),"
         f" condition {found.condition:.0f}, {found.iterations} iterations"
     )
     yield _values_table(found.model)
@@ -74,7 +74,3 @@ def _source(found: Diagnosis) -> str:
     return {"stated": "the gauge specification", "roughness": "the readings' roughness"}.get(
         found.noise.source, found.noise.source
     )
-
-
-def _machine_values(model: Model) -> int:
-    return sum(not each.is_set_up for each, free in zip(model.parameters(), model.free, strict=True) if free)

@@ -103,4 +103,4 @@ class DiscoveryJson(JsonResult):
     remarks: tuple[str, ...]
     """Remarks, in sentences; effects of the user's own that were left out, with file and line."""
     steps: tuple[AddedJson, ...]
-    """With --auto, what was done to the model, each as hexdbb add prints it; the rest is the last verdict."""
+    """With --auto, what was done to the model, as hexdbb add prints it, schema aside; the rest is the last verdict."""

@@ -108,7 +108,7 @@ class NextTest:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Discovery:
     """Outcome of one look for a missing effect; `candidates` best first, the first the one to add."""
 
@@ -136,6 +136,10 @@ class Discovery:
         named = f": {best.choice}" if best is not None else ""
         others = f" (or {', '.join(self.ambiguous_with)})" if self.ambiguous_with else ""
         return f"{MEANING[self.verdict]}{named}{others}"
+
+    def __repr__(self) -> str:
+        lack = self.lack_of_fit
+        return f"<Discovery: {self.sentence}; residual {lack.rms_um:.2f} µm RMS, noise {lack.noise_um:.2f} µm>"
 
     def to_json(self, steps: Sequence[Diagnosis] = ()) -> dict[str, Any]:
         """Return the object that ``hexdbb discover --json`` prints; `steps` are those of ``--auto``."""

@@ -1,8 +1,8 @@
-"""What an effect of its expected size does to the reading along the thesis' circle, in both directions, as a picture.
+"""Effect of one prior standard deviation on the reading along the thesis' circle, in both directions, as a picture.
 
-The first element of the effect is given its expected size, one parameter at a time, and the prediction is run with and
-without it. The circle is run 0.1 mm off the bar's length, so that a gauge's gain shows; temperature rises by 1 K a lap
-for effects of temperature, and is not measured for all others.
+One parameter at a time of the effect's first element is given its prior standard deviation, and the prediction is run
+with and without it. The circle is run 0.1 mm off the bar's length, so that a gauge's gain shows; temperature rises by
+1 K a lap for effects of temperature, and is not measured for all others.
 """
 
 from __future__ import annotations

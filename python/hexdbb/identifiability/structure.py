@@ -133,9 +133,9 @@ def _completed(redundancy: Redundancy, basis: Floats, keys: Sequence[Key], lever
     if any(part and key not in keys for key, part in redundancy.moves.items()):
         return None
     wanted = np.array([redundancy.moves.get(key, 0.0) for key in keys]) * levers_mm
-    told = np.array([not redundancy.completed_by(key) for key in keys])
-    mix = np.linalg.lstsq(basis[told], wanted[told], rcond=TOLERANCE**2)[0]
-    if np.linalg.norm(basis[told] @ mix - wanted[told]) > TOLERANCE * np.linalg.norm(wanted):
+    prescribed = np.array([not redundancy.completed_by(key) for key in keys])
+    mix = np.linalg.lstsq(basis[prescribed], wanted[prescribed], rcond=TOLERANCE**2)[0]
+    if np.linalg.norm(basis[prescribed] @ mix - wanted[prescribed]) > TOLERANCE * np.linalg.norm(wanted):
         return None
     move: Floats = basis @ mix
     return move

@@ -20,7 +20,10 @@ WELL_SEEN = 0.1
 
 @dataclass(frozen=True)
 class Place:
-    """A range of a variable, in its unit; `words` name the circle of what happens once. Times count from the record's first sample."""
+    """A range of a variable, in its unit; `words` name the circle of what happens once.
+
+    Times count from the record's first sample.
+    """
 
     begin: float
     end: float

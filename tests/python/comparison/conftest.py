@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.python.compare.made_up import MakeRecord, made_record
+from tests.python.comparison.made_up import MakeRecord, made_record
 
 
 @pytest.fixture

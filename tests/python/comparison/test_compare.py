@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rich.console import Console
-from tests.python.compare.made_up import MakeRecord, compared
+from tests.python.comparison.made_up import MakeRecord, compared
 
 from hexdbb.comparison import QUANTITIES
 from hexdbb.comparison.tables import comparison_text

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.python.compare.made_up import SAMPLES_PER_LAP, MakeRecord, compared
+from tests.python.comparison.made_up import SAMPLES_PER_LAP, MakeRecord, compared
 
 from hexdbb.comparison import Comparison
 from hexdbb.comparison.harmonics import harmonics

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
-from tests.python.compare.made_up import MakeRecord, compared
+from tests.python.comparison.made_up import MakeRecord, compared
 
 from hexdbb.comparison import Comparison
 from hexdbb.comparison.iso230 import even_angles, make_path

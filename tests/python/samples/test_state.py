@@ -73,7 +73,7 @@ def test_part_of_a_record_has_the_state_of_the_whole() -> None:
     record = record_of(3)
     rows = record.columns["circle"] == 2
     whole, part = Samples.of([record]), Samples.of([record.part(rows)])
-    for name in ("time_s", "warming_k", "side", "since_reversal_mm", "velocity_mm_s", "leg_force", "circle"):
+    for name in ("time_s", "warming_k", "since_reversal_mm", "velocity_mm_s", "leg_force", "circle"):
         np.testing.assert_allclose(part[name], whole[name][rows], rtol=0, atol=1e-9, err_msg=name)
 
 
