@@ -16,15 +16,9 @@ run() {
   "$@"
 }
 
-# A machine with random geometric errors, written by a rig that is ended at once, and one fault that is not in the model.
+# A machine with random geometric errors, and one fault that is not in the model.
 hidden_machine() {
-  local pid
-  printf '\n$ hexdbb rig --seed 11 --write-truth demo/hidden.toml\n'
-  coproc RIG { exec hexdbb rig --seed 11 --write-truth demo/hidden.toml --exit-with-parent; }
-  pid=$RIG_PID
-  read -r _ <&"${RIG[0]}" # the only line on stdout: the rig is ready and the file is written
-  kill "$pid"
-  wait "$pid"
+  run hexdbb rig --seed 11 --write-truth demo/hidden.toml --no-serve
   printf '$ cat >> demo/hidden.toml\n'
   tee -a demo/hidden.toml <<'TOML'
 

@@ -32,7 +32,7 @@ Any python-can program can connect: interface socketcand, channel can0, tcp_tune
 Examples:
   hexdbb rig --port 29536
   hexdbb rig --truth truth.toml --fault drive-fault:3@2.5=0x2310
-  hexdbb rig --seed 7 --write-truth hidden.toml
+  hexdbb rig --seed 7 --write-truth hidden.toml --no-serve
   hexdbb-run --plan thesis --bus socketcand:127.0.0.1:29536 -o demo.parquet
 
 \b
@@ -47,6 +47,7 @@ Faults, KIND[:node][@time_s][=value], time counted from the first moment at whic
 )
 @click.option("--truth", "truth_path", type=click.Path(path_type=Path), help="Truth file; default: a random machine.")
 @click.option("--write-truth", type=click.Path(path_type=Path), help="Write the truth in use to this file.")
+@click.option("--no-serve", is_flag=True, help="With --write-truth: end once the file is written.")
 @click.option("--seed", type=click.IntRange(min=0), help="Seed of the random machine, or of the noise with --truth.")
 @click.option(
     "--port", type=click.IntRange(0, 65535), default=0, show_default=True, help="TCP port; 0 selects a free one."
@@ -67,6 +68,7 @@ def command(
     machine_path: Path | None,
     truth_path: Path | None,
     write_truth: Path | None,
+    no_serve: bool,
     seed: int | None,
     port: int,
     faults: tuple[str, ...],
@@ -83,6 +85,10 @@ def command(
     rig = Rig(machine, truth, [parse_fault(spec) for spec in faults], stall_tolerance_s)
     if write_truth is not None:
         _write(write_truth, truth)
+    elif no_serve:
+        raise InputError("--no-serve: without --write-truth there is nothing to do (expected --write-truth FILE)")
+    if no_serve:
+        return
     _serve(rig, port, once=once, exit_with_parent=exit_with_parent)
 
 

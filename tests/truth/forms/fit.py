@@ -28,7 +28,7 @@ LENGTH_PRIOR_MM, ANGLE_PRIOR_RAD, SETUP_PRIOR_MM = 0.1, 0.1 / 300.0, 1.0
 """Standard deviations of a new model's geometry and set-up: what is expected of an unknown machine."""
 GEOMETRY_SIZE = 33
 STEP = 1e-4
-"""Central difference of points (not of readings) by a free value, mm or rad: exact to rounding, as points are smooth."""
+"""Central difference of points (not of readings) by a free value, mm or rad: exact to rounding, points being smooth."""
 MAX_ITERATIONS, ENOUGH = 100, 1e-3
 """Share by which the sum to be minimised must still fall: 0.05 % of the remaining RMS."""
 PROBE, BENDS_MAX, DAMPING_MAX = 0.1, 3.0, 1e8
