@@ -20,9 +20,9 @@ WELL_SEEN = 0.1
 
 @dataclass(frozen=True)
 class Place:
-    """A range of a variable, in its unit; `words` name the circle of what happens once.
+    """A range of a variable, in its unit; times count from the record's first sample.
 
-    Times count from the record's first sample.
+    `words` name the circle of what happens once.
     """
 
     begin: float
