@@ -1,0 +1,137 @@
+"""From a search to a graded verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from hexdbb.evidence.admissible import Checked
+from hexdbb.evidence.families import Learned
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.search import Node, Search
+
+Grade = Literal["none", "effect", "ambiguous", "unknown"]
+
+
+@dataclass(frozen=True)
+class Found:
+    """One cause.
+
+    Attributes
+    ----------
+    hypothesis : Known or Learned
+    rivals : tuple of str
+        Of another kind, that explain the readings as well.
+    margin : float
+        Log evidence over the best set of hypotheses that has none of this kind, over what the set leaves.
+    refinements : tuple of str
+        Learned hypotheses beside it at the same place: how its form differs.
+    deviation : float
+        Of its form, as a part of its size.
+    """
+
+    hypothesis: Hypothesis
+    rivals: tuple[str, ...]
+    margin: float
+    refinements: tuple[str, ...] = ()
+    deviation: float = 0.0
+
+    @property
+    def grade(self) -> Grade:
+        """Verdict on this cause alone."""
+        if isinstance(self.hypothesis, Known):
+            return "ambiguous" if self.rivals else "effect"
+        return "ambiguous" if any(not name.startswith("learned:") for name in self.rivals) else "unknown"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is missing: the grade, the causes, the set of hypotheses and how it predicts."""
+
+    grade: Grade
+    found: tuple[Found, ...]
+    node: Node
+    checked: Checked | None
+
+
+def judge(search: Search) -> Verdict:
+    """Look for all that is missing."""
+    node = _in_known_words(search, search.run())
+    if node is search.root:
+        left = search.root.trial.left
+        return Verdict("none" if left < 1.05 else "unknown", (), node, None)
+    if len(node.members) > 1:
+        for member in node.members:
+            others = tuple(each for each in node.members if each is not member)
+            rest = search.trials.of(others)
+            search.expand(next((each for each in search.nodes if each.trial is rest), Node(rest, 0.0)))
+    causes, refinements = _grouped(search, node)
+    found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
+    grades = [each.grade for each in found]
+    grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
+    return Verdict(grade, found, node, search.checked(node))
+
+
+def _in_known_words(search: Search, node: Node) -> Node:
+    """Choose, of sets that are one another in other words, the one with most known effects."""
+    if all(isinstance(each, Known) for each in node.hypotheses):
+        return node
+    excess = search.root.trial.left - 1.0
+    best = node
+    for other in search.nodes:
+        same = len(other.members) == len(node.members) and all(
+            any(search.same_kind(one, each) for each in node.hypotheses) for one in other.hypotheses
+        )
+        near = other.trial.left - node.trial.left < search.criteria.same_kind_share * excess
+        more = _known(other) > _known(best) or (_known(other) == _known(best) and other.score > best.score)
+        if same and near and more and not other.trial.refused and not search.checked(other).reasons:
+            best = other
+    return best
+
+
+def _known(node: Node) -> int:
+    return sum(isinstance(each, Known) for each in node.hypotheses)
+
+
+def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:
+    """Split a set into causes, and learned functions that refine one of them at its own place."""
+    known = [each for each in node.hypotheses if isinstance(each, Known)]
+    causes: list[Hypothesis] = list(known)
+    refinements: dict[str, tuple[str, ...]] = {}
+    by_name = {each.name: each for each in search.hypotheses}
+    for each in node.hypotheses:
+        if isinstance(each, Known):
+            continue
+        of = next((one for one in known if _at_its_place(search, one, each, by_name)), None)
+        if of is None:
+            causes.append(each)
+        else:
+            refinements[of.name] = (*refinements.get(of.name, ()), each.name)
+    return causes, refinements
+
+
+def _at_its_place(search: Search, known: Known, learned: Learned, by_name: dict[str, Learned]) -> bool:
+    homes = [by_name[name] for name in search.kin.get(known.name, set())]
+    return any(
+        home.place == learned.place and (home.element == learned.element or not home.element) for home in homes
+    )
+
+
+def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
+    rivals, margin = [], float("inf")
+    for other in search.nodes:
+        if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
+            continue
+        lead = (node.score - other.score) / max(node.trial.left, 1.0)
+        if lead < max(margin, search.criteria.margin_nats) and other is not search.root:
+            if search.checked(other).reasons or _bent(search, other):
+                continue
+        margin = min(margin, lead)
+        if lead < search.criteria.margin_nats and other is not search.root:
+            rivals.append(" + ".join(other.trial.names))
+    form = node.trial.forms[node.hypotheses.index(cause)]
+    return Found(cause, tuple(rivals), margin, refinements, form.deviation if form is not None else 0.0)
+
+
+def _bent(search: Search, node: Node) -> bool:
+    return any(form is not None and form.deviation > search.criteria.form_limit for form in node.trial.forms)
