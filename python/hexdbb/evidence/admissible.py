@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.trial import HeldOut, Trial, heldout
+from hexdbb.evidence.trial import HeldOut, Trial, Trials, heldout
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
 
@@ -21,14 +20,14 @@ class Checked:
     reasons: tuple[str, ...]
 
 
-def check(trial: Trial, base: Trial, engine: Engine, criteria: Criteria) -> Checked:
+def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
     """Check a trial against the model without its hypotheses.
 
     A grouping refuses it where the share explained falls by more than `Criteria.heldout_share_min` and the error is
     larger than the fit to the other groups expects of itself (`Criteria.heldout_ratio`): that few circles determine a
     value badly is no reason.
     """
-    predicted = heldout(trial, base, engine)
+    predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons = []

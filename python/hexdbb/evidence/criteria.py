@@ -35,6 +35,10 @@ class Criteria:
         A value this many standard deviations outside its physical domain refuses a hypothesis.
     full_fits : int
         Hypotheses of each kind that get a full fit.
+    later_fits : int
+        The same beside hypotheses already found.
+    held_out : int
+        Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
     max_effects : int
         Effects looked for at once.
     heldout_share_min : float
@@ -43,6 +47,8 @@ class Criteria:
         Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
     beam : int
         Sets of hypotheses that are followed where one does not explain all.
+    max_expansions : int
+        Sets beside which all hypotheses are screened, at most: bounds the time of a search.
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
     form_limit : float
@@ -68,11 +74,14 @@ class Criteria:
     detect_nats: float = 5.0
     margin_nats: float = 5.0
     domain_sigmas: float = 3.0
-    full_fits: int = 6
+    full_fits: int = 5
+    later_fits: int = 3
+    held_out: int = 30
     max_effects: int = 4
     heldout_share_min: float = 0.5
     heldout_ratio: float = 1.5
-    beam: int = 3
+    beam: int = 2
+    max_expansions: int = 4
     complete: float = 0.02
     form_limit: float = 0.5
     same_kind_share: float = 0.05

@@ -16,7 +16,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.joints import joint_state
-from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.readings import Linear, Readings, State
 from hexdbb.machine import MachineFile
 from hexdbb.measured import Measured, measured
 from hexdbb.model import Model, new_term
@@ -78,7 +78,9 @@ class TabulatedLearned:
 
     def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
         """Append it, values zero, to a model that is to predict these samples, or a part of them."""
-        values, ports, tables = [], [], []
+        values: list[int] = []
+        ports: list[int] = []
+        tables: list[Floats] = []
         functions = self.hypothesis.variable.columns
         for column, design in self.hypothesis.basis(self.state):
             component = column if self.hypothesis.components == 3 else 0
@@ -259,7 +261,7 @@ def _ports(place: str, column: int) -> list[tuple[int, float]]:
     return [(12 + 3 * column + base, float(axis[base])) for base in range(3) if axis[base] != 0.0]
 
 
-def _state(known: Mapping[str, NDArray[np.generic]], sliders_mm: Floats, machine: MachineFile) -> dict[str, Floats]:
+def _state(known: Mapping[str, NDArray[np.generic]], sliders_mm: Floats, machine: MachineFile) -> State:
     time_s = np.asarray(known["time_s"], np.float64)
     passed = (time_s - time_s.min()) / max(float(np.ptp(time_s)), 1e-9)
     state = {
@@ -280,4 +282,4 @@ def _state(known: Mapping[str, NDArray[np.generic]], sliders_mm: Floats, machine
     if np.isfinite(known["warming_k"]).all():
         state["warming"] = known["warming_k"]
     state |= joint_state(machine, sliders_mm, time_s, np.asarray(known["sweep"]), np.asarray(known["angle_rad"]))
-    return {name: np.asarray(values, np.float64) for name, values in state.items()}
+    return State({name: np.asarray(values, np.float64) for name, values in state.items()})

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence import variables as v
-from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.readings import Linear, Readings, State
 from hexdbb.evidence.variables import Variable
 
 Floats = NDArray[np.float64]
@@ -70,7 +70,7 @@ class Learned:
     def basis(self, state: Mapping[str, Floats]) -> list[tuple[int, Floats]]:
         """Return the functions at each place: column of the place's pushes and design, shape (n, columns)."""
         bounds = self.bounds(state) if self.variable.needs_bounds else None
-        found = [(column, self.variable.design(state, element, bounds)) for column, element in self.places]
+        found = [(column, _design(state, self.variable, element, bounds)) for column, element in self.places]
         if self.components == 3:
             return [(component, found[0][1]) for component in range(3)]
         return found
@@ -87,6 +87,17 @@ class Learned:
         designs = [found[0][1]] if self.components == 3 else [design for _, design in found]
         square = np.mean([design.T @ design for design in designs], axis=0) / len(readings)
         return Space(self, signature, square)
+
+
+def _design(state: Mapping[str, Floats], variable: Variable, element: int, bounds: tuple[float, float] | None) -> Floats:
+    """Return a variable's design, kept while its state lives: places share their variables."""
+    if not isinstance(state, State):
+        return variable.design(state, element, bounds)
+    key = (variable, element, bounds)
+    if key not in state.designs:
+        state.designs[key] = variable.design(state, element, bounds).astype(np.float32)
+    found: Floats = state.designs[key]
+    return found
 
 
 @dataclass(frozen=True, eq=False)

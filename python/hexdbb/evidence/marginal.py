@@ -20,11 +20,16 @@ from scipy.special import logsumexp
 Floats = NDArray[np.float64]
 
 
+SEEN = 0.05
+"""Directions of a prior of which the readings tell less than this part of a value's worth are left out of full fits."""
+
+
 @dataclass(frozen=True, eq=False)
 class Marginal:
     """Log evidence over the base, averaged over the grid; the grid's best point and the coefficients there.
 
-    `best` is the place of the prior factor and of the size in their grids.
+    `best` is the place of the prior factor and of the size in their grids; `seen` is the factor turned to its own
+    axes, those left out that the readings do not see: shape (k, r).
     """
 
     log_evidence: float
@@ -32,6 +37,7 @@ class Marginal:
     size: float
     factor: Floats
     coefficients: Floats
+    seen: Floats
 
 
 def marginal(
@@ -78,7 +84,15 @@ def marginal(
         size=size,
         factor=factors[best[0]],
         coefficients=coefficients,
+        seen=factors[best[0]] @ vectors[:, _seen(size**2 * values * temper)],
     )
+
+
+def _seen(strength: Floats) -> NDArray[np.bool_]:
+    found: NDArray[np.bool_] = strength > SEEN
+    if not found.any():
+        found = strength >= strength.max()
+    return found
 
 
 def solved(information: Floats, gradient: Floats, factor: Floats, size: float) -> Floats:

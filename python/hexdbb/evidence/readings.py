@@ -11,7 +11,7 @@ few neighbouring ones where sampling is dense (`engine.py`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +22,14 @@ Ints = NDArray[np.intp]
 
 GROUPINGS = ("circle", "feed", "direction", "lap")
 """What may be held out as a whole, in the order in which results are reported."""
+
+
+class State(dict[str, Floats]):
+    """Variables by name, with the designs that were made of them."""
+
+    def __init__(self, columns: Mapping[str, Floats]) -> None:
+        super().__init__(columns)
+        self.designs: dict[Hashable, Floats] = {}
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -77,17 +77,16 @@ class Screen:
             found.append((training, cells, squared_error(self.sums, cells, training.own_values(), None, None)))
         return found
 
-    def learned(self, hypotheses: Sequence[Learned] | None = None) -> list[Scored]:
-        """Score learned hypotheses; all where none are given."""
+    def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
+        """Score learned hypotheses, the largest evidence first."""
         readings = self.sums.readings
         scored = []
-        for each in learned_hypotheses(readings) if hypotheses is None else hypotheses:
+        for each in hypotheses:
             space = each.space(self.sums.linear, readings)
             block = self.sums.block(space.signature)
             levels = self.criteria.roughness if each.variable.is_smooth else self.criteria.roughness[:1]
-            factors = [space.prior_factor(level) for level in levels]
-            scored.append(self._scored(each, block, factors, self.sizes_mm))
-        return scored
+            scored.append((self._scored(each, block, [space.prior_factor(level) for level in levels], self.sizes_mm), block))
+        return self._held_out(scored)
 
     def known(self, signatures: Floats, whose: Sequence[tuple[str, str, str, float]], kinds: set[str]) -> list[Scored]:
         """Score effects of the catalogue, element by element; `kinds` are effects that have one element only."""
@@ -97,10 +96,18 @@ class Screen:
             at = [index for index, each in enumerate(whose) if each[:2] == (effect, element)]
             own = Block(block.own[:, at][:, :, at], block.cross[:, at])
             known = Known(effect, (element,), effect in kinds)
-            scored.append(
-                self._scored(known, own, [np.eye(len(at))], np.array(self.criteria.catalogue_scale))
-            )
-        return scored
+            sizes = np.array(self.criteria.catalogue_scale)
+            scored.append((self._scored(known, own, [np.eye(len(at))], sizes), own))
+        return self._held_out(scored)
+
+    def _held_out(self, scored: list[tuple[Scored, Block]]) -> list[Scored]:
+        """Add the held-out shares of those with the largest evidence."""
+        ranked = sorted(scored, key=lambda each: -each[0].log_evidence)
+        chosen = [
+            replace(each, heldout_share=self._heldout_share(block, each.marginal))
+            for each, block in ranked[: self.criteria.held_out]
+        ]
+        return [*chosen, *(each for each, _ in ranked[self.criteria.held_out :])]
 
     def _scored(self, hypothesis: Hypothesis, block: Block, factors: list[Floats], sizes: Floats) -> Scored:
         projected = self.whole.project(block)
@@ -111,7 +118,7 @@ class Screen:
             hypothesis,
             found.log_evidence,
             (self.left - left) / self.excess,
-            self._heldout_share(block, found),
+            float("nan"),
             found,
         )
 

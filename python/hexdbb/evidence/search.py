@@ -92,6 +92,7 @@ class Search:
         """Return the best set of hypotheses; the empty one where nothing is found."""
         best, beam = self.root, [self.root]
         for _ in range(self.criteria.max_effects):
+            beam = beam[: self.criteria.max_expansions - len(self._expanded)]
             children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
             children = [child for child in children if self._is_worth(child, best)]
             beam = self._kept(children)
@@ -113,7 +114,7 @@ class Search:
     def checked(self, node: Node) -> Checked:
         """Return how a set predicts what is held out, and what speaks against it."""
         if id(node) not in self._checked:
-            self._checked[id(node)] = check(node.trial, self.root.trial, self.engine, self.criteria)
+            self._checked[id(node)] = check(node.trial, self.root.trial, self.trials, self.criteria)
         return self._checked[id(node)]
 
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
@@ -126,9 +127,9 @@ class Search:
         return (one.place, one.element) == (other.place, other.element)
 
     def _children(self, node: Node) -> list[Node]:
-        screen = Screen(Sums(node.trial.linear, self.engine.readings), self.criteria)
+        screen = Screen(Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",)), self.criteria)
         known, learned = self._screened(node.trial, screen)
-        count, found = self.criteria.full_fits, []
+        count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         for scored in (*_best(known, count), *_best(learned, count)):
             try:
                 trial = self.trials.of((*node.members, self._member(scored)))
@@ -141,12 +142,12 @@ class Search:
 
     def _screened(self, base: Trial, screen: Screen) -> tuple[list[Scored], list[Scored]]:
         present = {each.hypothesis for each in base.members}
-        signatures, whose = self.engine.signatures(base.fitted.model, self.known)
+        signatures, whose = self.engine.signatures(base.model, self.known)
         kinds = {name for name in self.known if self._is_whole(name)}
         known = [each for each in screen.known(signatures, whose, kinds) if each.hypothesis not in present]
         if not self.learns:
             return known, []
-        return known, [each for each in screen.learned(self.hypotheses) if each.hypothesis not in present]
+        return known, screen.learned([each for each in self.hypotheses if each not in present])
 
     def _is_worth(self, node: Node, best: Node) -> bool:
         """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""
@@ -184,7 +185,7 @@ class Search:
 
     def _member(self, scored: Scored) -> Member:
         if isinstance(scored.hypothesis, Learned):
-            return Member(scored.hypothesis, scored.marginal.factor, scored.marginal.size)
+            return Member(scored.hypothesis, scored.marginal.seen, scored.marginal.size)
         return Member(scored.hypothesis)
 
 
@@ -201,7 +202,8 @@ def _best(scored: list[Scored], count: int) -> list[Scored]:
         if few and each.log_evidence > 0.0:
             ranked.append(each)
     chosen = ranked[: count - count // 3]
-    rest = sorted(ranked[len(chosen) :], key=lambda each: -each.heldout_share)
+    rest = [each for each in ranked[len(chosen) :] if np.isfinite(each.heldout_share)]
+    rest.sort(key=lambda each: -each.heldout_share)
     return [*chosen, *rest[: count - len(chosen)]]
 
 

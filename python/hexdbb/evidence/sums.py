@@ -45,11 +45,13 @@ class Sums:
     ----------
     linear : Linear
     readings : Readings
+    groupings : tuple of str
+        What tells cells apart; fewer take less time.
     """
 
-    def __init__(self, linear: Linear, readings: Readings) -> None:
-        self.linear, self.readings = linear, readings
-        keys = np.column_stack([readings.groups[name] for name in GROUPINGS])
+    def __init__(self, linear: Linear, readings: Readings, groupings: tuple[str, ...] = GROUPINGS) -> None:
+        self.linear, self.readings, self.groupings = linear, readings, groupings
+        keys = np.column_stack([readings.groups[name] for name in groupings])
         self.keys, cell = np.unique(keys, axis=0, return_inverse=True)
         cell = cell.ravel()
         self._order = np.argsort(cell, kind="stable")
@@ -77,7 +79,7 @@ class Sums:
 
     def groups(self, grouping: str) -> list[Ints]:
         """Return the cells of every group of a grouping."""
-        numbers = self.keys[:, GROUPINGS.index(grouping)]
+        numbers = self.keys[:, self.groupings.index(grouping)]
         return [np.flatnonzero(numbers == each) for each in np.unique(numbers)]
 
     @cached_property

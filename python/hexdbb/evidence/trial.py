@@ -9,6 +9,7 @@ for what else is missing all have them.
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -26,8 +27,11 @@ from hexdbb.evidence.physical import outside_domain
 from hexdbb.evidence.readings import GROUPINGS, Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sums import Sums, squared_error
+from hexdbb.model import Model
 
 Floats = NDArray[np.float64]
+KEPT = 24
+"""Linearisations kept in memory: some megabytes each."""
 SHAPE_STARTS = (-1.5, 0.0, 1.5)
 """Starts of a shape parameter (a logarithm of a time), in prior standard deviations: first order cannot move it."""
 
@@ -57,9 +61,8 @@ class Trial:
     Attributes
     ----------
     members : tuple of Member
-    fitted : Fitted
-    linear : Linear
-        With the discrepancies.
+    model : Model
+        Fitted.
     log_evidence : float
     forms : tuple of Form or None
         One a member.
@@ -70,8 +73,7 @@ class Trial:
     """
 
     members: tuple[Member, ...]
-    fitted: Fitted
-    linear: Linear
+    model: Model
     log_evidence: float
     forms: tuple[Form | None, ...]
     refused: tuple[str, ...]
@@ -95,11 +97,8 @@ class Trials:
 
     def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
-        self._known: dict[tuple[frozenset[str], ...], Trial] = {}
-
-    def base(self) -> Trial:
-        """Return the trial without hypotheses."""
-        return self.of(())
+        self._known: dict[frozenset[str], Trial] = {}
+        self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
 
     def of(self, members: Sequence[Member]) -> Trial:
         """Fit a model with hypotheses.
@@ -109,10 +108,18 @@ class Trials:
         RunError
             Where the engine cannot fit it.
         """
-        key = (frozenset(f"{each.hypothesis.name} {each.size_mm:.3g}" for each in members),)
+        key = _key(members)
         if key not in self._known:
             self._known[key] = self._tried(tuple(members))
         return self._known[key]
+
+    def linear(self, trial: Trial) -> Linear:
+        """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
+        key = _key(trial.members)
+        if key not in self._linear:
+            self._tried(trial.members)
+        self._linear.move_to_end(key)
+        return self._linear[key]
 
     def _tried(self, members: tuple[Member, ...]) -> Trial:
         fitted = self._fitted(members)
@@ -126,10 +133,12 @@ class Trials:
         change = whole.own_values()
         residual = linear.residual - linear.own @ change
         gain = 0.5 * float(whole.own @ whole.own)
+        self._linear[_key(members)] = replace(linear, residual=residual, standing=linear.standing + change)
+        if len(self._linear) > KEPT:
+            self._linear.popitem(last=False)
         return Trial(
             members=members,
-            fitted=fitted,
-            linear=replace(linear, residual=residual, standing=linear.standing + change),
+            model=fitted.model,
             log_evidence=linear.log_evidence + gain + penalty + prior,
             forms=tuple(forms),
             refused=refused,
@@ -183,7 +192,11 @@ class Trials:
             width = space.signature.shape[1]
             squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
             at += width
-        form = Form(found.size, float(np.sqrt(sum(squares))) / size_mm, tuple(each.name for each in functions))
+        deviation = float(np.sqrt(sum(squares))) / size_mm
+        if deviation > self.criteria.form_limit:
+            # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
+            return linear, Form(0.0, 0.0, ())
+        form = Form(found.size, deviation, tuple(each.name for each in functions))
         columns = signature @ (factor * found.size)
         wider = replace(
             linear,
@@ -224,10 +237,15 @@ class HeldOut:
     expected: float
 
 
-def heldout(trial: Trial, base: Trial, engine: Engine) -> dict[str, HeldOut]:
+def _key(members: Sequence[Member]) -> frozenset[str]:
+    return frozenset(f"{each.hypothesis.name} {each.size_mm:.3g}" for each in members)
+
+
+def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
     """Predict every group from all others, to first order about the fits; by grouping that has two groups or more."""
-    before, after = Sums(base.linear, engine.readings), Sums(trial.linear, engine.readings)
-    found, rows = {}, len(engine.readings)
+    readings = trials.engine.readings
+    before, after = Sums(trials.linear(base), readings), Sums(trials.linear(trial), readings)
+    found, rows = {}, len(readings)
     for grouping in GROUPINGS:
         groups = before.groups(grouping)
         if len(groups) < 2:
