@@ -51,6 +51,10 @@ class Criteria:
         Sets beside which all hypotheses are screened, at most: bounds the time of a search.
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
+    leaves_structure : float
+        Mean square (noise variances) left from which a hypothesis' remainder bends geometry.
+    explained_min : float
+        Part of the unexplained that the causes named must explain together.
     form_limit : float
         Relative difference of form above which a catalogue effect is not called the cause.
     same_kind_share : float
@@ -64,7 +68,7 @@ class Criteria:
         The same over the reading error that the model explains.
     """
 
-    max_rows: int = 8000
+    max_rows: int = 12000
     form_sigma: float = 0.15
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
@@ -83,6 +87,8 @@ class Criteria:
     beam: int = 2
     max_expansions: int = 4
     complete: float = 0.02
+    leaves_structure: float = 1.3
+    explained_min: float = 0.75
     form_limit: float = 0.5
     same_kind_share: float = 0.05
     secondary: float = 1.0

@@ -25,7 +25,7 @@ from hexdbb.record import Record
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-FIRST_PORT = {"slider": 0, "leg": 6, "ball": 48, "cup": 51, "reading": 54}
+FIRST_PORT = {"slider": 0, "leg": 6, "platform_joint": 30, "ball": 48, "cup": 51, "reading": 54}
 PLACE_PORT = {**{place: place for place in FIRST_PORT}, "lateral": "slider_joint", "vertical": "slider_joint"}
 
 
@@ -83,7 +83,7 @@ class TabulatedLearned:
         tables: list[Floats] = []
         functions = self.hypothesis.variable.columns
         for column, design in self.hypothesis.basis(self.state):
-            component = column if self.hypothesis.components == 3 else 0
+            component = column % 3 if self.hypothesis.components == 3 else 0
             own = self.factor[component * functions : (component + 1) * functions]
             pushed = design @ own
             kept = np.flatnonzero(np.any(own != 0.0, axis=0))
@@ -249,7 +249,7 @@ def _pushes(sensitivity: Floats) -> dict[str, Floats]:
         "ball": parts["ball"],
         "cup": parts["cup"],
         "reading": parts["reading"].reshape(-1, 1),
-        "platform_joint": parts["platform_joint"].reshape(-1, 6, 3),
+        "platform_joint": parts["platform_joint"].reshape(len(sensitivity), 18),
     }
 
 

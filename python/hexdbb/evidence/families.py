@@ -29,7 +29,7 @@ class Learned:
     Attributes
     ----------
     place : str
-        `slider`, `leg`, `lateral`, `vertical`, `ball`, `cup`, `reading`.
+        `slider`, `leg`, `lateral`, `vertical`, `platform_joint`, `ball`, `cup`, `reading`.
     element : int
         From 1: slider, leg or guideway; `ALL` where all share the function, or there is one only.
     variable : Variable
@@ -53,12 +53,14 @@ class Learned:
             return tuple((each, each) for each in chosen)
         if self.place in ("lateral", "vertical"):
             return tuple((each, each) for each in (2 * self.element - 2, 2 * self.element - 1))
+        if self.place == "platform_joint":
+            return ((self.element - 1, self.element - 1),)
         return ((0, 0),)
 
     @property
     def components(self) -> int:
         """Number of functions: one, or one for each axis of the ball and the cup."""
-        return 3 if self.place in ("ball", "cup") else 1
+        return 3 if self.place in ("ball", "cup", "platform_joint") else 1
 
     def bounds(self, state: Mapping[str, Floats]) -> tuple[float, float]:
         """Return the range of the variable over all its elements."""
@@ -72,7 +74,8 @@ class Learned:
         bounds = self.bounds(state) if self.variable.needs_bounds else None
         found = [(column, _design(state, self.variable, element, bounds)) for column, element in self.places]
         if self.components == 3:
-            return [(component, found[0][1]) for component in range(3)]
+            first = 3 * max(self.element - 1, 0)
+            return [(first + component, found[0][1]) for component in range(3)]
         return found
 
     def space(self, linear: Linear, readings: Readings) -> Space:
@@ -89,7 +92,9 @@ class Learned:
         return Space(self, signature, square)
 
 
-def _design(state: Mapping[str, Floats], variable: Variable, element: int, bounds: tuple[float, float] | None) -> Floats:
+def _design(
+    state: Mapping[str, Floats], variable: Variable, element: int, bounds: tuple[float, float] | None
+) -> Floats:
     """Return a variable's design, kept while its state lives: places share their variables."""
     if not isinstance(state, State):
         return variable.design(state, element, bounds)
@@ -146,6 +151,9 @@ def _all(screw_lead_mm: float) -> Iterator[Learned]:
         for guideway in (1, 2, 3):
             for variable in v.OF_GUIDEWAY:
                 yield Learned(place, guideway, variable)
+    for leg in range(1, 7):
+        for variable in v.OF_PLATFORM_JOINT:
+            yield Learned("platform_joint", leg, variable)
     for place in ("ball", "cup"):
         for variable in v.OF_BALL:
             yield Learned(place, ALL, variable)

@@ -1,6 +1,7 @@
 """Where an effect of the catalogue lives: the learned hypotheses whose functions contain its form.
 
-An effect's signature is regressed on the signature of every learned hypothesis; where that explains all of it, the
+An effect's signature is regressed on the signature of every learned hypothesis, the model's own values taken out of
+both (what geometry imitates is no form); where that explains all of it, the
 effect is a function of that hypothesis' variable at that place. So it is known, of any effect and with no table, which
 functions are its form gone wrong (model discrepancy; Kennedy and O'Hagan 2001), which learned hypotheses are the same
 cause in other words, and how large the effect's push is in mm.
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.families import ALL, Learned, Space
+from hexdbb.evidence.readings import Linear
 
 Floats = NDArray[np.float64]
 
@@ -42,16 +44,22 @@ class Homes:
 
     Parameters
     ----------
+    linear : Linear
     spaces : sequence of Space
-        Of all learned hypotheses, in one linearisation.
+        Of all learned hypotheses, in this linearisation.
     """
 
-    def __init__(self, spaces: Sequence[Space]) -> None:
-        rows = len(spaces[0].signature)
+    def __init__(self, linear: Linear, spaces: Sequence[Space]) -> None:
+        rows = len(linear.residual)
         self.rows = np.unique(np.linspace(0, rows - 1, min(rows, THINNED_ROWS)).astype(np.intp))
+        own = linear.own[self.rows] * np.sqrt(rows / len(self.rows))
+        values, vectors = np.linalg.eigh(own.T @ own)
+        # Values that the readings do not see within their priors cannot imitate anything.
+        seen = values > 1.0
+        self._absorbed = own @ (vectors[:, seen] / np.sqrt(values[seen]))
         self._spaces = []
         for space in spaces:
-            thin = space.signature[self.rows]
+            thin = self._visible(space.signature[self.rows])
             values, vectors = np.linalg.eigh(thin.T @ thin)
             kept = values > 1e-9 * values[-1]
             half = vectors[:, kept] / np.sqrt(values[kept])
@@ -59,9 +67,9 @@ class Homes:
 
     def of(self, signature: Floats) -> list[Home]:
         """Return the hypotheses that contain a signature, shape (n,), the simplest first."""
-        own = signature[self.rows]
+        own = self._visible(signature[self.rows])
         total = float(own @ own)
-        if total <= 0.0:
+        if total <= 1e-9 * float(signature[self.rows] @ signature[self.rows]):
             return []
         found = []
         for space, basis, half in self._spaces:
@@ -72,6 +80,10 @@ class Homes:
         best = max((each.explained for each in found), default=0.0)
         near = [each for each in found if each.explained >= min(SAME_FORM, best - (1.0 - SAME_FORM))]
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
+
+    def _visible(self, signature: Floats) -> Floats:
+        return signature - self._absorbed @ (self._absorbed.T @ signature)
+
 
 def discrepancy(homes: Sequence[Home]) -> list[Learned]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element."""

@@ -24,6 +24,10 @@ SEEN = 0.05
 """Directions of a prior of which the readings tell less than this part of a value's worth are left out of full fits."""
 
 
+MOST_SEEN = 30
+"""Directions of a full fit, the best seen: a fit's time grows with their square."""
+
+
 @dataclass(frozen=True, eq=False)
 class Marginal:
     """Log evidence over the base, averaged over the grid; the grid's best point and the coefficients there.
@@ -89,9 +93,8 @@ def marginal(
 
 
 def _seen(strength: Floats) -> NDArray[np.bool_]:
-    found: NDArray[np.bool_] = strength > SEEN
-    if not found.any():
-        found = strength >= strength.max()
+    least = max(SEEN, float(np.sort(strength)[-min(len(strength), MOST_SEEN)]))
+    found: NDArray[np.bool_] = strength >= min(least, float(strength.max()))
     return found
 
 

@@ -71,7 +71,7 @@ class Linear:
         Values in prior standard deviations.
     pushes : mapping of str to ndarray
         S by place, noise standard deviations per mm: `slider`, `leg`, `lateral`, `vertical` (n, 6), `ball`, `cup`
-        (n, 3), `reading` (n, 1), `platform_joint` (n, 6, 3).
+        (n, 3), `reading` (n, 1), `platform_joint` (n, 18).
     """
 
     residual: Floats

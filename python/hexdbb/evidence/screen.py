@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.families import Learned, learned_hypotheses
+from hexdbb.evidence.families import Learned
 from hexdbb.evidence.marginal import Marginal, marginal, solved
 from hexdbb.evidence.sums import Block, Sums, Training, squared_error
 
@@ -85,7 +85,9 @@ class Screen:
             space = each.space(self.sums.linear, readings)
             block = self.sums.block(space.signature)
             levels = self.criteria.roughness if each.variable.is_smooth else self.criteria.roughness[:1]
-            scored.append((self._scored(each, block, [space.prior_factor(level) for level in levels], self.sizes_mm), block))
+            scored.append(
+                (self._scored(each, block, [space.prior_factor(level) for level in levels], self.sizes_mm), block)
+            )
         return self._held_out(scored)
 
     def known(self, signatures: Floats, whose: Sequence[tuple[str, str, str, float]], kinds: set[str]) -> list[Scored]:

@@ -71,7 +71,7 @@ class Search:
         linear = self.engine.linearised(self.engine.base).linear
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
-        self.homes = Homes([each.space(linear, readings) for each in self.hypotheses])
+        self.homes = Homes(linear, [each.space(linear, readings) for each in self.hypotheses])
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)

@@ -33,7 +33,7 @@ def design(values: Floats, low: float, high: float, count: int, *, periodic: boo
     Parameters
     ----------
     values : ndarray, shape (n,)
-        Rows of values that are not finite are zero; those beyond the range are taken at its end.
+        Rows of values that are not known are zero; those beyond the range are taken at its end.
     low, high : float
         Range; the period's ends where periodic.
     count : int
@@ -45,15 +45,16 @@ def design(values: Floats, low: float, high: float, count: int, *, periodic: boo
     -------
     ndarray, shape (n, count)
     """
-    known = np.isfinite(values)
-    inside = np.clip(np.where(known, values, low), low, high)
+    known = ~np.isnan(values)
+    own = knots(low, high, count)
+    inside = np.clip(np.where(known, values, low), own[DEGREE], own[count])
     if periodic:
         turns = low + np.mod(np.where(known, values, low) - low, high - low)
         wide = BSpline.design_matrix(turns, knots(low, high, count + DEGREE), DEGREE).toarray()
         wide[:, :DEGREE] += wide[:, count:]
         found: Floats = wide[:, :count]
     else:
-        found = BSpline.design_matrix(inside, knots(low, high, count), DEGREE).toarray()
+        found = BSpline.design_matrix(inside, own, DEGREE).toarray()
     found[~known] = 0.0
     return found
 

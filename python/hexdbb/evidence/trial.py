@@ -32,6 +32,8 @@ from hexdbb.model import Model
 Floats = NDArray[np.float64]
 KEPT = 24
 """Linearisations kept in memory: some megabytes each."""
+VISIBLE = 0.02
+"""Directions of a discrepancy of which geometry leaves less than this part are geometry's."""
 SHAPE_STARTS = (-1.5, 0.0, 1.5)
 """Starts of a shape parameter (a logarithm of a time), in prior standard deviations: first order cannot move it."""
 
@@ -182,6 +184,7 @@ class Trials:
         factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
         sums = Sums(linear, self.engine.readings)
         projected = sums.whole.project(sums.block(signature))
+        factor = _visible(factor, projected.information, sums.block(signature).own.sum(axis=0))
         grid = np.array(self.criteria.form_grid)
         weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
         found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
@@ -260,6 +263,20 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
         found[grouping] = HeldOut(
             float(np.sqrt(without / rows)), float(np.sqrt(error / rows)), share, float(np.sqrt(expected / rows))
         )
+    return found
+
+
+def _visible(factor: Floats, projected: Floats, whole: Floats) -> Floats:
+    """Keep the directions of a discrepancy that the model's own values do not imitate: shape (k, r)."""
+    values, vectors = np.linalg.eigh(factor.T @ whole @ factor)
+    kept = values > 1e-9 * values[-1]
+    white = factor @ (vectors[:, kept] / np.sqrt(values[kept]))
+    shares, turned = np.linalg.eigh(white.T @ projected @ white)
+    # Back in the prior's own scale: a direction's size is what it was before it was whitened.
+    own = np.sqrt(values[kept])[:, None] * turned
+    seen = shares > VISIBLE
+    axes, _ = np.linalg.qr(own[:, seen]) if seen.any() else (own[:, :0], None)
+    found: Floats = factor @ vectors[:, kept] @ axes
     return found
 
 

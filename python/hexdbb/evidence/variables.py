@@ -115,8 +115,8 @@ class Variable:
         return weight[:, None] * basis
 
     def argument(self, values: Floats) -> Floats:
-        """Return the spline's argument; nan where the column is not known."""
-        known = np.where(np.abs(values) < NEVER, values, np.nan)
+        """Return the spline's argument; nan where the column is not known, long ago where nothing ever reversed."""
+        known = np.where(np.abs(values) < NEVER, values, np.inf if self.is_log else np.nan)
         return np.log(np.maximum(known, 1e-3)) if self.is_log else known
 
     def bounds(self, state: Mapping[str, Floats], element: int) -> tuple[float, float]:
@@ -197,7 +197,16 @@ OF_SLIDER = (
     TIME_POSITION,
     WARMING,
 )
-OF_LEG = (*(each for each in OF_SLIDER if each is not FINE_POSITION), TURNING, JOINT_ANGLE, PLATFORM_TURNING, PLATFORM_ANGLE, SWING, SWING_ANGLE)
+OF_LEG = (
+    *(each for each in OF_SLIDER if each is not FINE_POSITION),
+    TURNING,
+    JOINT_ANGLE,
+    PLATFORM_TURNING,
+    PLATFORM_ANGLE,
+    SWING,
+    SWING_ANGLE,
+)
 OF_GUIDEWAY = (Variable("position", "position", "mm", 24), FINE_ALONG, TIME_POSITION)
 OF_BALL = (TIME,)
+OF_PLATFORM_JOINT = (Variable("constant", "", ""), Variable("joint_angle", "platform_joint_angle", "rad", 5))
 OF_READING = (ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, WARMING, CIRCLE_DIRECTION, FEED)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.trial import Member
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -22,6 +24,8 @@ class Found:
     hypothesis : Known or Learned
     rivals : tuple of str
         Of another kind, that explain the readings as well.
+    alike : tuple of str
+        The same effect at other elements, which explains the readings as well.
     margin : float
         Log evidence over the best set of hypotheses that has none of this kind, over what the set leaves.
     refinements : tuple of str
@@ -33,6 +37,7 @@ class Found:
     hypothesis: Hypothesis
     rivals: tuple[str, ...]
     margin: float
+    alike: tuple[str, ...] = ()
     refinements: tuple[str, ...] = ()
     deviation: float = 0.0
 
@@ -69,28 +74,48 @@ def judge(search: Search) -> Verdict:
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
+    if search.checked(node).share < search.criteria.explained_min:
+        grade = "unknown"
     return Verdict(grade, found, node, search.checked(node))
 
 
 def _in_known_words(search: Search, node: Node) -> Node:
-    """Choose, of sets that are one another in other words, the one with most known effects."""
-    if all(isinstance(each, Known) for each in node.hypotheses):
-        return node
+    """Put known effects in the place of the learned functions that contain them, where they explain nearly as much."""
     excess = search.root.trial.left - 1.0
-    best = node
-    for other in search.nodes:
-        same = len(other.members) == len(node.members) and all(
-            any(search.same_kind(one, each) for each in node.hypotheses) for one in other.hypotheses
-        )
-        near = other.trial.left - node.trial.left < search.criteria.same_kind_share * excess
-        more = _known(other) > _known(best) or (_known(other) == _known(best) and other.score > best.score)
-        if same and near and more and not other.trial.refused and not search.checked(other).reasons:
-            best = other
-    return best
+    for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
+        if learned not in node.hypotheses:
+            continue
+        at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
+        kept = tuple(each for each in node.members if each not in at_place)
+        for known in _known_for(search, [each.hypothesis.name for each in at_place]):
+            if known in node.hypotheses:
+                continue
+            try:
+                trial = search.trials.of((*kept, Member(known)))
+            except RunError:
+                continue
+            other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            if near and not trial.refused and not search.checked(other).reasons:
+                search.nodes.append(other)
+                node = other
+                break
+    return node
 
 
-def _known(node: Node) -> int:
-    return sum(isinstance(each, Known) for each in node.hypotheses)
+def _is_at(one: Hypothesis, learned: Learned) -> bool:
+    return isinstance(one, Learned) and (one.place, one.element) == (learned.place, learned.element)
+
+
+def _known_for(search: Search, names: list[str]) -> list[Known]:
+    """Return the known effects that live in one of some learned hypotheses, by what each explains of the readings."""
+    found = []
+    for name, kin in search.kin.items():
+        if kin & set(names):
+            effect, _, elements = name.partition(":")
+            whole = not elements
+            found.append(Known(effect, (elements or search.engine.base.info(effect).elements[0],), whole))
+    return found
 
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:
@@ -112,25 +137,29 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
 
 def _at_its_place(search: Search, known: Known, learned: Learned, by_name: dict[str, Learned]) -> bool:
     homes = [by_name[name] for name in search.kin.get(known.name, set())]
-    return any(
-        home.place == learned.place and (home.element == learned.element or not home.element) for home in homes
-    )
+    return any(home.place == learned.place and (home.element == learned.element or not home.element) for home in homes)
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
-    rivals, margin = [], float("inf")
+    rivals, alike, margin = [], [], float("inf")
     for other in search.nodes:
         if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
             continue
         lead = (node.score - other.score) / max(node.trial.left, 1.0)
-        if lead < max(margin, search.criteria.margin_nats) and other is not search.root:
-            if search.checked(other).reasons or _bent(search, other):
-                continue
+        is_rival = lead < max(margin, search.criteria.margin_nats) and other is not search.root
+        if is_rival and (search.checked(other).reasons or _bent(search, other)):
+            continue
+        if isinstance(cause, Known) and any(
+            isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses
+        ):
+            if lead < search.criteria.margin_nats:
+                alike.append(" + ".join(other.trial.names))
+            continue
         margin = min(margin, lead)
         if lead < search.criteria.margin_nats and other is not search.root:
             rivals.append(" + ".join(other.trial.names))
     form = node.trial.forms[node.hypotheses.index(cause)]
-    return Found(cause, tuple(rivals), margin, refinements, form.deviation if form is not None else 0.0)
+    return Found(cause, tuple(rivals), margin, tuple(alike), refinements, form.deviation if form is not None else 0.0)
 
 
 def _bent(search: Search, node: Node) -> bool:
