@@ -23,7 +23,7 @@ from tests.truth.forms.labels import Label
 from tests.truth.forms.sizes import UnreachableSizeError
 
 from hexdbb import _core
-from hexdbb.diagnosis import noise_of
+from hexdbb.discovery.judging import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
@@ -82,7 +82,7 @@ def judged(name: str, withheld: Sequence[str]) -> dict[str, Any]:
     model = knowing(new_model(record.machine), [record])
     effects = [each for each in _core.effect_names("catalogue") if each not in withheld]
     began = time.process_time()
-    search = Search(Engine([record], model, noise_of([record])), effects, DEFAULT)
+    search = Search(Engine([record], model, judging_noise([record]).noise), effects, DEFAULT)
     verdict = judge(search)
     return {
         "case": name,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -174,7 +175,7 @@ class Engine:
             standing=model.values[free] / prior,
             pushes=_pushes(_core.port_sensitivity(engine, self.samples) * weight),
         )
-        covariance = np.linalg.inv(own.T @ own + np.eye(len(free)))
+        covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
         return Fitted(model, linear, covariance, free)
 
     def signatures(self, model: Model, effects: Sequence[str]) -> tuple[Floats, list[tuple[str, str, str, float]]]:
@@ -225,7 +226,7 @@ def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
     begin = np.concatenate(
         [
             np.linspace(first, last, max(1, round((last - first) / length)) + 1)[:-1].round()
-            for first, last in zip(edges[:-1], edges[1:], strict=True)
+            for first, last in pairwise(edges)
         ]
     ).astype(np.intp)
     return begin, np.diff(np.append(begin, len(sweep)))

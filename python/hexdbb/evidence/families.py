@@ -83,10 +83,7 @@ class Learned:
         sensitivity = linear.pushes[self.place]
         found = self.basis(readings.state)
         parts = [sensitivity[:, [column]] * design for column, design in found]
-        if self.components == 3:
-            signature = np.hstack(parts)
-        else:
-            signature = parts[0] if len(parts) == 1 else np.sum(parts, axis=0)
+        signature = np.hstack(parts) if self.components == 3 else sum(parts[1:], parts[0])
         designs = [found[0][1]] if self.components == 3 else [design for _, design in found]
         square = np.mean([design.T @ design for design in designs], axis=0) / len(readings)
         return Space(self, signature, square)

@@ -82,7 +82,8 @@ class Homes:
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
     def _visible(self, signature: Floats) -> Floats:
-        return signature - self._absorbed @ (self._absorbed.T @ signature)
+        left: Floats = signature - self._absorbed @ (self._absorbed.T @ signature)
+        return left
 
 
 def discrepancy(homes: Sequence[Home]) -> list[Learned]:

@@ -7,6 +7,8 @@ central differences along each sweep.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -60,7 +62,7 @@ def _rates(angle_rad: Floats, time_s: Floats, sweep: NDArray[np.integer]) -> Flo
     """Differentiate along each sweep; nought where a sweep has one sample."""
     rate = np.zeros_like(angle_rad)
     edges = np.concatenate([[0], np.flatnonzero(np.diff(sweep)) + 1, [len(sweep)]])
-    for first, last in zip(edges[:-1], edges[1:], strict=True):
+    for first, last in pairwise(edges):
         if last - first > 1:
             rate[first:last] = np.gradient(angle_rad[first:last], time_s[first:last], axis=0)
     return rate

@@ -78,13 +78,13 @@ def marginal(
         grown = 1.0 + squares * values
         table[row] = 0.5 * np.sum(squares * along**2 / grown - np.log(grown), axis=1) + log_weights
         parts.append((values, vectors, along))
-    best = np.unravel_index(int(np.argmax(table)), table.shape)
+    best = divmod(int(np.argmax(table)), len(sizes))
     size = float(sizes[best[1]])
     values, vectors, along = parts[best[0]]
     coefficients = factors[best[0]] @ (vectors @ (size**2 * along / (1.0 + size**2 * values)))
     return Marginal(
         log_evidence=float(logsumexp(table)) - float(np.log(len(factors))),
-        best=(int(best[0]), int(best[1])),
+        best=best,
         size=size,
         factor=factors[best[0]],
         coefficients=coefficients,

@@ -23,7 +23,7 @@ DEGREE = 3
 def knots(low: float, high: float, count: int) -> Floats:
     """Return equal knots, shape (count + 4,), whose `count` cubic B-splines sum to one from `low` to `high`."""
     step = (high - low) / (count - DEGREE)
-    found: Floats = low + step * np.arange(-DEGREE, count + 1)
+    found: Floats = low + step * np.arange(-DEGREE, count + 1, dtype=np.float64)
     return found
 
 

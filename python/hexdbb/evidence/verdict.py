@@ -87,6 +87,7 @@ def _in_known_words(search: Search, node: Node) -> Node:
             continue
         at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
         kept = tuple(each for each in node.members if each not in at_place)
+        others = []
         for known in _known_for(search, [each.hypothesis.name for each in at_place]):
             if known in node.hypotheses:
                 continue
@@ -94,12 +95,12 @@ def _in_known_words(search: Search, node: Node) -> Node:
                 trial = search.trials.of((*kept, Member(known)))
             except RunError:
                 continue
-            other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
             near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
-            if near and not trial.refused and not search.checked(other).reasons:
-                search.nodes.append(other)
-                node = other
-                break
+            if near and not trial.refused:
+                others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
+        others.sort(key=lambda each: -each.score)
+        search.nodes += others
+        node = next((each for each in others if not search.checked(each).reasons), node)
     return node
 
 
