@@ -111,6 +111,17 @@ class Search:
             self.nodes += self._expanded[key]
         return self._expanded[key]
 
+    def node(self, members: Sequence[Member], near: Node) -> Node:
+        """Return the node of a set, its score told from that of a near one where it was not reached by a step."""
+        trial = self.trials.of(tuple(members))
+        for each in self.nodes:
+            if each.trial is trial:
+                return each
+        prior = float(np.log(len(self.hypotheses))) * (len(near.members) - len(trial.members))
+        found = Node(trial, near.score + trial.log_evidence - near.trial.log_evidence + prior)
+        self.nodes.append(found)
+        return found
+
     def checked(self, node: Node) -> Checked:
         """Return how a set predicts what is held out, and what speaks against it."""
         if id(node) not in self._checked:

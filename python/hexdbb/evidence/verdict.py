@@ -12,6 +12,8 @@ from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import Member
 
+MOST_ROUNDS = 2
+"""Exchanges of causes, lest two take turns."""
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
 
@@ -65,11 +67,7 @@ def judge(search: Search) -> Verdict:
     if node is search.root:
         left = search.root.trial.left
         return Verdict("none" if left < 1.05 else "unknown", (), node, None)
-    if len(node.members) > 1:
-        for member in node.members:
-            others = tuple(each for each in node.members if each is not member)
-            rest = search.trials.of(others)
-            search.expand(next((each for each in search.nodes if each.trial is rest), Node(rest, 0.0)))
+    node = _settled(search, node)
     causes, refinements = _grouped(search, node)
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
     grades = [each.grade for each in found]
@@ -77,6 +75,29 @@ def judge(search: Search) -> Verdict:
     if search.checked(node).share < search.criteria.explained_min:
         grade = "unknown"
     return Verdict(grade, found, node, search.checked(node))
+
+
+def _settled(search: Search, node: Node) -> Node:
+    """Take each cause out of a set and look again beside the others, until no set explains the readings better.
+
+    An early choice may have stood in for what came later: it is exchanged, or left out where it is needed no more.
+    """
+    for _ in range(MOST_ROUNDS):
+        if len(node.members) < 2:
+            return node
+        for member in node.members:
+            others = tuple(each for each in node.members if each is not member)
+            search.expand(search.node(others, near=node))
+        better = sorted((each for each in search.nodes if each.score > node.score), key=lambda each: -each.score)
+        chosen = next((each for each in better if _is_admissible(search, each)), None)
+        if chosen is None:
+            return node
+        node = _in_known_words(search, chosen)
+    return node
+
+
+def _is_admissible(search: Search, node: Node) -> bool:
+    return not node.trial.refused and not search.checked(node).reasons
 
 
 def _in_known_words(search: Search, node: Node) -> Node:
