@@ -1,0 +1,44 @@
+"""What speaks against a hypothesis: its values, its form, what it does not predict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.trial import HeldOut, Trial, Trials, heldout
+
+WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
+EXTRAPOLATES = 2.0
+"""Held-out error over fitted error of the base from which a group lies outside what the others determine."""
+
+
+@dataclass(frozen=True)
+class Checked:
+    """Prediction by grouping, the share explained where fitted, and reasons of refusal."""
+
+    heldout: Mapping[str, HeldOut]
+    share: float
+    reasons: tuple[str, ...]
+
+
+def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
+    """Check a trial against the model without its hypotheses.
+
+    A grouping refuses it where the share explained falls by more than `Criteria.heldout_share_min` and the error is
+    larger than the fit to the other groups expects of itself (`Criteria.heldout_ratio`): that few circles determine a
+    value badly is no reason. Nor is it one that a form not quite right, whose remainder geometry bends after, does not
+    predict circles that geometry alone does not predict either.
+    """
+    predicted = heldout(trial, base, trials)
+    excess = base.left - 1.0
+    share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
+    reasons = []
+    for grouping, held in predicted.items():
+        extrapolates = held.before > EXTRAPOLATES * base.left**0.5
+        if extrapolates and trial.left > criteria.leaves_structure:
+            continue
+        expected = held.expected * max(trial.left, 1.0) ** 0.5
+        if held.share < criteria.heldout_share_min * share and held.after > criteria.heldout_ratio * expected:
+            reasons.append(f"does not predict {WORDS[grouping]}")
+    return Checked(predicted, share, tuple(reasons))

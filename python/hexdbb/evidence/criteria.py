@@ -1,0 +1,99 @@
+"""Every constant that decides: what it controls, and why it has its value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """Constants of the search and the verdict.
+
+    Attributes
+    ----------
+    max_rows : int
+        Rows of the linear screening; denser samples are averaged in blocks, whose length stays below a degree of the
+        circle at two feeds, two directions and two laps of seven circles.
+    form_sigma : float
+        Standard deviation (half-normal) of the relative difference between an effect's form and the machine's.
+    form_grid : tuple of float
+        Relative differences over which the evidence is averaged.
+    temper : float
+        Part of the unexplained RMS that counts as noise while screening: first-order signatures are not exact, and a
+        form of this relative difference must not exclude its effect.
+    roughness : tuple of float
+        Penalties over which the evidence of a spline is averaged: white coefficients to nearly a parabola.
+    size_um : tuple of float
+        Sizes of a learned function over which the evidence is averaged: smallest, largest, number (geometric).
+    catalogue_scale : tuple of float
+        Multiples of an effect's prior standard deviation over which its evidence is averaged in the screening.
+    detect_nats : float
+        Log evidence over the base (multiplicity included) below which nothing is named.
+    margin_nats : float
+        Log evidence by which the named must exceed the best rival of another kind.
+    domain_sigmas : float
+        A value this many standard deviations outside its physical domain refuses a hypothesis.
+    full_fits : int
+        Hypotheses of each kind that get a full fit.
+    later_fits : int
+        The same beside hypotheses already found.
+    held_out : int
+        Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
+    max_effects : int
+        Effects looked for at once.
+    heldout_share_min : float
+        Part of the share explained where fitted that must be explained where held out.
+    heldout_ratio : float
+        Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
+    beam : int
+        Sets of hypotheses that are followed where one does not explain all.
+    max_expansions : int
+        Sets beside which all hypotheses are screened, at most: bounds the time of a search.
+    complete : float
+        Part of what was unexplained that may be left where the search for a further cause is not widened.
+    leaves_structure : float
+        Mean square (noise variances) left from which a hypothesis' remainder bends geometry.
+    explained_min : float
+        Part of the unexplained that the causes named must explain together.
+    form_limit : float
+        Relative difference of form above which a catalogue effect is not called the cause.
+    same_kind_share : float
+        Part of the unexplained by which a known effect may lag behind the learned function that contains it.
+    secondary : float
+        Factor on the variance that the forms of the causes found may leave, which a further cause must exceed.
+    matters_of_noise : float
+        Unexplained RMS over the noise of one reading below which it does not matter by default: the circle's form is
+        then told by the noise, not by what is missing.
+    matters_of_explained : float
+        The same over the reading error that the model explains.
+    """
+
+    max_rows: int = 12000
+    form_sigma: float = 0.15
+    form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
+    temper: float = 0.1
+    roughness: tuple[float, ...] = (1.0, 30.0, 1000.0)
+    size_um: tuple[float, float, int] = (0.03, 3000.0, 26)
+    catalogue_scale: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0, 10.0)
+    detect_nats: float = 5.0
+    margin_nats: float = 5.0
+    domain_sigmas: float = 3.0
+    full_fits: int = 5
+    later_fits: int = 3
+    held_out: int = 30
+    max_effects: int = 4
+    heldout_share_min: float = 0.5
+    heldout_ratio: float = 1.5
+    beam: int = 2
+    max_expansions: int = 4
+    complete: float = 0.02
+    leaves_structure: float = 1.3
+    explained_min: float = 0.75
+    form_limit: float = 0.5
+    same_kind_share: float = 0.05
+    secondary: float = 1.0
+    matters_of_noise: float = 0.25
+    matters_of_explained: float = 0.001
+
+
+DEFAULT = Criteria()

@@ -1,0 +1,286 @@
+"""From records and models to plain arrays, and back: the one file that knows the engine and the tables of samples."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.diagnosis import Noise, evaluate_fit
+from hexdbb.effects.shapes import SHAPES
+from hexdbb.errors import RunError
+from hexdbb.evidence.criteria import DEFAULT, Criteria
+from hexdbb.evidence.families import Learned
+from hexdbb.evidence.joints import joint_state
+from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.machine import MachineFile
+from hexdbb.measured import Measured, measured
+from hexdbb.model import Model, new_term
+from hexdbb.record import Record
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+FIRST_PORT = {"slider": 0, "leg": 6, "platform_joint": 30, "ball": 48, "cup": 51, "reading": 54}
+PLACE_PORT = {**{place: place for place in FIRST_PORT}, "lateral": "slider_joint", "vertical": "slider_joint"}
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A model fitted to the rows, linear about the fit."""
+
+    model: Model
+    linear: Linear
+    covariance: Floats
+    """Of the free values, in prior standard deviations."""
+    free: Ints
+    """Places of the free values in the model's."""
+
+
+@dataclass(frozen=True)
+class TabulatedLearned:
+    """A learned hypothesis as an effect of the engine: its coefficients in the prior's own axes.
+
+    `size_mm` is the prior standard deviation of each, `factor` T (`families.py`).
+    """
+
+    hypothesis: Learned
+    factor: Floats
+    size_mm: float
+    state: Mapping[str, Floats] = field(repr=False)
+    rows: Ints = field(repr=False)
+
+    @property
+    def name(self) -> str:
+        """Name in the model."""
+        return self.hypothesis.name
+
+    def info(self) -> _core.EffectInfo:
+        """Describe it as the engine's own are described."""
+        size = self.size_mm
+        values = [
+            _core.ParameterInfo(name=f"z{k}", unit="mm", prior_sigma=size, limit=1e3 * size)
+            for k in range(self.factor.shape[1])
+        ]
+        return _core.EffectInfo(
+            name=self.name,
+            physics="A function learned from readings.",
+            source="learned",
+            element_kind="machine",
+            elements=["1"],
+            parameters=values,
+            ports=[PLACE_PORT[self.hypothesis.place]],
+        )
+
+    def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
+        """Append it, values zero, to a model that is to predict these samples, or a part of them."""
+        values: list[int] = []
+        ports: list[int] = []
+        tables: list[Floats] = []
+        functions = self.hypothesis.variable.columns
+        for column, design in self.hypothesis.basis(self.state):
+            component = column % 3 if self.hypothesis.components == 3 else 0
+            own = self.factor[component * functions : (component + 1) * functions]
+            pushed = design @ own
+            kept = np.flatnonzero(np.any(own != 0.0, axis=0))
+            for port, weight in _ports(self.hypothesis.place, column):
+                for value in kept:
+                    values.append(int(value))
+                    ports.append(port)
+                    tables.append(weight * pushed[:, value])
+        table = np.zeros((samples.size, len(values)))
+        table[self.rows] = np.column_stack(tables)
+        engine.add_tabulated(self.info(), values=values, ports=ports, per_unit=table)
+
+
+class Engine:
+    """Records prepared for evidence: rows, groups, state, and fits of models to the rows.
+
+    Parameters
+    ----------
+    records : sequence of Record, or Measured
+    model : Model
+        Of whose mounts the records are.
+    noise : Noise
+    criteria : Criteria
+    """
+
+    def __init__(
+        self, records: Sequence[Record] | Measured, model: Model, noise: Noise, criteria: Criteria = DEFAULT
+    ) -> None:
+        self.taken, self.noise = measured(records, model), noise
+        self.machine = model.machine
+        self.base, result = evaluate_fit(self.taken, model, model.free, noise, judging=True)
+        self.residual_mm = result.residual_mm
+        self.blocks = _blocks(self.taken.sweep, criteria.max_rows)
+        begin, count = self.blocks
+        self.rows: Ints = begin + count // 2
+        self.samples = self.taken.samples.rows(self.rows)
+        averaged = np.add.reduceat(self.residual_mm, begin) / count
+        self.reading_mm = self.taken.reading_mm[self.rows] - self.residual_mm[self.rows] + averaged
+        self.sweep = self.taken.sweep[self.rows]
+        self.row_noise_mm = noise.sigma_mm / np.sqrt(count)
+
+    @cached_property
+    def readings(self) -> Readings:
+        """State, groups and noise of the rows."""
+        known = self.samples.state
+        state = _state(known, self.samples.sliders_mm, self.machine)
+        groups = {
+            "circle": _codes(known["circle"]),
+            "feed": _codes(known["feed_mm_s"]),
+            "direction": _codes(known["direction"]),
+            "lap": _codes(known["lap"]),
+            "sweep": _codes(known["sweep"]),
+        }
+        return Readings(state, groups, self.row_noise_mm, self.machine.sliders.screw_lead_mm)
+
+    def fit(self, model: Model) -> Fitted:
+        """Fit a model's free values to the rows and linearise about the fit.
+
+        Raises
+        ------
+        RunError
+            Where the fit did not end in a usable solution.
+        """
+        result = _core.fit(
+            model.engine(self.taken.whole),
+            self.samples,
+            self.reading_mm,
+            noise_mm=float(np.mean(self.row_noise_mm)),
+            free=[bool(each) for each in model.free],
+            sweep=self.sweep,
+            judging=True,
+        )
+        if not result.usable:
+            raise RunError(f"the fit did not succeed: {result.termination}")
+        unknown = np.full(len(result.values), np.nan)
+        return self.linearised(model.with_values(result.values, unknown, np.zeros(len(unknown), bool)))
+
+    def linearised(self, model: Model) -> Fitted:
+        """Linearise the rows about a model as it is."""
+        prediction = _core.predict(engine := model.engine(self.taken.whole), self.samples, want_jacobian=True)
+        free = np.flatnonzero(model.free)
+        prior = prior_sigmas(model)[free]
+        weight = 1.0 / self.row_noise_mm[:, None]
+        own = prediction.jacobian[:, free] * prior * weight
+        linear = Linear(
+            residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
+            own=own,
+            standing=model.values[free] / prior,
+            pushes=_pushes(_core.port_sensitivity(engine, self.samples) * weight),
+        )
+        covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
+        return Fitted(model, linear, covariance, free)
+
+    def signatures(self, model: Model, effects: Sequence[str]) -> tuple[Floats, list[tuple[str, str, str, float]]]:
+        """Return first-order signatures of absent effects, per prior standard deviation.
+
+        Returns
+        -------
+        signatures : ndarray, shape (n, k)
+        whose : list of (effect, element, parameter, prior standard deviation)
+        """
+        present = {term.effect for term in model.terms}
+        terms = [new_term(name, model.info(name).size, free=False) for name in effects if name not in present]
+        full = replace(model, terms=(*model.terms, *terms))
+        jacobian = _core.predict(full.engine(self.taken.whole), self.samples, want_jacobian=True).jacobian
+        wanted = [
+            (index, each)
+            for index, each in enumerate(full.parameters())
+            if each.effect in effects and not full.free[index] and not each.is_shape
+        ]
+        columns = [index for index, _ in wanted]
+        sigmas = np.array([each.prior_sigma for _, each in wanted])
+        table: Floats = jacobian[:, columns] * sigmas / self.row_noise_mm[:, None]
+        return table, [(each.effect, each.element, each.name, each.prior_sigma) for _, each in wanted]
+
+    def with_effect(self, model: Model, effect: str, elements: Sequence[str]) -> Model:
+        """Return the model with some elements of an effect of the catalogue free as well, at zero."""
+        if effect not in {term.effect for term in model.terms}:
+            model = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
+        freed = [each.effect == effect and each.element in elements for each in model.parameters()]
+        return model.with_free(model.free | np.array(freed))
+
+    def with_learned(self, model: Model, hypothesis: Learned, factor: Floats, size_mm: float, name: str = "") -> Model:
+        """Return the model with a learned hypothesis, its coefficients free, at zero."""
+        own = TabulatedLearned(hypothesis, factor, size_mm, self.readings.state, self.rows)
+        wider = model.knowing_effects([own])
+        return replace(wider, terms=(*wider.terms, new_term(own.name, factor.shape[1])))
+
+
+def prior_sigmas(model: Model) -> Floats:
+    """Return the prior standard deviations of a model's values, shape (size,)."""
+    return np.array([each.prior_sigma for each in model.parameters()])
+
+
+def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
+    """Cut sweeps into blocks of neighbouring readings: first row and length of each."""
+    length = max(1, int(np.ceil(len(sweep) / max_rows)))
+    edges = np.concatenate([[0], np.flatnonzero(np.diff(sweep)) + 1, [len(sweep)]])
+    begin = np.concatenate(
+        [
+            np.linspace(first, last, max(1, round((last - first) / length)) + 1)[:-1].round()
+            for first, last in pairwise(edges)
+        ]
+    ).astype(np.intp)
+    return begin, np.diff(np.append(begin, len(sweep)))
+
+
+def _codes(values: NDArray[np.generic]) -> Ints:
+    codes: Ints = np.unique(values, return_inverse=True)[1].ravel()
+    return codes
+
+
+def _pushes(sensitivity: Floats) -> dict[str, Floats]:
+    widths = [int(np.prod(shape, dtype=int)) for shape in SHAPES.values()]
+    parts = dict(zip(SHAPES, np.split(sensitivity, np.cumsum(widths)[:-1], axis=1), strict=True))
+    across = np.array([_core.guideway_axes(slider // 2) for slider in range(6)])
+    local = np.einsum("nki,kij->nkj", parts["slider_joint"].reshape(-1, 6, 3), across)
+    return {
+        "slider": parts["slider"],
+        "leg": parts["leg"],
+        "lateral": local[..., 0],
+        "vertical": local[..., 2],
+        "ball": parts["ball"],
+        "cup": parts["cup"],
+        "reading": parts["reading"].reshape(-1, 1),
+        "platform_joint": parts["platform_joint"].reshape(len(sensitivity), 18),
+    }
+
+
+def _ports(place: str, column: int) -> list[tuple[int, float]]:
+    """Return the engine's port columns of a place's column, each with its weight."""
+    if place in FIRST_PORT:
+        return [(FIRST_PORT[place] + column, 1.0)]
+    axis = _core.guideway_axes(column // 2)[:, 0 if place == "lateral" else 2]
+    return [(12 + 3 * column + base, float(axis[base])) for base in range(3) if axis[base] != 0.0]
+
+
+def _state(known: Mapping[str, NDArray[np.generic]], sliders_mm: Floats, machine: MachineFile) -> State:
+    time_s = np.asarray(known["time_s"], np.float64)
+    passed = (time_s - time_s.min()) / max(float(np.ptp(time_s)), 1e-9)
+    state = {
+        "position": sliders_mm,
+        "velocity": known["velocity_mm_s"],
+        "acceleration": known["acceleration_mm_s2"],
+        "direction": known["side"],
+        "since_reversal_s": known["since_reversal_s"],
+        "since_reversal_mm": known["since_reversal_mm"],
+        "leg_force": known["leg_force"],
+        "time": time_s,
+        "elapsed": passed - passed.mean(),
+        "feed": known["feed_mm_s"],
+        "polar_angle": known["angle_rad"],
+        "circle_direction": known["direction"],
+        "nominal_reading": known["nominal_reading_mm"],
+    }
+    if np.isfinite(known["warming_k"]).all():
+        state["warming"] = known["warming_k"]
+    state |= joint_state(machine, sliders_mm, time_s, np.asarray(known["sweep"]), np.asarray(known["angle_rad"]))
+    return State({name: np.asarray(values, np.float64) for name, values in state.items()})

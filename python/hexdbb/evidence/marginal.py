@@ -1,0 +1,105 @@
+"""Marginal likelihood of a signature whose coefficients have a Gaussian prior, and its hyperparameters.
+
+With coefficients T z, z ~ N(0, tau^2 I), and A, b of `sums.py`,
+
+    ln evidence over the base = -1/2 ln det(I + tau^2 T'A T) + 1/2 tau^2 b'T (I + tau^2 T'A T)^-1 T'b,
+
+diagonal in the eigenvectors of T'A T, so that all sizes tau cost one decomposition. Size and smoothness are averaged
+over a grid (`Criteria`), which is REML with its own uncertainty counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import logsumexp
+
+Floats = NDArray[np.float64]
+
+
+SEEN = 0.05
+"""Directions of a prior of which the readings tell less than this part of a value's worth are left out of full fits."""
+
+
+MOST_SEEN = 30
+"""Directions of a full fit, the best seen: a fit's time grows with their square."""
+
+
+@dataclass(frozen=True, eq=False)
+class Marginal:
+    """Log evidence over the base, averaged over the grid; the grid's best point and the coefficients there.
+
+    `best` is the place of the prior factor and of the size in their grids; `seen` is the factor turned to its own
+    axes, those left out that the readings do not see: shape (k, r).
+    """
+
+    log_evidence: float
+    best: tuple[int, int]
+    size: float
+    factor: Floats
+    coefficients: Floats
+    seen: Floats
+
+
+def marginal(
+    information: Floats,
+    gradient: Floats,
+    factors: Sequence[Floats],
+    sizes: Floats,
+    weights: Floats | None = None,
+    temper: float = 1.0,
+) -> Marginal:
+    """Average the evidence of a signature over prior factors and sizes.
+
+    Parameters
+    ----------
+    information, gradient : ndarray, shapes (k, k), (k,)
+        A and b.
+    factors : sequence of ndarray, shape (k, k)
+        T, each as probable as the others.
+    sizes : ndarray, shape (m,)
+        tau.
+    weights : ndarray, shape (m,), optional
+        Probability of each size; equal where not given.
+    temper : float
+        Variance that stands for the noise's one.
+    """
+    log_weights = np.full(len(sizes), -np.log(len(sizes))) if weights is None else np.log(weights)
+    table = np.empty((len(factors), len(sizes)))
+    parts = []
+    squares = np.asarray(sizes)[:, None] ** 2
+    for row, factor in enumerate(factors):
+        values, vectors = np.linalg.eigh(factor.T @ information @ factor / temper)
+        values = np.maximum(values, 0.0)
+        along = vectors.T @ (factor.T @ gradient) / temper
+        grown = 1.0 + squares * values
+        table[row] = 0.5 * np.sum(squares * along**2 / grown - np.log(grown), axis=1) + log_weights
+        parts.append((values, vectors, along))
+    best = divmod(int(np.argmax(table)), len(sizes))
+    size = float(sizes[best[1]])
+    values, vectors, along = parts[best[0]]
+    coefficients = factors[best[0]] @ (vectors @ (size**2 * along / (1.0 + size**2 * values)))
+    return Marginal(
+        log_evidence=float(logsumexp(table)) - float(np.log(len(factors))),
+        best=best,
+        size=size,
+        factor=factors[best[0]],
+        coefficients=coefficients,
+        seen=factors[best[0]] @ vectors[:, _seen(size**2 * values * temper)],
+    )
+
+
+def _seen(strength: Floats) -> NDArray[np.bool_]:
+    least = max(SEEN, float(np.sort(strength)[-min(len(strength), MOST_SEEN)]))
+    found: NDArray[np.bool_] = strength >= min(least, float(strength.max()))
+    return found
+
+
+def solved(information: Floats, gradient: Floats, factor: Floats, size: float) -> Floats:
+    """Return the most probable coefficients for one prior, shape (k,)."""
+    inner = factor.T @ information @ factor + np.eye(factor.shape[1]) / size**2
+    found: Floats = factor @ np.linalg.solve(inner, factor.T @ gradient)
+    return found

@@ -1,0 +1,58 @@
+"""What values are physically possible, and what a value outside costs.
+
+A parameter with a one-sided domain has a half-normal prior. Against the two-sided normal of the fit its evidence is
+multiplied by 2 Phi(value / sigma): a value well inside gains a factor of two, one outside loses everything.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy import stats
+
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.engine import Fitted, prior_sigmas
+from hexdbb.evidence.families import Learned
+from hexdbb.evidence.screen import Known
+from hexdbb.units import shown_factor, shown_unit
+
+NOT_NEGATIVE = {
+    ("backlash", "play"),
+    ("reversal_spike", "height"),
+    ("servo_lag", "lag"),
+    ("gravity_sag", "compliance"),
+    ("sample_delay", "delay"),
+}
+"""Until the engine states domains (`lower`, `upper`)."""
+
+
+def outside_domain(
+    fitted: Fitted, hypotheses: Sequence[Known | Learned], criteria: Criteria
+) -> tuple[tuple[str, ...], float]:
+    """Check the values of hypotheses.
+
+    Returns
+    -------
+    refused : tuple of str
+        Reasons: `negative play of slider 2 (-3.7 µm)`.
+    log_evidence : float
+        Change of the log evidence by the one-sided priors and by values beyond their limits.
+    """
+    parameters, sigmas = fitted.model.parameters(), prior_sigmas(fitted.model)
+    spread = np.sqrt(np.diag(fitted.covariance))
+    known = {(each.effect, element) for each in hypotheses if isinstance(each, Known) for element in each.elements}
+    refused, change = [], 0.0
+    for place, column in enumerate(fitted.free):
+        each = parameters[column]
+        if (each.effect, each.element) not in known:
+            continue
+        value, sigma = float(fitted.model.values[column]), float(spread[place] * sigmas[column])
+        shown = f"{value * shown_factor(each.unit):.3g} {shown_unit(each.unit)}"
+        if (each.effect, each.name) in NOT_NEGATIVE:
+            change += float(np.log(2.0) + stats.norm.logcdf(value / sigma))
+            if value < -criteria.domain_sigmas * sigma:
+                refused.append(f"negative {each.name} ({each.element}: {shown})")
+        if abs(value) > each.limit:
+            refused.append(f"{each.name} beyond its limit ({each.element}: {shown})")
+    return tuple(refused), change

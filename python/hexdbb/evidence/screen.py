@@ -1,0 +1,137 @@
+"""Every hypothesis at once, to first order: marginal likelihood and prediction of circles left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.families import Learned
+from hexdbb.evidence.marginal import Marginal, marginal, solved
+from hexdbb.evidence.sums import Block, Sums, Training, squared_error
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Known:
+    """A hypothesis of the catalogue or of the user's file: an effect and some of its elements."""
+
+    effect: str
+    elements: tuple[str, ...]
+    is_whole: bool = False
+
+    @property
+    def name(self) -> str:
+        """Name, as `hexdbb add` takes it."""
+        return self.effect if self.is_whole else f"{self.effect}:{','.join(self.elements)}"
+
+
+Hypothesis = Known | Learned
+
+
+@dataclass(frozen=True, eq=False)
+class Scored:
+    """A hypothesis screened: log evidence over the base (tempered), explained shares, and its most probable size."""
+
+    hypothesis: Hypothesis
+    log_evidence: float
+    share: float
+    heldout_share: float
+    marginal: Marginal
+
+
+class Screen:
+    """Scores hypotheses on one linearisation.
+
+    Parameters
+    ----------
+    sums : Sums
+    criteria : Criteria
+    """
+
+    def __init__(self, sums: Sums, criteria: Criteria) -> None:
+        self.sums, self.criteria = sums, criteria
+        own = self.whole.own_values()
+        self.left = squared_error(sums, self.whole.cells, own, None, None)
+        self.excess = max(self.left - self.whole.rows, 1e-9)
+        self.temper = 1.0 + criteria.temper**2 * self.excess / self.whole.rows
+        smallest, largest, count = criteria.size_um
+        self.sizes_mm = np.geomspace(smallest * 1e-3, largest * 1e-3, count)
+
+    @property
+    def whole(self) -> Training:
+        """All rows."""
+        return self.sums.whole
+
+    @cached_property
+    def folds(self) -> list[tuple[Training, NDArray[np.intp], float]]:
+        """Circle by circle: training set without it, its cells, and the base's squared error there."""
+        found = []
+        for cells in self.sums.groups("circle"):
+            training = self.sums.without(cells)
+            found.append((training, cells, squared_error(self.sums, cells, training.own_values(), None, None)))
+        return found
+
+    def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
+        """Score learned hypotheses, the largest evidence first."""
+        readings = self.sums.readings
+        scored = []
+        for each in hypotheses:
+            space = each.space(self.sums.linear, readings)
+            block = self.sums.block(space.signature)
+            levels = self.criteria.roughness if each.variable.is_smooth else self.criteria.roughness[:1]
+            scored.append(
+                (self._scored(each, block, [space.prior_factor(level) for level in levels], self.sizes_mm), block)
+            )
+        return self._held_out(scored)
+
+    def known(self, signatures: Floats, whose: Sequence[tuple[str, str, str, float]], kinds: set[str]) -> list[Scored]:
+        """Score effects of the catalogue, element by element; `kinds` are effects that have one element only."""
+        block = self.sums.block(signatures)
+        scored = []
+        for effect, element in dict.fromkeys((effect, element) for effect, element, _, _ in whose):
+            at = [index for index, each in enumerate(whose) if each[:2] == (effect, element)]
+            own = Block(block.own[:, at][:, :, at], block.cross[:, at])
+            known = Known(effect, (element,), effect in kinds)
+            sizes = np.array(self.criteria.catalogue_scale)
+            scored.append((self._scored(known, own, [np.eye(len(at))], sizes), own))
+        return self._held_out(scored)
+
+    def _held_out(self, scored: list[tuple[Scored, Block]]) -> list[Scored]:
+        """Add the held-out shares of those with the largest evidence."""
+        ranked = sorted(scored, key=lambda each: -each[0].log_evidence)
+        chosen = [
+            replace(each, heldout_share=self._heldout_share(block, each.marginal))
+            for each, block in ranked[: self.criteria.held_out]
+        ]
+        return [*chosen, *(each for each, _ in ranked[self.criteria.held_out :])]
+
+    def _scored(self, hypothesis: Hypothesis, block: Block, factors: list[Floats], sizes: Floats) -> Scored:
+        projected = self.whole.project(block)
+        found = marginal(projected.information, projected.gradient, factors, sizes, temper=self.temper)
+        own = self.whole.own_values(projected, found.coefficients)
+        left = squared_error(self.sums, self.whole.cells, own, block, found.coefficients)
+        return Scored(
+            hypothesis,
+            found.log_evidence,
+            (self.left - left) / self.excess,
+            float("nan"),
+            found,
+        )
+
+    def _heldout_share(self, block: Block, found: Marginal) -> float:
+        before = after = 0.0
+        rows = self.whole.rows
+        for training, cells, base in self.folds:
+            projected = training.project(block)
+            size = found.size / np.sqrt(self.temper)
+            coefficients = solved(projected.information, projected.gradient, found.factor, size)
+            own = training.own_values(projected, coefficients)
+            before += base
+            after += squared_error(self.sums, cells, own, block, coefficients)
+        return (before - after) / max(before - rows, 1e-9)

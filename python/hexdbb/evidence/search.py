@@ -1,0 +1,222 @@
+"""Search for what is missing: sets of hypotheses, grown one by one, every set decided by a joint full fit.
+
+Each step screens all hypotheses beside those of a set (`screen.py`) and fits the best in full (`trial.py`). Where one
+hypothesis leaves no more than its set's form may, the search ends; else the best few sets are followed (beam search),
+so that two faults of one size, of which either alone explains half, are found together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.admissible import Checked, check
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.families import Learned, learned_hypotheses
+from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
+from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.trial import Member, Trial, Trials
+
+MOST_OF_ONE_EFFECT = 2
+"""Elements of one effect that get a full fit in one step."""
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A set of hypotheses with its trial and score: log evidence with the hypotheses' prior probabilities."""
+
+    trial: Trial
+    score: float
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """Hypotheses of the set, in the order found."""
+        return self.trial.members
+
+    @property
+    def hypotheses(self) -> tuple[Hypothesis, ...]:
+        """The same without their priors."""
+        return tuple(each.hypothesis for each in self.trial.members)
+
+
+@dataclass
+class Search:
+    """Search on the rows of one engine.
+
+    Parameters
+    ----------
+    engine : Engine
+    known : sequence of str
+        Effects of the catalogue and the user's that may be the cause.
+    criteria : Criteria
+    learns : bool
+        Whether learned hypotheses are looked at.
+    """
+
+    engine: Engine
+    known: Sequence[str]
+    criteria: Criteria
+    learns: bool = True
+    trials: Trials = field(init=False)
+    nodes: list[Node] = field(init=False, default_factory=list)
+    """All sets tried."""
+
+    def __post_init__(self) -> None:
+        linear = self.engine.linearised(self.engine.base).linear
+        readings = self.engine.readings
+        self.hypotheses = list(learned_hypotheses(readings))
+        self.homes = Homes(linear, [each.space(linear, readings) for each in self.hypotheses])
+        self.trials = Trials(self.engine, self.homes, self.criteria)
+        self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
+        self.nodes.append(self.root)
+        self._expanded: dict[frozenset[str], list[Node]] = {}
+        self._checked: dict[int, Checked] = {}
+
+    @cached_property
+    def kin(self) -> dict[str, set[str]]:
+        """Names of the learned hypotheses that are an effect's element in other words, by the element's name."""
+        signatures, whose = self.engine.signatures(self.engine.base, self.known)
+        found: dict[str, set[str]] = {}
+        for place, (effect, element, _, _) in enumerate(whose):
+            name = Known(effect, (element,), self._is_whole(effect)).name
+            found.setdefault(name, set()).update(each.hypothesis.name for each in self.homes.of(signatures[:, place]))
+        return found
+
+    def run(self) -> Node:
+        """Return the best set of hypotheses; the empty one where nothing is found."""
+        best, beam = self.root, [self.root]
+        for _ in range(self.criteria.max_effects):
+            beam = beam[: self.criteria.max_expansions - len(self._expanded)]
+            children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
+            children = [child for child in children if self._is_worth(child, best)]
+            beam = self._kept(children)
+            if not beam:
+                break
+            best = max([best, *beam], key=lambda each: each.score)
+            if self._is_complete(best):
+                break
+        return best
+
+    def expand(self, node: Node) -> list[Node]:
+        """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
+        key = frozenset(node.trial.names)
+        if key not in self._expanded:
+            self._expanded[key] = self._children(node)
+            self.nodes += self._expanded[key]
+        return self._expanded[key]
+
+    def node(self, members: Sequence[Member], near: Node) -> Node:
+        """Return the node of a set, its score told from that of a near one where it was not reached by a step."""
+        trial = self.trials.of(tuple(members))
+        for each in self.nodes:
+            if each.trial is trial:
+                return each
+        prior = float(np.log(len(self.hypotheses))) * (len(near.members) - len(trial.members))
+        found = Node(trial, near.score + trial.log_evidence - near.trial.log_evidence + prior)
+        self.nodes.append(found)
+        return found
+
+    def checked(self, node: Node) -> Checked:
+        """Return how a set predicts what is held out, and what speaks against it."""
+        if id(node) not in self._checked:
+            self._checked[id(node)] = check(node.trial, self.root.trial, self.trials, self.criteria)
+        return self._checked[id(node)]
+
+    def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
+        """Check whether two hypotheses are one cause in different words."""
+        if isinstance(one, Known) and isinstance(other, Known):
+            return one.name == other.name
+        if isinstance(one, Known) or isinstance(other, Known):
+            known, learned = (one, other) if isinstance(one, Known) else (other, one)
+            return learned.name in self.kin.get(known.name, set())
+        return (one.place, one.element) == (other.place, other.element)
+
+    def _children(self, node: Node) -> list[Node]:
+        screen = Screen(Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",)), self.criteria)
+        known, learned = self._screened(node.trial, screen)
+        count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
+        for scored in (*_best(known, count), *_best(learned, count)):
+            try:
+                trial = self.trials.of((*node.members, self._member(scored)))
+            except RunError:
+                continue
+            prior = -np.log(max(len(known if isinstance(scored.hypothesis, Known) else learned), 1))
+            score = node.score + trial.log_evidence - node.trial.log_evidence + float(prior)
+            found.append(Node(trial, score))
+        return sorted(found, key=lambda each: -each.score)
+
+    def _screened(self, base: Trial, screen: Screen) -> tuple[list[Scored], list[Scored]]:
+        present = {each.hypothesis for each in base.members}
+        signatures, whose = self.engine.signatures(base.model, self.known)
+        kinds = {name for name in self.known if self._is_whole(name)}
+        known = [each for each in screen.known(signatures, whose, kinds) if each.hypothesis not in present]
+        if not self.learns:
+            return known, []
+        return known, screen.learned([each for each in self.hypotheses if each not in present])
+
+    def _is_worth(self, node: Node, best: Node) -> bool:
+        """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""
+        parent = self.trials.of(node.members[:-1])
+        gain = node.score - self._score(parent)
+        removed, explained = parent.left - node.trial.left, self.root.trial.left - parent.left
+        small = len(node.members) > 1 and removed < self.criteria.secondary * self.criteria.form_sigma**2 * explained
+        return gain >= self.criteria.detect_nats and not small and not node.trial.refused
+
+    def _score(self, trial: Trial) -> float:
+        return next(each.score for each in self.nodes if each.trial is trial)
+
+    def _kept(self, children: Sequence[Node]) -> list[Node]:
+        """Choose the best sets that predict, of different kinds, and the best of known effects only."""
+        kept: list[Node] = []
+        for child in children:
+            alike = any(_alike(self, child, other) for other in kept)
+            if len(kept) < self.criteria.beam and not alike and not self.checked(child).reasons:
+                kept.append(child)
+        known = [each for each in children if all(isinstance(h, Known) for h in each.hypotheses)]
+        for child in known:
+            if any(child is each for each in kept):
+                break
+            if not self.checked(child).reasons:
+                kept.append(child)
+                break
+        return kept
+
+    def _is_complete(self, node: Node) -> bool:
+        excess = self.root.trial.left - 1.0
+        return node.trial.left - 1.0 < max(self.criteria.complete * excess, 0.03)
+
+    def _is_whole(self, effect: str) -> bool:
+        return len(self.engine.base.info(effect).elements) == 1
+
+    def _member(self, scored: Scored) -> Member:
+        if isinstance(scored.hypothesis, Learned):
+            return Member(scored.hypothesis, scored.marginal.seen, scored.marginal.size)
+        return Member(scored.hypothesis)
+
+
+def _alike(search: Search, one: Node, other: Node) -> bool:
+    """Check whether every hypothesis of one set has one of its kind in another."""
+    return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
+
+
+def _best(scored: list[Scored], count: int) -> list[Scored]:
+    """Choose by evidence and by held-out share, two to one; none whose evidence is against it."""
+    ranked: list[Scored] = []
+    for each in sorted(scored, key=lambda each: -each.log_evidence):
+        few = not isinstance(each.hypothesis, Known) or _of_effect(ranked, each.hypothesis) < MOST_OF_ONE_EFFECT
+        if few and each.log_evidence > 0.0:
+            ranked.append(each)
+    chosen = ranked[: count - count // 3]
+    rest = [each for each in ranked[len(chosen) :] if np.isfinite(each.heldout_share)]
+    rest.sort(key=lambda each: -each.heldout_share)
+    return [*chosen, *rest[: count - len(chosen)]]
+
+
+def _of_effect(ranked: list[Scored], known: Known) -> int:
+    return sum(isinstance(each.hypothesis, Known) and each.hypothesis.effect == known.effect for each in ranked)

@@ -1,0 +1,156 @@
+"""Sums over cells of readings, from which every fit and every held-out prediction follows.
+
+A cell is one circle, feed, direction and lap. For a signature W the sums W'W, W'J, W'y of every cell are taken once;
+those of any training set are sums of cells. The model's own values are eliminated with their priors,
+
+    A = W'W - W'J (J'J + I)^-1 J'W,   b = W'y - W'J (J'J + I)^-1 (J'y - standing).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+
+from hexdbb.evidence.readings import GROUPINGS, Linear, Readings
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Sums of one signature by cell: W'W (cells, k, k) and W'[J y] (cells, k, p + 1)."""
+
+    own: Floats
+    cross: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Projected:
+    """A and b of a signature, and what is needed for the model's own values: L^-1 J'W and L^-1 (J'y - standing)."""
+
+    information: Floats
+    gradient: Floats
+    cross: Floats
+
+
+class Sums:
+    """Sums over the cells of one linearisation.
+
+    Parameters
+    ----------
+    linear : Linear
+    readings : Readings
+    groupings : tuple of str
+        What tells cells apart; fewer take less time.
+    """
+
+    def __init__(self, linear: Linear, readings: Readings, groupings: tuple[str, ...] = GROUPINGS) -> None:
+        self.linear, self.readings, self.groupings = linear, readings, groupings
+        keys = np.column_stack([readings.groups[name] for name in groupings])
+        self.keys, cell = np.unique(keys, axis=0, return_inverse=True)
+        cell = cell.ravel()
+        self._order = np.argsort(cell, kind="stable")
+        self._counts = np.bincount(cell, minlength=len(self.keys))
+        width = int(self._counts.max())
+        begin = np.concatenate([[0], np.cumsum(self._counts)[:-1]])
+        self._at = (np.arange(len(cell)) - np.repeat(begin, self._counts)) + width * np.repeat(
+            np.arange(len(self.keys)), self._counts
+        )
+        self._shape = (len(self.keys), width)
+        self._padded = self._pad(np.column_stack([linear.own, linear.residual]))
+        self.base = np.matmul(self._padded.transpose(0, 2, 1), self._padded)
+        """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
+        self.rows = self._counts.astype(np.float64)
+
+    def block(self, signature: Floats) -> Block:
+        """Return the sums of a signature, shape (n, k)."""
+        padded = self._pad(signature)
+        turned = padded.transpose(0, 2, 1)
+        return Block(np.matmul(turned, padded), np.matmul(turned, self._padded))
+
+    def joined(self, blocks: list[Floats]) -> Block:
+        """Return the sums of several signatures side by side."""
+        return self.block(np.hstack(blocks))
+
+    def groups(self, grouping: str) -> list[Ints]:
+        """Return the cells of every group of a grouping."""
+        numbers = self.keys[:, self.groupings.index(grouping)]
+        return [np.flatnonzero(numbers == each) for each in np.unique(numbers)]
+
+    @cached_property
+    def whole(self) -> Training:
+        """All cells."""
+        return Training(self, np.arange(len(self.keys)))
+
+    def without(self, cells: Ints) -> Training:
+        """Return the training set that lacks some cells."""
+        return Training(self, np.setdiff1d(np.arange(len(self.keys)), cells))
+
+    def _pad(self, columns: Floats) -> Floats:
+        padded = np.zeros((self._shape[0] * self._shape[1], columns.shape[1]))
+        padded[self._at] = columns[self._order]
+        return padded.reshape(*self._shape, columns.shape[1])
+
+
+class Training:
+    """Cells that are fitted, with the model's own values eliminated.
+
+    Parameters
+    ----------
+    sums : Sums
+    cells : ndarray of int
+    """
+
+    def __init__(self, sums: Sums, cells: Ints) -> None:
+        self.cells = cells
+        total = sums.base[cells].sum(axis=0)
+        self.squared = float(total[-1, -1])
+        self.rows = float(sums.rows[cells].sum())
+        self.factor = np.linalg.cholesky(total[:-1, :-1] + np.eye(len(total) - 1))
+        self.own = self._half(total[:-1, -1] - sums.linear.standing)
+        """L^-1 (J'y - standing)."""
+
+    def project(self, block: Block) -> Projected:
+        """Eliminate the model's own values from a signature's sums."""
+        cross = block.cross[self.cells].sum(axis=0)
+        half = self._half(cross[:, :-1].T)
+        return Projected(
+            information=block.own[self.cells].sum(axis=0) - half.T @ half,
+            gradient=cross[:, -1] - half.T @ self.own,
+            cross=half,
+        )
+
+    def own_values(self, projected: Projected | None = None, coefficients: Floats | None = None) -> Floats:
+        """Return the change of the model's own values that goes with a signature's coefficients."""
+        right = self.own
+        if projected is not None and coefficients is not None:
+            right = right - projected.cross @ coefficients
+        found: Floats = solve_triangular(self.factor, right, lower=True, trans="T", check_finite=False)
+        return found
+
+    def expected_error(self, sums: Sums, cells: Ints) -> float:
+        """Return the sum of squared errors that the fit to this set expects of itself on other cells."""
+        base = sums.base[cells].sum(axis=0)[:-1, :-1]
+        half = self._half(self._half(base).T)
+        return float(sums.rows[cells].sum() + np.trace(half))
+
+    def _half(self, columns: Floats) -> Floats:
+        found: Floats = solve_triangular(self.factor, columns, lower=True, check_finite=False)
+        return found
+
+
+def squared_error(sums: Sums, cells: Ints, own: Floats, block: Block | None, coefficients: Floats | None) -> float:
+    """Return the sum of squared prediction errors over cells, in noise variances."""
+    base = sums.base[cells].sum(axis=0)
+    error = float(base[-1, -1] - 2.0 * own @ base[:-1, -1] + own @ base[:-1, :-1] @ own)
+    if block is None or coefficients is None:
+        return error
+    cross = block.cross[cells].sum(axis=0)
+    inner = block.own[cells].sum(axis=0)
+    error += float(coefficients @ inner @ coefficients - 2.0 * coefficients @ (cross[:, -1] - cross[:, :-1] @ own))
+    return error

@@ -1,0 +1,188 @@
+"""From a search to a graded verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.admissible import Checked
+from hexdbb.evidence.families import Learned
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.trial import Member
+
+MOST_ROUNDS = 2
+"""Exchanges of causes, lest two take turns."""
+Grade = Literal["none", "effect", "ambiguous", "unknown"]
+
+
+@dataclass(frozen=True)
+class Found:
+    """One cause.
+
+    Attributes
+    ----------
+    hypothesis : Known or Learned
+    rivals : tuple of str
+        Of another kind, that explain the readings as well.
+    alike : tuple of str
+        The same effect at other elements, which explains the readings as well.
+    margin : float
+        Log evidence over the best set of hypotheses that has none of this kind, over what the set leaves.
+    refinements : tuple of str
+        Learned hypotheses beside it at the same place: how its form differs.
+    deviation : float
+        Of its form, as a part of its size.
+    """
+
+    hypothesis: Hypothesis
+    rivals: tuple[str, ...]
+    margin: float
+    alike: tuple[str, ...] = ()
+    refinements: tuple[str, ...] = ()
+    deviation: float = 0.0
+
+    @property
+    def grade(self) -> Grade:
+        """Verdict on this cause alone."""
+        if isinstance(self.hypothesis, Known):
+            return "ambiguous" if self.rivals else "effect"
+        return "ambiguous" if any(not name.startswith("learned:") for name in self.rivals) else "unknown"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is missing: the grade, the causes, the set of hypotheses and how it predicts."""
+
+    grade: Grade
+    found: tuple[Found, ...]
+    node: Node
+    checked: Checked | None
+
+
+def judge(search: Search) -> Verdict:
+    """Look for all that is missing."""
+    node = _in_known_words(search, search.run())
+    if node is search.root:
+        left = search.root.trial.left
+        return Verdict("none" if left < 1.05 else "unknown", (), node, None)
+    node = _settled(search, node)
+    causes, refinements = _grouped(search, node)
+    found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
+    grades = [each.grade for each in found]
+    grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
+    if search.checked(node).share < search.criteria.explained_min:
+        grade = "unknown"
+    return Verdict(grade, found, node, search.checked(node))
+
+
+def _settled(search: Search, node: Node) -> Node:
+    """Take each cause out of a set and look again beside the others, until no set explains the readings better.
+
+    An early choice may have stood in for what came later: it is exchanged, or left out where it is needed no more.
+    """
+    for _ in range(MOST_ROUNDS):
+        if len(node.members) < 2:
+            return node
+        for member in node.members:
+            others = tuple(each for each in node.members if each is not member)
+            search.expand(search.node(others, near=node))
+        better = sorted((each for each in search.nodes if each.score > node.score), key=lambda each: -each.score)
+        chosen = next((each for each in better if _is_admissible(search, each)), None)
+        if chosen is None:
+            return node
+        node = _in_known_words(search, chosen)
+    return node
+
+
+def _is_admissible(search: Search, node: Node) -> bool:
+    return not node.trial.refused and not search.checked(node).reasons
+
+
+def _in_known_words(search: Search, node: Node) -> Node:
+    """Put known effects in the place of the learned functions that contain them, where they explain nearly as much."""
+    excess = search.root.trial.left - 1.0
+    for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
+        if learned not in node.hypotheses:
+            continue
+        at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
+        kept = tuple(each for each in node.members if each not in at_place)
+        others = []
+        for known in _known_for(search, [each.hypothesis.name for each in at_place]):
+            if known in node.hypotheses:
+                continue
+            try:
+                trial = search.trials.of((*kept, Member(known)))
+            except RunError:
+                continue
+            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            if near and not trial.refused:
+                others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
+        others.sort(key=lambda each: -each.score)
+        search.nodes += others
+        node = next((each for each in others if not search.checked(each).reasons), node)
+    return node
+
+
+def _is_at(one: Hypothesis, learned: Learned) -> bool:
+    return isinstance(one, Learned) and (one.place, one.element) == (learned.place, learned.element)
+
+
+def _known_for(search: Search, names: list[str]) -> list[Known]:
+    """Return the known effects that live in one of some learned hypotheses, by what each explains of the readings."""
+    found = []
+    for name, kin in search.kin.items():
+        if kin & set(names):
+            effect, _, elements = name.partition(":")
+            whole = not elements
+            found.append(Known(effect, (elements or search.engine.base.info(effect).elements[0],), whole))
+    return found
+
+
+def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:
+    """Split a set into causes, and learned functions that refine one of them at its own place."""
+    known = [each for each in node.hypotheses if isinstance(each, Known)]
+    causes: list[Hypothesis] = list(known)
+    refinements: dict[str, tuple[str, ...]] = {}
+    by_name = {each.name: each for each in search.hypotheses}
+    for each in node.hypotheses:
+        if isinstance(each, Known):
+            continue
+        of = next((one for one in known if _at_its_place(search, one, each, by_name)), None)
+        if of is None:
+            causes.append(each)
+        else:
+            refinements[of.name] = (*refinements.get(of.name, ()), each.name)
+    return causes, refinements
+
+
+def _at_its_place(search: Search, known: Known, learned: Learned, by_name: dict[str, Learned]) -> bool:
+    homes = [by_name[name] for name in search.kin.get(known.name, set())]
+    return any(home.place == learned.place and (home.element == learned.element or not home.element) for home in homes)
+
+
+def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
+    rivals, alike, margin = [], [], float("inf")
+    for other in search.nodes:
+        if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
+            continue
+        lead = (node.score - other.score) / max(node.trial.left, 1.0)
+        is_rival = lead < max(margin, search.criteria.margin_nats) and other is not search.root
+        if is_rival and (search.checked(other).reasons or _bent(search, other)):
+            continue
+        if isinstance(cause, Known) and any(
+            isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses
+        ):
+            if lead < search.criteria.margin_nats:
+                alike.append(" + ".join(other.trial.names))
+            continue
+        margin = min(margin, lead)
+        if lead < search.criteria.margin_nats and other is not search.root:
+            rivals.append(" + ".join(other.trial.names))
+    form = node.trial.forms[node.hypotheses.index(cause)]
+    return Found(cause, tuple(rivals), margin, tuple(alike), refinements, form.deviation if form is not None else 0.0)
+
+
+def _bent(search: Search, node: Node) -> bool:
+    return any(form is not None and form.deviation > search.criteria.form_limit for form in node.trial.forms)
