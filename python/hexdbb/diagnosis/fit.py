@@ -12,6 +12,7 @@ from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
+from hexdbb.diagnosis.sufficiency import sufficiency
 from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, sentences
 from hexdbb.model import Model
@@ -121,6 +122,7 @@ def diagnose(
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
+    enough = sufficiency(samples, fitted, result.residual_mm)
     parameters = known.parameters()
     unknown = unknown_directions(result.covariance, known, result.free_columns)
     return Diagnosis(
@@ -141,7 +143,8 @@ def diagnose(
         residual_mm=result.residual_mm,
         held_out=checked,
         unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
-        warnings=(*either_sign, *warnings_of(fitted, result, noise, checked, expected)),
+        warnings=(*either_sign, *warnings_of(fitted, result, enough, checked, expected)),
+        sufficiency=enough,
     )
 
 
