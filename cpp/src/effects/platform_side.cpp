@@ -1,24 +1,23 @@
 // The joint triangle with sides longer than nominal.
 //
-// Three side lengths leave the triangle's place in its plane open; a ball bar whose ball offset is unknown cannot see
-// it. It is fixed as the nearest to the nominal one to first order: the centroid stays, and the joints' moments about
-// it vanish. Exact in the side lengths, by Newton on the six in-plane coordinates.
-#pragma once
-
+// Three side lengths leave the triangle's position in its plane open; a ball bar with unknown ball offset cannot
+// identify it. It is fixed as the nearest to the nominal one to first order: the centroid stays, and the joints'
+// moments about it vanish. Exact in the side lengths, by Newton on the six in-plane coordinates.
 #include <Eigen/LU>
 #include <utility>
 
-#include "hexdbb/effect.hpp"
+#include "catalogue.hpp"
+#include "geometric_sizes.hpp"
 
-namespace hexdbb {
+namespace hexdbb::effects {
+
+namespace {
 
 class PlatformSides : public Effect {
  public:
-  PlatformSides(EffectInfo info, const Machine& machine) : info_(std::move(info)) {
+  PlatformSides(EffectInfo info, const Machine& machine) : Effect(std::move(info)) {
     for (int i = 0; i < 3; ++i) nominal_.segment<2>(2 * i) = platform_joint(machine, i).head<2>();
   }
-
-  const EffectInfo& info() const override { return info_; }
 
   void push(const SampleBlock&, Values values, PortBlock ports) const override {
     const Vector6 move = joints(values) - nominal_;
@@ -76,8 +75,24 @@ class PlatformSides : public Effect {
     return at;
   }
 
-  EffectInfo info_;
   Vector6 nominal_;
 };
 
-}  // namespace hexdbb
+}  // namespace
+
+EffectPtr platform_side(const Context& context) {
+  EffectInfo info = {
+      .name = "platform_side",
+      .group = group::kGeometry,
+      .physics = "Two ball joints of the platform are further apart than nominal.",
+      .formula = "platform_joint: |Qi Qj| = nominal side + longer, centroid and mean rotation unchanged",
+      .source = "thesis 3.2 (3), ball joints",
+      .element_kind = "side",
+      .elements = {"12", "23", "31"},
+      .parameters = {length("longer")},
+      .ports = {"platform_joint"},
+  };
+  return std::make_shared<PlatformSides>(std::move(info), context.machine);
+}
+
+}  // namespace hexdbb::effects

@@ -1,4 +1,4 @@
-// A place (x, y, z), of the cup or the ball, that is another one in every set-up: for each fixing of the tool cup.
+// A position (x, y, z), of the cup or the ball, that differs between set-ups: one for each fixing of the tool cup.
 #pragma once
 
 #include <stdexcept>
@@ -7,26 +7,22 @@
 
 #include "hexdbb/effect.hpp"
 
-namespace hexdbb {
+namespace hexdbb::effects {
 
 class PlacePerSetUp : public Effect {
  public:
   /// Element e + 1 pushes the three ports from `first_port` in samples of mount e.
-  PlacePerSetUp(EffectInfo info, int mounts, int first_port) : info_(std::move(info)), first_port_(first_port) {
-    for (int element = 0; element < mounts; ++element) info_.elements.push_back(std::to_string(element + 1));
-  }
-
-  const EffectInfo& info() const override { return info_; }
+  PlacePerSetUp(EffectInfo info, int mounts, int first_port)
+      : Effect(with_elements(std::move(info), mounts)), first_port_(first_port) {}
 
   void require(const Samples& samples) const override {
     Effect::require(samples);
-    const int count = static_cast<int>(info_.elements.size());
+    const int count = static_cast<int>(info().elements.size());
     for (Eigen::Index row = 0; row < samples.size(); ++row) {
       const int index = samples.mount[row];
       if (index < 0 || index >= count) {
         throw std::invalid_argument("mount[" + std::to_string(row) + "] is " + std::to_string(index) +
-                                    ", expected 0 to " + std::to_string(count - 1) + ", which " + info_.name +
-                                    " knows");
+                                    ", expected 0 to " + std::to_string(count - 1) + ", the mounts of " + info().name);
       }
     }
   }
@@ -45,8 +41,13 @@ class PlacePerSetUp : public Effect {
   }
 
  private:
-  EffectInfo info_;
+  static EffectInfo with_elements(EffectInfo info, int mounts) {
+    info.element_kind = "mount";
+    for (int element = 0; element < mounts; ++element) info.elements.push_back(std::to_string(element + 1));
+    return info;
+  }
+
   int first_port_;
 };
 
-}  // namespace hexdbb
+}  // namespace hexdbb::effects

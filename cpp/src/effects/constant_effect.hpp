@@ -1,4 +1,4 @@
-// An effect whose every value pushes ports by a constant factor, whatever the state of the sample.
+// An effect in which every value pushes ports by a constant factor, whatever the state of the sample.
 #pragma once
 
 #include <utility>
@@ -6,7 +6,7 @@
 
 #include "hexdbb/effect.hpp"
 
-namespace hexdbb {
+namespace hexdbb::effects {
 
 /// Value `value` pushes port `port` by `factor` per unit.
 struct Link {
@@ -17,9 +17,7 @@ struct Link {
 
 class ConstantEffect : public Effect {
  public:
-  ConstantEffect(EffectInfo info, std::vector<Link> links) : info_(std::move(info)), links_(std::move(links)) {}
-
-  const EffectInfo& info() const override { return info_; }
+  ConstantEffect(EffectInfo info, std::vector<Link> links) : Effect(std::move(info)), links_(std::move(links)) {}
 
   void push(const SampleBlock&, Values values, PortBlock ports) const override {
     for (const Link& link : links_) ports.col(link.port).array() += link.factor * values[link.value];
@@ -31,8 +29,14 @@ class ConstantEffect : public Effect {
   }
 
  private:
-  EffectInfo info_;
   std::vector<Link> links_;
 };
 
-}  // namespace hexdbb
+/// Return an effect whose value j pushes port first_port + j by `factor` per unit.
+inline EffectPtr one_to_one(EffectInfo info, int first_port, double factor = 1.0) {
+  std::vector<Link> links;
+  for (int value = 0; value < info.size(); ++value) links.push_back({value, first_port + value, factor});
+  return std::make_shared<ConstantEffect>(std::move(info), std::move(links));
+}
+
+}  // namespace hexdbb::effects

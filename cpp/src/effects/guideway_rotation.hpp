@@ -1,16 +1,19 @@
-// A guideway turned about an axis through a fixed point: both slider joints move by (Rot(axis, angle) - I)(B - centre).
+// A guideway rotated about an axis through a fixed point: both slider joints move by (Rot(axis, angle) - I)(B -
+// centre).
 //
 // Rodrigues: (Rot - I) r = sin(angle) u + (1 - cos(angle)) w, u = axis x r, w = axis x u; r = V - centre + s d is
-// affine in the slider coordinate, so u and w are too.
+// affine in the slider coordinate, hence u and w are too.
 #pragma once
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 
+#include "elements.hpp"
+#include "geometric_sizes.hpp"
 #include "hexdbb/effect.hpp"
 
-namespace hexdbb {
+namespace hexdbb::effects {
 
 struct Hinge {
   Vector3 axis;    // unit vector, base frame
@@ -19,7 +22,8 @@ struct Hinge {
 
 class GuidewayRotation : public Effect {
  public:
-  GuidewayRotation(EffectInfo info, const Machine& machine, const std::vector<Hinge>& hinges) : info_(std::move(info)) {
+  GuidewayRotation(EffectInfo info, const Machine& machine, const std::vector<Hinge>& hinges)
+      : Effect(std::move(info)) {
     for (int i = 0; i < kGuideways; ++i) {
       Lever lever;
       lever.u0 = hinges[i].axis.cross(guideway_vertex(machine, i) - hinges[i].centre);
@@ -29,8 +33,6 @@ class GuidewayRotation : public Effect {
       levers_.push_back(lever);
     }
   }
-
-  const EffectInfo& info() const override { return info_; }
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
     for (int k = 0; k < kLegs; ++k) {
@@ -69,8 +71,26 @@ class GuidewayRotation : public Effect {
     }
   };
 
-  EffectInfo info_;
   std::vector<Lever> levers_;
 };
 
-}  // namespace hexdbb
+/// What the three rotations of the thesis have in common; name, physics, formula and source are the effect's own.
+inline EffectInfo rotation_info(EffectInfo own) {
+  own.group = group::kGeometry;
+  own.element_kind = "guideway";
+  own.elements = kThreeElements;
+  own.parameters = {angle("angle")};
+  own.ports = {"slider_joint"};
+  return own;
+}
+
+/// Return the rotation of every guideway about one of its local axes (0: x, 2: z) through its midpoint.
+inline EffectPtr rotation_about_midpoint(EffectInfo own, const Machine& machine, int local_axis) {
+  std::vector<Hinge> hinges;
+  for (int i = 0; i < kGuideways; ++i) {
+    hinges.push_back({guideway_axes(i).col(local_axis), guideway_midpoint(machine, i)});
+  }
+  return std::make_shared<GuidewayRotation>(rotation_info(std::move(own)), machine, hinges);
+}
+
+}  // namespace hexdbb::effects

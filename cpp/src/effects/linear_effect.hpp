@@ -1,6 +1,6 @@
 // An effect that is linear in its values: value v pushes port p by factor * shape(state), for one or more shapes.
 //
-// A shape is a function of the samples' state, computed once a block.
+// A shape is a function of the samples' state, computed once per block.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 #include "block_column.hpp"
 #include "constant_effect.hpp"
 
-namespace hexdbb {
+namespace hexdbb::effects {
 
 struct Shape {
   std::function<BlockColumn(const SampleBlock&)> of;
@@ -19,9 +19,7 @@ struct Shape {
 
 class LinearEffect : public Effect {
  public:
-  LinearEffect(EffectInfo info, std::vector<Shape> shapes) : info_(std::move(info)), shapes_(std::move(shapes)) {}
-
-  const EffectInfo& info() const override { return info_; }
+  LinearEffect(EffectInfo info, std::vector<Shape> shapes) : Effect(std::move(info)), shapes_(std::move(shapes)) {}
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
     for (const Shape& shape : shapes_) {
@@ -51,8 +49,7 @@ class LinearEffect : public Effect {
     return false;
   }
 
-  EffectInfo info_;
   std::vector<Shape> shapes_;
 };
 
-}  // namespace hexdbb
+}  // namespace hexdbb::effects
