@@ -13,7 +13,7 @@ from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.errors import InputError, RunError
-from hexdbb.identifiability import KNOWN_PART, sentences
+from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 
@@ -123,6 +123,7 @@ def diagnose(
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
     parameters = known.parameters()
     unknown = unknown_directions(result.covariance, known, result.free_columns)
+    displaced = Displacements.of(samples, known).of_values(result.free_columns)
     return Diagnosis(
         samples=samples,
         model=fitted,
@@ -140,7 +141,7 @@ def diagnose(
         residual_before_mm=predict(samples, known).residual_mm,
         residual_mm=result.residual_mm,
         held_out=checked,
-        unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
+        unidentifiable=tuple(sentences(unknown, [parameters[each] for each in result.free_columns], displaced)),
         warnings=(*either_sign, *warnings_of(fitted, result, noise, checked, expected)),
     )
 
