@@ -74,7 +74,7 @@ def test_part_of_a_record_has_the_state_of_the_whole() -> None:
     rows = record.columns["circle"] == 2
     model = knowing(new_model(MACHINE), [record])
     whole, part = samples_of([record], model).state, samples_of([record.part(rows)], model).state
-    for name in ("time_s", "warming_k", "side", "since_reversal_mm", "velocity_mm_s", "leg_force", "circle"):
+    for name in ("time_s", "warming_k", "travel_direction", "since_reversal_mm", "velocity_mm_s", "leg_force", "circle"):
         np.testing.assert_allclose(part[name], whole[name][rows], rtol=0, atol=1e-9, err_msg=name)
 
 

@@ -72,7 +72,7 @@ def evaluate_fit(
             free=[bool(each) for each in free],
             robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
             sweep=taken.sweep,
-            judging=judging,
+            hypothesis=judging,
         )
     except ValueError as error:
         raise InputError(f"{taken.names}: {error}") from None

@@ -23,7 +23,7 @@ class SampleState:
     sliders_mm: Floats
     """Slider coordinates as the encoders report them."""
     velocity_mm_s: Floats
-    side: Floats
+    travel_direction: Floats
     """+1 or -1: the direction in which each slider last moved; 0 where it never moved."""
     since_reversal_s: Floats
     """Time since each slider last reversed in its sweep; 1e6 where it has not."""
@@ -61,6 +61,6 @@ def sample_state(samples: _core.Samples, machine: MachineFile) -> SampleState:
     """Give the state of samples, whose columns must all be there (`hexdbb.prediction.samples_of` fills them)."""
     known = samples.state
     sliders_mm = samples.sliders_mm
-    position_mm, rotation, _ = forward(machine, sliders_mm)
+    _, rotation, _ = forward(machine, sliders_mm)
     columns = {each.name: known[each.name] for each in fields(SampleState) if each.name in known}
-    return SampleState(machine=machine, sliders_mm=sliders_mm, position_mm=position_mm, rotation=rotation, **columns)
+    return SampleState(machine=machine, sliders_mm=sliders_mm, rotation=rotation, **columns)

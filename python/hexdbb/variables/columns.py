@@ -22,7 +22,7 @@ State = Mapping[str, NDArray[Any]]
 UM_PER_MM = 1e3
 SLIDERS = range(1, 7)
 STRETCH = 4
-PER_SLIDER = {"velocity_mm_s": "v{}_mm_s", "since_reversal_s": "since_reversal{}_s", "side": "side{}"}
+PER_SLIDER = {"velocity_mm_s": "v{}_mm_s", "since_reversal_s": "since_reversal{}_s", "travel_direction": "side{}"}
 """State that has a column a slider, and what it is called here; `side` is where the slider last moved to, +1 or -1."""
 
 

@@ -37,7 +37,7 @@ def state(record: Record) -> dict[str, np.ndarray]:
     side[:, 3] = np.where(direction * np.cos(angle) >= 0.0, 1.0, -1.0)
     since_s = np.full((len(record), 6), 1e6)
     since_s[:, 3] = np.mod(direction * (angle - np.pi / 2.0), np.pi) / np.pi * 24.0
-    return {"side": side, "since_reversal_s": since_s, "velocity_mm_s": side}
+    return {"travel_direction": side, "since_reversal_s": since_s, "velocity_mm_s": side}
 
 
 def with_residual(record: Record, residual_mm: np.ndarray, states: bool = True) -> Comparison:
@@ -67,7 +67,7 @@ def test_noise_alone_is_carried_by_nothing_and_has_nothing_in_common(record: Rec
 
 
 def test_lost_motion_is_carried_by_the_slider_that_has_it(record: Record) -> None:
-    residual_mm = 0.004 * state(record)["side"][:, 3]
+    residual_mm = 0.004 * state(record)["travel_direction"][:, 3]
     found = shares(with_residual(record, residual_mm))
     best = max(found, key=found.__getitem__)
     assert "slider 4" in best or best == "angle, each direction"

@@ -23,7 +23,7 @@ from hexdbb.effects import effect
 @effect(port="slider", unit="mm", prior_sigma=0.01, elements=6)
 def my_play(state):
     '''Play between slider and screw.'''
-    return 0.5 * state.side
+    return 0.5 * state.travel_direction
 """
 
 
