@@ -34,7 +34,7 @@ def evaluate_fit(
     noise: Noise,
     *,
     robust: bool = False,
-    judging: bool = False,
+    hypothesis: bool = False,
 ) -> tuple[Model, _core.FitResult]:
     """Fit chosen values of a model, no more: no held-out circles, no words.
 
@@ -48,7 +48,7 @@ def evaluate_fit(
     noise : Noise
     robust : bool
         Huber's loss beyond `GLITCH_SIGMAS`.
-    judging : bool
+    hypothesis : bool
         A fit that only serves to compare models: it ends sooner, and its covariance is to first order.
 
     Raises
@@ -67,7 +67,7 @@ def evaluate_fit(
             free=[bool(each) for each in free],
             robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
             sweep=samples["sweep"],
-            judging=judging,
+            hypothesis=hypothesis,
         )
     except ValueError as error:
         raise InputError(f"{samples.name}: {error}") from None
@@ -150,7 +150,7 @@ def refitter(noise: Noise, robust: bool = False) -> Refit:
     """Return a function that fits a model's free values to samples."""
 
     def refit(samples: Samples, model: Model) -> Model:
-        return evaluate_fit(samples, model, model.free, noise, robust=robust, judging=True)[0]
+        return evaluate_fit(samples, model, model.free, noise, robust=robust, hypothesis=True)[0]
 
     return refit
 
