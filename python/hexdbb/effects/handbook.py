@@ -19,7 +19,7 @@ GROUPS = {
 """Groups of effects and their headings, in the order of the index."""
 MADE = "Made by `hexdbb effects handbook`; do not edit.\n"
 SYMBOLS = (
-    "Left of the sign stands what is pushed ([ports](../glossary.md#models)); right of it parameters of the effect, "
+    "Left: the [port](../glossary.md#models) that is pushed. Right: parameters of the effect, "
     "[columns of the state](../glossary.md#columns-of-the-state) without their units, and s, the slider coordinate."
 )
 SOURCES = "../../cpp/src/effects"
