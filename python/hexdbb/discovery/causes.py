@@ -114,7 +114,7 @@ def _fitted(search: Search, trial: Trial) -> tuple[Model, _core.FitResult | None
     there = {term.effect: term for term in trial.model.terms}
     terms = tuple(replace(term, values=there[term.effect].values) for term in model.terms)
     start = replace(model, terms=terms)
-    return evaluate_fit(engine.samples, start, start.free, engine.noise, judging=True)
+    return evaluate_fit(engine.samples, start, start.free, engine.noise, hypothesis=True)
 
 
 def _cause(search: Search, node: Node, found: Found, model: Model, result: _core.FitResult | None) -> Cause:

@@ -109,7 +109,7 @@ class Engine:
 
     def __init__(self, samples: Samples, model: Model, noise: Noise, criteria: Criteria = DEFAULT) -> None:
         self.samples, self.noise = samples, noise
-        self.base, result = evaluate_fit(samples, model, model.free, noise, judging=True)
+        self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
         self.residual_mm = result.residual_mm
         begin, count = _blocks(samples["sweep"], criteria.max_rows)
         chosen = begin + count // 2
@@ -147,7 +147,7 @@ class Engine:
             noise_mm=float(np.mean(self.row_noise_mm)),
             free=[bool(each) for each in model.free],
             sweep=self.part["sweep"],
-            judging=True,
+            hypothesis=True,
         )
         if not result.usable:
             raise RunError(f"{self.samples.name}: the fit did not succeed: {result.termination}")

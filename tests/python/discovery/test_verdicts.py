@@ -108,5 +108,5 @@ def test_too_few_to_judge_is_said(measured: Callable[[str], Record]) -> None:
         discover(Samples.of([record.part(np.arange(len(record)) < 100)]), model)
     with pytest.raises(InputError, match=r"1 sweep is too few to judge \(expected 2 at least"):
         discover(Samples.of([repeated]), model)
-    with pytest.raises(InputError, match=r"no record to judge by \(expected at least one\)"):
+    with pytest.raises(InputError, match=r"no record \(expected at least one\)"):
         discover(Samples.of([]), model)
