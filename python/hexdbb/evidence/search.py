@@ -19,6 +19,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.families import Learned, learned_hypotheses
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.readings import Thinned
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
@@ -71,7 +72,8 @@ class Search:
         linear = self.engine.linearised(self.engine.base).linear
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
-        self.homes = Homes(linear, [each.space(linear, readings) for each in self.hypotheses])
+        self.thinned = Thinned(readings)
+        self.homes = Homes(linear, self.thinned, self.hypotheses)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
@@ -83,9 +85,9 @@ class Search:
         """Names of the learned hypotheses that are an effect's element in other words, by the element's name."""
         signatures, whose = self.engine.signatures(self.engine.base, self.known)
         found: dict[str, set[str]] = {}
-        for place, (effect, element, _, _) in enumerate(whose):
+        for (effect, element, _, _), homes in zip(whose, self.homes.of_each(signatures), strict=True):
             name = Known(effect, (element,), self._is_whole(effect)).name
-            found.setdefault(name, set()).update(each.hypothesis.name for each in self.homes.of(signatures[:, place]))
+            found.setdefault(name, set()).update(each.hypothesis.name for each in homes)
         return found
 
     def run(self) -> Node:
@@ -138,7 +140,8 @@ class Search:
         return (one.place, one.element) == (other.place, other.element)
 
     def _children(self, node: Node) -> list[Node]:
-        screen = Screen(Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",)), self.criteria)
+        sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
+        screen = Screen(sums, self.criteria, self.thinned)
         known, learned = self._screened(node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         for scored in (*_best(known, count), *_best(learned, count)):
