@@ -1,10 +1,11 @@
-"""C11 headers of the object dictionaries, generated from the EDS files beside this script.
+"""Generate the C11 headers of the object dictionaries from the EDS files in this folder.
 
-Model: for every entry a macro each for index, sub-index and size in bytes, its default and its C type; for every PDO
-that the EDS maps by default a packed struct in the order of the frame. Firmware that includes the header cannot drift
-from the EDS; `--check` says whether the headers here still are what the EDS files give.
+Each entry becomes macros for index, sub-index, size in bytes and default, and a typedef of its C type; each PDO mapped
+in the EDS becomes a packed struct in the order of the frame. Firmware that includes a header cannot deviate from the
+EDS; `--check` compares the committed headers with the EDS files.
 
-Use: ``python firmware_interfaces/generate_header.py [--check]`` (needs canopen)
+Usage: ``python firmware_interfaces/generate_header.py [--check]`` (requires canopen)
+Source: CiA 301 (data types, PDO mapping 1600h and 1A00h), CiA 306 (EDS).
 """
 
 from __future__ import annotations
@@ -36,17 +37,19 @@ C_TYPES = {
     0x15: ("int64_t", 8),
     0x1B: ("uint64_t", 8),
 }
-"""C type and bytes of CiA 301's data types; strings and domains have neither."""
+"""C type and size in bytes of each CiA 301 data type; strings and domains have none."""
 PDO_MAPPINGS = (("rpdo", 0x1600), ("tpdo", 0x1A00))
+"""Kinds of PDO and the index of their first mapping parameter."""
 PDOS_PER_KIND = 512
+"""PDOs of each kind that CiA 301 provides for."""
 DUMMY_USAGE = range(1, 8)
-"""Indices of the dummy entries, which are types and not objects."""
+"""Indices of the dummy entries, which stand for data types."""
 
 
 def main() -> int:
-    """Write the headers, or with --check compare them; the exit status is 1 where one is out of date."""
+    """Write the headers, or compare them with --check; return the exit status, 1 if one is out of date."""
     parser = argparse.ArgumentParser(description="C headers of the object dictionaries, from the EDS files.")
-    parser.add_argument("--check", action="store_true", help="write nothing, exit with 1 where a header is out of date")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit status 1 if a header is out of date")
     check = parser.parse_args().check
     stale = 0
     for device in DEVICES:
@@ -61,12 +64,17 @@ def main() -> int:
 
 
 def header(device: str) -> str:
-    """Give the text of one device's header.
+    """Return the header of one device.
 
     Parameters
     ----------
     device : str
-        Name of the EDS without its suffix.
+        Name of the EDS without suffix.
+
+    Returns
+    -------
+    str
+        C11 source in ASCII.
     """
     od = canopen.import_od(str(HERE / f"{device}.eds"))
     guard = f"{device.upper()}_OD_H"
@@ -104,7 +112,7 @@ def _object(device: str, item: Item) -> Iterator[str]:
 
 
 def _default(macro: str, variable: ODVariable) -> Iterator[str]:
-    """Define the default; one that depends on the node id becomes a macro of it."""
+    """Yield the macro of the default; a default that depends on the node id becomes a macro with an argument."""
     raw, value = getattr(variable, "default_raw", ""), variable.default
     if "$NODEID" in raw:
         offset = int(re.sub(r"\+?\$NODEID\+?", "", raw.upper()), 0)

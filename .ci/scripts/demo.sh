@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The main jobs of hexdbb, from an empty folder, on the simulated rig: the thesis' circle measured, diagnosed, compared;
-# then a machine with a fault that is hidden from the model: seen, named, added, gone. Ends at the first step that fails.
-# Expects the commands of the virtual environment on the PATH (`make demo` sees to it).
+# The main jobs of hexdbb, from an empty folder, on the simulated rig: the circle of the thesis measured, diagnosed and
+# compared; then a machine with a fault that the model does not have: detected, identified, added. Ends at the first step
+# that fails. Expects the commands of the virtual environment on the PATH (`make demo` sets it).
 set -euo pipefail
 
 rm -rf demo
@@ -16,15 +16,9 @@ run() {
   "$@"
 }
 
-# A machine with random errors of geometry, written by a rig that is ended again, and one fault that no model knows yet.
+# A machine with random geometric errors, and one fault that is not in the model.
 hidden_machine() {
-  local pid
-  printf '\n$ hexdbb rig --seed 11 --write-truth demo/hidden.toml\n'
-  coproc RIG { exec hexdbb rig --seed 11 --write-truth demo/hidden.toml --exit-with-parent; }
-  pid=$RIG_PID
-  read -r _ <&"${RIG[0]}" # the one line that says the rig is ready, and the file written
-  kill "$pid"
-  wait "$pid"
+  run hexdbb rig --seed 11 --write-truth demo/hidden.toml --no-serve
   printf '$ cat >> demo/hidden.toml\n'
   tee -a demo/hidden.toml <<'TOML'
 
@@ -40,7 +34,7 @@ run hexdbb-run --plan thesis -o demo/demo.parquet
 run hexdbb diagnose demo/demo.parquet -m demo/demo-model.toml
 run hexdbb compare demo/demo.parquet -m demo/demo-model.toml
 
-say "A machine with a hidden fault: slider 4 has 15 um of play between drive and slider"
+say "A machine with a hidden fault: slider 4 has 15 µm of play between drive and slider"
 hidden_machine
 run hexdbb-run --plan standard --rate 20 --truth demo/hidden.toml -o demo/today.parquet
 
@@ -52,7 +46,7 @@ say "What is missing?"
 run hexdbb discover demo/today.parquet -m demo/model.toml
 run hexdbb add backlash:4 -m demo/model.toml demo/today.parquet
 
-say "Is anything missing still?"
+say "Is anything still missing?"
 run hexdbb discover demo/today.parquet -m demo/model.toml
 run hexdbb compare demo/today.parquet -m demo/model.toml --plot demo/after
 run hexdbb history -m demo/model.toml

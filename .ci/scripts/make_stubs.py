@@ -1,7 +1,7 @@
-"""Writes the type stubs of the compiled module `hexdbb._core` from the module itself: `make_stubs.py OUT.pyi`.
+"""Write the type stubs of the compiled module `hexdbb._core`: `make_stubs.py OUT.pyi`.
 
-pybind11-stubgen reads the signatures, ruff brings them into the house format. Only to be changed by running it again;
-`tests/python/test_stubs.py` compares the committed file with a new one.
+pybind11-stubgen reads the signatures from the module and ruff formats them. The committed file is not edited by hand;
+`tests/python/test_stubs.py` compares it with a new one.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ HEADER = "# Made by `make stubs` from the compiled module; not to be edited.\n"
 
 
 def generate() -> str:
-    """Text of the stubs of `hexdbb._core`, formatted.
+    """Return the formatted stubs of `hexdbb._core`.
 
     Raises
     ------
     subprocess.CalledProcessError
-        Where the module has a signature that pybind11-stubgen cannot express, or ruff refuses its output.
+        The module has a signature that pybind11-stubgen cannot express, or ruff refuses its output.
     """
     with tempfile.TemporaryDirectory() as folder:
         stubgen = [sys.executable, "-m", "pybind11_stubgen", "hexdbb._core", "--exit-code", "--output-dir", folder]

@@ -1,4 +1,4 @@
-"""Prints what pip has to install before the package itself: all requirements that pyproject.toml states."""
+"""Print the requirements of pyproject.toml, which pip installs before the package itself."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ PYPROJECT = Path(__file__).parents[2] / "pyproject.toml"
 
 
 def requirements(pyproject: Path) -> list[str]:
-    """Every requirement of a pyproject.toml, as pip reads them."""
+    """Return all requirements of a pyproject.toml in the syntax of pip: build system, dependencies and dev."""
     content = tomllib.loads(pyproject.read_text(encoding="utf-8"))
     project = content["project"]
     return [*content["build-system"]["requires"], *project["dependencies"], *project["optional-dependencies"]["dev"]]

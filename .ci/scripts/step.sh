@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # step.sh TITLE COMMAND...
-# Runs a talkative command behind one title. Its output goes to build/logs; while it runs the last line of it is shown
-# as progress; when it fails all of it is printed and its exit status returned.
+# Run a command under one title. Its output goes to build/logs; while it runs the last line is shown as progress; if it
+# fails the whole output is printed and its exit status returned.
 set -uo pipefail
 
 title=$1

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Sees to what pip cannot install: a Python that is new enough, the compiler and the C++ libraries of the engine.
-# Installs only what is missing, through apt on Debian and Ubuntu; elsewhere it says what is needed and goes on.
-# HEXDBB_LINUXCNC=ON adds LinuxCNC, which Debian has from 12 on.
+# Check and install what pip cannot: a recent Python, the compiler and the C++ libraries of the engine. Missing packages
+# are installed with apt on Debian and Ubuntu; elsewhere the list of packages is printed and the build goes on.
+# HEXDBB_LINUXCNC=ON adds LinuxCNC, which Debian has from version 12.
 set -euo pipefail
 
 python=${PYTHON:-python3}
@@ -12,7 +12,7 @@ if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
 fi
 
 packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libgtest-dev libbenchmark-dev)
-# A Python of the distribution keeps `venv` and its headers in packages of their own; any other brings them along.
+# The Python of the distribution has `venv` and its headers in separate packages; any other Python includes them.
 if [ "$("$python" -c 'import sys; print(sys.base_prefix)')" = /usr ]; then
   version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
   packages+=("python$version-venv" "python$version-dev")
@@ -23,7 +23,7 @@ if [ "${HEXDBB_LINUXCNC:-OFF}" = ON ]; then
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
-  echo "note: not Debian or Ubuntu; going on as if these were installed: ${packages[*]}" >&2
+  echo "note: not Debian or Ubuntu; assuming that these are installed: ${packages[*]}" >&2
   exit 0
 fi
 
@@ -37,10 +37,10 @@ done
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   if ! command -v sudo >/dev/null; then
-    echo "error: neither root nor sudo, and these packages are missing: ${missing[*]} (have them installed, then repeat)" >&2
+    echo "error: neither root nor sudo, and these packages are missing: ${missing[*]} (install them, then repeat)" >&2
     exit 1
   fi
-  echo "==> Administrator rights for apt, to install: ${missing[*]}"
+  echo "==> apt needs administrator rights to install: ${missing[*]}"
   sudo -v
   as_root=(sudo)
 fi

@@ -1,6 +1,6 @@
 // Time of one call of the compensator along a circle at 3000 mm/min, 1 kHz: median and tail over single calls, each
-// timed with the processor's counter; cost of reading the counter taken off. The tail is the machine's as much as ours:
-// a busy system interrupts.
+// timed with the processor's counter; the cost of reading the counter is subtracted. The tail also depends on the
+// system: a busy one interrupts.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace hexdbb;
 
 constexpr double kStep_s = 1e-3, kRadius_mm = 90.0, kSpeed_mm_s = 50.0;
 
-/// A machine with these effects at the sizes they are expected at.
+/// Return a machine with these effects at half their prior standard deviations.
 CompensationData machine_with(const std::vector<std::string>& effects) {
   Model model{Machine()};
   for (const std::string& name : effects) {

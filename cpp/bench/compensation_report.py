@@ -6,11 +6,9 @@ Single calls are timed, so that the page can tell the tail; a busy machine makes
 
 from __future__ import annotations
 
-import argparse
-import sys
 from pathlib import Path
 
-from measured_by import compiler, median_rows, processor
+from measured_by import compiler, median_rows, processor, report
 
 REPETITIONS = 5
 TITLES = {
@@ -28,23 +26,23 @@ PAGE = """\
 # Real time
 
 `Compensator::sliders` and `Compensator::pose` (C: `hexdbb_sliders_from_pose`, `hexdbb_pose_from_sliders`) are made for
-the cycle of a motion controller: after creation they allocate nothing, throw nothing, lock nothing, call no system, and
-take at most four inverse solutions (`kMaxIterations`), each in closed form. What is claimed is tested:
+the cycle of a motion controller: after creation they do not allocate, throw, lock or make system calls, and they take
+at most four inverse solutions (`kMaxIterations`), each in closed form. Each claim has a test:
 
 | claim | test |
 |---|---|
-| no allocation in 100,000 calls of each, every effect in force | `test_no_allocation.cpp` counts `new` and `malloc` |
-| no system call, hence no lock that waits | `test_real_time.cpp`: 100,000 calls under seccomp's strict mode |
-| no exception | declared `noexcept`; a pose that is no number or out of reach is a status |
-| continuous over reversals, standing still with the machine | `test_compensation.cpp` |
+| no allocation in 100,000 calls of each, all effects active | `test_no_allocation.cpp` counts `new` and `malloc` |
+| no system call, hence no blocking lock | `test_real_time.cpp`: 100,000 calls under seccomp's strict mode |
+| no exception | declared `noexcept`; a pose that is not finite or out of reach is a status |
+| continuous at reversals, constant at standstill | `test_compensation.cpp` |
 
 ## Time of a call
 Machine: {processor}. Compiler: {compiler}, `-O3` for any x86-64, AVX2 chosen at load time.
-A circle of 90 mm at 3000 mm/min, a pose a millisecond, platform tilted; single calls timed, the clock's own time taken
-off. Medians of {repetitions} repetitions; made by `make bench`. To reach: 300 ns, and 99.9 % of calls within five times
-the median.
+A circle of 90 mm at 3000 mm/min, one pose per millisecond, platform tilted; single calls timed, the time of the clock
+subtracted. Medians of {repetitions} repetitions; made by `make bench`. Goal: 300 ns, and 99.9 % of calls within five
+times the median.
 
-| work | median | 99.9 % within | tail / median | iterations, at most |
+| work | median | 99.9 % within | tail / median | most iterations |
 |---|---|---|---|---|
 {targets}
 
@@ -53,8 +51,8 @@ the median.
 {poses}
 
 The C interface adds the three rotations of roll, pitch and yaw: some tens of ns.
-A lag in proportion to speed is corrected with the controller's velocities, which leave out those of the correction
-itself: at 3000 mm/min and 2 ms of lag that is below 1 um.
+A lag proportional to velocity is corrected with the velocities of the controller, without those of the correction
+itself: at 3000 mm/min and 2 ms of lag the difference is below 1 µm.
 """
 
 
@@ -83,18 +81,5 @@ def page(rows: dict[str, dict[str, float]]) -> str:
     )
 
 
-def main() -> None:
-    """Run the benchmark and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    arguments = parser.parse_args()
-    print("running the benchmark of the compensator ...", file=sys.stderr)
-    text = page(results(arguments.program))
-    if arguments.output:
-        arguments.output.write_text(text, encoding="utf-8")
-    print(text)
-
-
 if __name__ == "__main__":
-    main()
+    report(__doc__, "the benchmark of the compensator", lambda program: page(results(program)))

@@ -1,4 +1,4 @@
-"""A whole discovery timed: every effect, whole and per element, on 20,000 readings of machines with a known fault."""
+"""Time of a whole discovery: every effect, whole and per element, on 20,000 readings of machines with a known fault."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from tests.truth.simulate import Pace
 
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
+from hexdbb.samples import Samples
 
 PACE = Pace(rate_hz=11.5, instants_per_sample=15, travel_s=10.0)
-"""Some 20,000 samples on the standard plan."""
+"""About 20,000 samples on the standard plan."""
 CASES = (
     "none-s1",
     "backlash-x3-s1",
@@ -23,10 +24,11 @@ CASES = (
 )
 REPETITIONS = 5
 TARGET_S = 2.0
+"""Limit of one call: a user at the machine waits for it."""
 
 
 def discovery_rows() -> list[str]:
-    """Rows of a table: the fault, the readings, the verdict, median seconds of one call."""
+    """Return table rows: the fault, the number of readings, the verdict, the median time of one call."""
     rows = []
     for name in CASES:
         record = case(name, PACE).record()
@@ -34,7 +36,7 @@ def discovery_rows() -> list[str]:
         seconds = []
         for _ in range(REPETITIONS):
             begin = time.perf_counter()
-            found = discover([record], model)
+            found = discover(Samples.of([record]), model)
             seconds.append(time.perf_counter() - begin)
         called = found.verdict if found.best is None else f"{found.verdict}, {found.best.effect}"
         hidden = name.rsplit("-s", 1)[0].replace("-x3", ", three times the noise").replace("none", "nothing")

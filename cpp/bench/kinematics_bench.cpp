@@ -1,5 +1,5 @@
-// Speed of single poses: inverse, forward warm and from home, reading and its whole sensitivity. Poses are drawn over
-// the workspace; a warm start stands 0.1 mm away. Every solution is to 1e-12 mm.
+// Speed of single poses: inverse, forward warm and from home, reading and its complete sensitivity. Poses are drawn
+// over the workspace; a warm start is 0.1 mm away. Every solution is to 1e-12 mm.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>

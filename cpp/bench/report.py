@@ -1,14 +1,12 @@
-"""Run the engine's benchmark and SciPy on the same task in one call, then whole discoveries; write docs/benchmarks.md.
+"""Run the engine's benchmark, SciPy on the same tasks, and whole discoveries; write docs/benchmarks.md.
 
 Usage: report.py BENCHMARK_PROGRAM [-o docs/benchmarks.md]
-Times are medians of repetitions on a machine that may be busy: look at the ratios.
+Times are medians of repetitions on a machine that may be busy: compare ratios.
 """
 
 from __future__ import annotations
 
-import argparse
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -16,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 from discovery_times import discovery_rows
-from measured_by import compiler, median_rows, processor
+from measured_by import compiler, median_rows, processor, report
 from numpy.typing import NDArray
 from scipy.optimize import fsolve, least_squares
 
@@ -56,7 +54,7 @@ genhexkins forward 1455-1715 ns level and 4400-5200 ns tilted, inverse 195-240 n
 
 
 def engine_times_ns(program: Path) -> dict[str, float]:
-    """Median CPU time of each benchmark of the C++ program."""
+    """Return the median CPU time of each benchmark of the C++ program, ns."""
     return {
         name: row["cpu_time"] / (row["cpu_time"] * 1e-9 * row["items_per_second"] if "items_per_second" in row else 1)
         for name, row in median_rows(program, REPETITIONS).items()
@@ -64,7 +62,7 @@ def engine_times_ns(program: Path) -> dict[str, float]:
 
 
 def scipy_forward_ns() -> float:
-    """Forward kinematics by scipy.optimize.fsolve on the six leg lengths, start 0.1 mm away, tolerance 1e-12."""
+    """Return the time of forward kinematics by scipy.optimize.fsolve on the leg lengths, from 0.1 mm away, to 1e-12."""
     machine = shipped_machine()
     engine = engine_machine(machine)
     vertex = np.array([_core.guideway_vertex(engine, k // 2) for k in range(6)])
@@ -88,7 +86,7 @@ def scipy_forward_ns() -> float:
 
 
 def diagnosis_times_ms() -> dict[str, float]:
-    """Diagnosis of 20,000 readings, 37 unknowns: the engine's, and SciPy's least_squares on its predictions."""
+    """Return the times of diagnosis, ms: the engine's, and SciPy's least_squares on the engine's predictions."""
     plan = load_plan("standard")
     machine = plan.machine_file()
     angle = np.linspace(0.0, 4.0 * np.pi, READINGS // len(plan.circles))
@@ -110,7 +108,7 @@ def diagnosis_times_ms() -> dict[str, float]:
     sizes = np.array([each.prior_sigma for each in model.parameters()])
     random = np.random.default_rng(20060701)
     engine = model.engine()
-    part = np.where([each.is_set_up for each in model.parameters()], 0.1, 0.5)  # of the size to expect
+    part = np.where([each.is_set_up for each in model.parameters()], 0.1, 0.5)  # of the prior standard deviation
     engine.values = np.where(free, random.normal(size=len(sizes)) * part * sizes, 0.0)
     measured = _core.predict(engine, samples).reading_mm + random.normal(size=len(sliders)) * NOISE_MM
 
@@ -156,7 +154,7 @@ def _median_ns(work: Callable[[int], object], count: int, repetitions: int = REP
 
 
 def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, float], discoveries: list[str]) -> str:
-    """Lay out the page."""
+    """Return the page as Markdown."""
     lines = [
         "# Benchmarks",
         "",
@@ -164,7 +162,7 @@ def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, 
         f"SciPy {scipy.__version__}. Medians of {REPETITIONS} repetitions, both sides in one run; by `make bench`.",
         "Every solution is to 1e-12 mm and allocates nothing.",
         "",
-        "| work | time | to reach | against SciPy's fsolve |",
+        "| work | time | target | against SciPy's fsolve |",
         "|---|---|---|---|",
     ]
     for name, nanoseconds in engine_ns.items():
@@ -173,15 +171,15 @@ def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, 
         lines.append(f"| {TITLES.get(name, name)} | {nanoseconds:.0f} ns | {target} | {ratio} |")
     lines += [f"| SciPy fsolve, level, start 0.1 mm away | {scipy_ns:,.0f} ns | | 1 |", ""]
     ours, *_ = diagnosis_ms.values()
-    lines += ["| work | time | to reach | ratio to ours |", "|---|---|---|---|"]
+    lines += ["| work | time | target | ratio to the first |", "|---|---|---|---|"]
     for name, milliseconds in diagnosis_ms.items():
         target = "≤ 30 ms" if milliseconds is ours else ""
         lines.append(f"| {name} | {milliseconds:,.0f} ms | {target} | {milliseconds / ours:,.1f} |")
     lines += [
         "",
-        "One call of `discover`: every effect tried, whole and per element, the best confirmed on circles left out.",
+        "One call of `discover`: every effect tried, whole and per element, the best confirmed on held-out circles.",
         "",
-        "| hidden in the machine | readings | verdict | time | to reach |",
+        "| hidden in the machine | readings | verdict | time | target |",
         "|---|---|---|---|---|",
         *discoveries,
         "",
@@ -190,18 +188,10 @@ def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, 
     return "\n".join(lines)
 
 
-def main() -> None:
-    """Run both sides and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", type=Path)
-    parser.add_argument("-o", "--output", type=Path)
-    arguments = parser.parse_args()
-    print("running the engine's benchmark and SciPy ...", file=sys.stderr)
-    page = table(engine_times_ns(arguments.program), scipy_forward_ns(), diagnosis_times_ms(), discovery_rows())
-    if arguments.output:
-        arguments.output.write_text(page, encoding="utf-8")
-    print(page)
+def page(program: Path) -> str:
+    """Run both sides and return the page as Markdown."""
+    return table(engine_times_ns(program), scipy_forward_ns(), diagnosis_times_ms(), discovery_rows())
 
 
 if __name__ == "__main__":
-    main()
+    report(__doc__, "the engine's benchmark and SciPy", page)

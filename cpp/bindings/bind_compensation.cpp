@@ -18,26 +18,27 @@ Pose pose_of(const Rows3& position_mm, const Rows3& rpy_rad, Eigen::Index row) {
   return {position_mm.row(row).transpose(), rotation_from_rpy(rpy_rad(row, 0), rpy_rad(row, 1), rpy_rad(row, 2))};
 }
 
-/// Targets along a path. Velocities are those of the nominal sliders between the neighbours of each row; sides follow
-/// from the motion where none are given.
+/// Compute targets along a path. Velocities are those of the nominal sliders between the neighbours of each row;
+/// directions of travel follow from the motion where none are given.
 py::tuple sliders_along(Compensator& compensator, const Rows3& position_mm, const Rows3& rpy_rad,
                         const Eigen::VectorXd& time_s, const Eigen::VectorXd& temperature_c,
-                        const std::optional<Rows6>& side) {
+                        const std::optional<Rows6>& travel_direction) {
   const Eigen::Index count = position_mm.rows();
-  if (side && side->rows() != count) throw std::invalid_argument("side and position_mm differ in length");
+  if (travel_direction && travel_direction->rows() != count)
+    throw std::invalid_argument("travel_direction and position_mm differ in length");
   if (rpy_rad.rows() != count || time_s.size() != count || temperature_c.size() != count) {
     throw std::invalid_argument("position_mm, rpy_rad, time_s and temperature_c differ in length");
   }
   const NominalGeometry nominal(compensator.machine());
   Rows6 sliders(count, int{kLegs}), correction(count, int{kLegs});
   Eigen::VectorXi status(count), slider(count);
-  std::optional<py::gil_scoped_release> others_may_run(std::in_place);  // a cyclic loop may be one of them
+  std::optional<py::gil_scoped_release> others_may_run(std::in_place);  // such as a cyclic loop
   for (Eigen::Index row = 0; row < count; ++row) {
     const Eigen::Index before = std::max<Eigen::Index>(row - 1, 0), after = std::min(row + 1, count - 1);
     Direction direction = direction_between(nominal, pose_of(position_mm, rpy_rad, before),
                                             pose_of(position_mm, rpy_rad, after), time_s[after] - time_s[before]);
     direction.temperature_c = temperature_c[row];
-    if (side) direction.side = side->row(row).transpose();
+    if (travel_direction) direction.travel_direction = travel_direction->row(row).transpose();
     const SliderTargets targets = compensator.sliders(pose_of(position_mm, rpy_rad, row), direction);
     sliders.row(row) = targets.sliders_mm.transpose();
     correction.row(row) = targets.correction_mm.transpose();
@@ -66,7 +67,8 @@ py::tuple poses_of(Compensator& compensator, const Rows6& sliders_mm) {
 void bind_compensation(py::module_& module) {
   py::register_exception<CompensationError>(module, "CompensationError", PyExc_ValueError);
 
-  py::class_<CompensationData>(module, "CompensationData", "What a controller loads; see compensation_file.hpp.")
+  py::class_<CompensationData>(module, "CompensationData",
+                               "Compensation data that a controller loads; see compensation_file.hpp.")
       .def_readonly("name", &CompensationData::name)
       .def_readonly("model_sha256", &CompensationData::model_sha256)
       .def_readonly("reference_temperature_c", &CompensationData::reference_temperature_c)
@@ -81,7 +83,7 @@ void bind_compensation(py::module_& module) {
             for (const CompensatedEffect& each : data.effects) names.push_back(each.name);
             return names;
           },
-          "Names of the effects it corrects.")
+          "Names of the effects that are corrected.")
       .def_property_readonly(
           "left_out",
           [](const CompensationData& data) {
@@ -89,9 +91,9 @@ void bind_compensation(py::module_& module) {
             for (const LeftOut& each : data.left_out) out.emplace_back(each.effect, each.reason);
             return out;
           },
-          "Effects it does not correct, each with the reason.")
-      .def("text", &compensation_text, "Content of a compensation file.")
-      .def("header", &compensation_header, "The same as constants of a C program.");
+          "Effects that are not corrected, each with the reason.")
+      .def("text", &compensation_text, "Return the content of a compensation file.")
+      .def("header", &compensation_header, "Return the same as constants of a C program.");
 
   module.def(
       "compensation_of",
@@ -100,33 +102,42 @@ void bind_compensation(py::module_& module) {
         CompensationData data = compensation_of(model, name, model_sha256, {max_correction_mm, reversal_travel_mm},
                                                 reference_temperature_c);
         for (const std::string& each : unknown) {
-          data.left_out.push_back({each, "is known to the program that fitted it, not to the engine"});
+          data.left_out.push_back({each, "is defined outside the engine"});
         }
         return data;
       },
       py::arg("model"), py::kw_only(), py::arg("name"), py::arg("model_sha256"), py::arg("max_correction_mm"),
       py::arg("reversal_travel_mm"), py::arg("reference_temperature_c"),
       py::arg("unknown") = std::vector<std::string>(),
-      "What of a model a controller can correct, and why the rest not.\n\n"
-      "reference_temperature_c: nan where not known; unknown: effects of the model that the engine does not have.");
+      "Select the effects of a model that a controller can correct, and state why the others are left out.\n\n"
+      "Parameters\n----------\nmodel : Model\nname : str\n    Of the machine.\n"
+      "model_sha256 : str\n    Of the model file.\nmax_correction_mm, reversal_travel_mm : float\n"
+      "reference_temperature_c : float\n    Temperature at which no growth is corrected; nan where not known.\n"
+      "unknown : sequence of str, optional\n    Effects of the model that the engine does not have.");
   module.def("read_compensation", &read_compensation, py::arg("path"),
-             "Read a compensation file; CompensationError says why it is refused.");
+             "Read a compensation file. CompensationError where it is refused, with the reason.");
   module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),
-             "CompensationError naming the first dimension that differs.");
+             "Raise CompensationError, naming the first dimension that differs, unless both machines are the same.");
 
   module.attr("CORRECTION_LIMIT") = static_cast<int>(Status::kCorrectionLimit);
   py::class_<Compensator>(module, "Compensator", "Slider targets under every effect of compensation data.")
       .def(py::init<const CompensationData&, const std::string&>(), py::arg("data"), py::arg("source"))
       .def("sliders_along", &sliders_along, py::arg("position_mm"), py::arg("rpy_rad"), py::arg("time_s"),
-           py::arg("temperature_c"), py::arg("side") = py::none(),
-           "Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.\n\n"
-           "A row refused has the last targets, and where a correction is too large, its size.\n"
-           "side (n, 6), -1 .. 1, is where each slider comes from, if the motion to come is known;\n"
-           "without it the sides follow from the motion so far.")
+           py::arg("temperature_c"), py::arg("travel_direction") = py::none(),
+           "Compute slider targets of poses in order of motion.\n\n"
+           "Parameters\n----------\nposition_mm, rpy_rad : ndarray, shape (n, 3)\n"
+           "time_s, temperature_c : ndarray, shape (n,)\n    Temperature nan where not measured.\n"
+           "travel_direction : ndarray, shape (n, 6), optional\n"
+           "    -1 to 1 per slider, where the motion to come is known; from the motion so far where not given.\n\n"
+           "Returns\n-------\nsliders_mm, correction_mm : ndarray, shape (n, 6)\n"
+           "    A refused row has the last targets and, where a correction is too large, its size.\n"
+           "status, slider : ndarray of int, shape (n,)\n    Slider at fault from 0, or -1.")
       .def("poses_of", &poses_of, py::arg("sliders_mm"),
-           "Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of rows of slider coordinates.")
-      .def("enable", &Compensator::enable, py::arg("on"), "Off or on; it fades over the next 500 poses.")
-      .def("reset", &Compensator::reset, "Forget how the machine moved before.");
+           "Compute the poses, (n, 12) as x, y, z in mm and the rotation row by row, and status (n,), of slider "
+           "coordinates (n, 6).")
+      .def("enable", &Compensator::enable, py::arg("on"),
+           "Switch compensation off or on; it fades over the next 500 poses.")
+      .def("reset", &Compensator::reset, "Forget the motion so far, as after homing.");
 }
 
 }  // namespace hexdbb::bindings

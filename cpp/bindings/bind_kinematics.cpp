@@ -15,7 +15,9 @@ using Rows6 = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::R
 using PortVector = Eigen::Matrix<double, port::kCount, 1>;
 
 py::tuple inverse_table(const Machine& machine, const Rows3& position_mm, const Rows3& rpy_rad) {
-  if (position_mm.rows() != rpy_rad.rows()) throw std::invalid_argument("position_mm and rpy_rad differ in length");
+  if (position_mm.rows() != rpy_rad.rows())
+    throw std::invalid_argument("position_mm has " + std::to_string(position_mm.rows()) + " rows, rpy_rad " +
+                                std::to_string(rpy_rad.rows()) + "; expected the same number");
   const NominalGeometry nominal(machine);
   const Ports none;
   Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> sliders(position_mm.rows(), 6);
@@ -50,6 +52,14 @@ py::tuple forward_six_one(const Machine& machine, const Vector6& sliders_mm, con
   return as_tuple(forward_six(assemble(nominal, sliders_mm, ports), home_pose(nominal)));
 }
 
+const char* name_of_status(int code) {
+  if (code < 0 || code > static_cast<int>(Status::kLast)) {
+    throw std::invalid_argument("no status has the code " + std::to_string(code) + ", expected 0 to " +
+                                std::to_string(static_cast<int>(Status::kLast)));
+  }
+  return status_name(static_cast<Status>(code));
+}
+
 Vector3 rssr_angles(const Machine& machine, const Vector6& sliders_mm) {
   RssrAngles angles;
   forward(assemble(NominalGeometry(machine), sliders_mm, Ports()), angles);
@@ -59,17 +69,20 @@ Vector3 rssr_angles(const Machine& machine, const Vector6& sliders_mm) {
 }  // namespace
 
 void bind_kinematics(py::module_& module) {
-  module.def(
-      "status_name", [](int code) { return status_name(static_cast<Status>(code)); }, py::arg("code"),
-      "What a status code of the kinematics means.");
+  module.def("status_name", &name_of_status, py::arg("code"),
+             "Return what a status code of the kinematics means. ValueError for an unknown code.");
   module.def("inverse_table", &inverse_table, py::arg("machine"), py::arg("position_mm"), py::arg("rpy_rad"),
-             "Slider coordinates (n, 6) in mm, status (n,) and leg at fault (n,) of nominal poses.");
+             "Compute the slider coordinates of poses of the nominal machine.\n\n"
+             "Parameters\n----------\nmachine : Machine\nposition_mm : ndarray, shape (n, 3)\n"
+             "rpy_rad : ndarray, shape (n, 3)\n\n"
+             "Returns\n-------\nsliders_mm : ndarray, shape (n, 6)\nstatus : ndarray of int, shape (n,)\n"
+             "    0: reached; see status_name.\nleg : ndarray of int, shape (n,)\n    Leg at fault from 0, or -1.");
   module.def("forward_one", &forward_one, py::arg("machine"), py::arg("sliders_mm"), py::arg("push"),
-             "RSSR solution from home: position, rotation, residual_mm, iterations, status.");
+             "Solve the RSSR loops from home: position, rotation, residual_mm, iterations, status.");
   module.def("forward_six_one", &forward_six_one, py::arg("machine"), py::arg("sliders_mm"), py::arg("push"),
-             "Six-coordinate solution from home: position, rotation, residual_mm, iterations, status.");
+             "Solve the six pose coordinates from home: position, rotation, residual_mm, iterations, status.");
   module.def("rssr_angles", &rssr_angles, py::arg("machine"), py::arg("sliders_mm"),
-             "theta, delta, phi of the nominal machine in rad, as the thesis counts them.");
+             "Compute theta, delta, phi of the nominal machine, (3,) in rad, with the thesis' signs.");
   py::dict spans;
   for (const PortSpan& span : port::kSpans) spans[span.name] = py::make_tuple(span.first, span.size);
   module.attr("PORTS") = spans;

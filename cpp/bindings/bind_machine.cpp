@@ -5,6 +5,18 @@ namespace hexdbb::bindings {
 
 namespace py = pybind11;
 
+namespace {
+
+int checked(int guideway) {
+  if (guideway < 0 || guideway >= kGuideways) {
+    throw py::index_error("guideway is " + std::to_string(guideway) + ", expected 0 to " +
+                          std::to_string(kGuideways - 1));
+  }
+  return guideway;
+}
+
+}  // namespace
+
 void bind_machine(py::module_& module) {
   py::class_<Machine>(module, "Machine", "Nominal dimensions of a HexGlider.")
       .def(py::init([](double base_inradius_mm, double platform_circumradius_mm, double joint_plane_height_mm,
@@ -32,18 +44,31 @@ void bind_machine(py::module_& module) {
       .def_readonly("min_gap_mm", &Machine::min_gap_mm)
       .def_readonly("screw_lead_mm", &Machine::screw_lead_mm)
       .def_readonly("moved_mass_kg", &Machine::moved_mass_kg);
-  module.def("guideway_vertex", &guideway_vertex, py::arg("machine"), py::arg("guideway"),
-             "V of guideway 0..2, mm, base frame.");
-  module.def("guideway_direction", &guideway_direction, py::arg("guideway"), "d of guideway 0..2, unit vector.");
-  module.def("guideway_midpoint", &guideway_midpoint, py::arg("machine"), py::arg("guideway"),
-             "Point of guideway 0..2 nearest to the base centre, mm, base frame.");
-  module.def("guideway_axes", &guideway_axes, py::arg("guideway"),
-             "Local axes of guideway 0..2 as columns: outward, -d, up.");
-  module.def("platform_joint", &platform_joint, py::arg("machine"), py::arg("guideway"),
-             "Nominal ball joint 0..2, mm, platform frame.");
+  module.def(
+      "guideway_vertex",
+      [](const Machine& machine, int guideway) { return guideway_vertex(machine, checked(guideway)); },
+      py::arg("machine"), py::arg("guideway"),
+      "Return V of guideway 0..2, (3,) in mm, base frame. IndexError for any other guideway.");
+  module.def(
+      "guideway_direction", [](int guideway) { return guideway_direction(checked(guideway)); }, py::arg("guideway"),
+      "Return d of guideway 0..2, unit vector (3,), base frame. IndexError for any other guideway.");
+  module.def(
+      "guideway_midpoint",
+      [](const Machine& machine, int guideway) { return guideway_midpoint(machine, checked(guideway)); },
+      py::arg("machine"), py::arg("guideway"),
+      "Return the point of guideway 0..2 nearest to the base centre, (3,) in mm, base frame. IndexError for any other "
+      "guideway.");
+  module.def(
+      "guideway_axes", [](int guideway) { return guideway_axes(checked(guideway)); }, py::arg("guideway"),
+      "Return the local axes of guideway 0..2 as columns (3, 3): outward, -d, up. IndexError for any other guideway.");
+  module.def(
+      "platform_joint", [](const Machine& machine, int guideway) { return platform_joint(machine, checked(guideway)); },
+      py::arg("machine"), py::arg("guideway"),
+      "Return the nominal ball joint of guideway 0..2, (3,) in mm, platform frame. IndexError for any other guideway.");
   module.def("rotation_from_rpy", &rotation_from_rpy, py::arg("roll_rad"), py::arg("pitch_rad"), py::arg("yaw_rad"),
-             "Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).");
-  module.def("rpy_from_rotation", &rpy_from_rotation, py::arg("rotation"), "(roll, pitch, yaw) in rad.");
+             "Compute Rz(yaw) Ry(pitch) Rx(roll), (3, 3), thesis (2.27).");
+  module.def("rpy_from_rotation", &rpy_from_rotation, py::arg("rotation"),
+             "Compute roll, pitch and yaw in rad, (3,), for |pitch| below 90 deg; inverse of rotation_from_rpy.");
 }
 
 }  // namespace hexdbb::bindings

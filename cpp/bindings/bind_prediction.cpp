@@ -11,7 +11,9 @@ namespace {
 void add_tabulated(Model& model, EffectInfo info, const std::vector<int>& values, const std::vector<int>& ports,
                    const Eigen::MatrixXd& per_unit) {
   if (values.size() != ports.size() || per_unit.cols() != static_cast<Eigen::Index>(ports.size())) {
-    throw std::invalid_argument("values, ports and the columns of per_unit differ in number");
+    throw std::invalid_argument("values has " + std::to_string(values.size()) + " entries, ports " +
+                                std::to_string(ports.size()) + ", per_unit " + std::to_string(per_unit.cols()) +
+                                " columns; expected the same number");
   }
   std::vector<TabulatedLink> links;
   for (std::size_t j = 0; j < values.size(); ++j) {
@@ -30,10 +32,15 @@ void bind_prediction(py::module_& module) {
           [](Model& model, const std::string& name, int mounts) {
             model.add(find_effect(model.nominal.machine, mounts, name));
           },
-          py::arg("name"), py::arg("mounts"), "Append the effect of that name with all values zero.")
+          py::arg("name"), py::arg("mounts"),
+          "Append an effect with all values zero. ValueError where no effect has that name.")
       .def("add_tabulated", &add_tabulated, py::arg("info"), py::kw_only(), py::arg("values"), py::arg("ports"),
            py::arg("per_unit"),
-           "Append an effect whose value values[j] pushes port ports[j] by per_unit[:, j], a row a sample.")
+           "Append an effect given as numbers: its value values[j] pushes port ports[j] by per_unit[:, j].\n\n"
+           "Parameters\n----------\ninfo : EffectInfo\nvalues : sequence of int\n    Indices of the effect's values.\n"
+           "ports : sequence of int\n    Indices of ports, 0 to 54.\nper_unit : ndarray, shape (n, len(ports))\n"
+           "    Push per unit of the value, one row per sample, mm.\n\n"
+           "Raises\n------\nValueError\n    An index that does not exist, lengths that differ, a number not finite.")
       .def_property("values", &Model::values,
                     [](Model& model, const Eigen::VectorXd& values) {
                       if (values.size() != model.size()) {
@@ -44,23 +51,24 @@ void bind_prediction(py::module_& module) {
                     })
       .def_property_readonly("size", &Model::size);
 
-  py::class_<Prediction>(module, "Prediction", "Readings in mm, status, Jacobian (samples x values).")
-      .def_readonly("reading_mm", &Prediction::reading_mm)
-      .def_readonly("status", &Prediction::status)
-      .def_readonly("jacobian", &Prediction::jacobian)
-      .def_property_readonly("first_failure", &Prediction::first_failure);
+  py::class_<Prediction>(module, "Prediction", "Predicted readings.")
+      .def_readonly("reading_mm", &Prediction::reading_mm, "Shape (n,); 0 where there is no solution.")
+      .def_readonly("status", &Prediction::status, "Shape (n,); 0: solved, see status_name.")
+      .def_readonly("jacobian", &Prediction::jacobian, "d reading / d value, shape (n, size); empty unless asked for.")
+      .def_property_readonly("first_failure", &Prediction::first_failure, "First row without a solution, or -1.");
 
   module.def("predict", &predict, py::arg("model"), py::arg("samples"), py::arg("want_jacobian") = false,
-             py::call_guard<py::gil_scoped_release>(), "What the ball bar reads under a model.");
+             py::call_guard<py::gil_scoped_release>(), "Predict the readings of the ball bar under a model.");
   module.def("port_sensitivity", &port_sensitivity, py::arg("model"), py::arg("samples"),
-             py::call_guard<py::gil_scoped_release>(), "d reading / d push at each port, (n, 55), mm per mm.");
+             py::call_guard<py::gil_scoped_release>(), "Compute d reading / d push at each port, (n, 55), mm per mm.");
   module.def(
       "forward_table",
       [](const Model& model, const Samples& samples) {
         const PoseTable table = forward_table(model, samples);
         return py::make_tuple(table.pose, table.status);
       },
-      py::arg("model"), py::arg("samples"), "Poses (n, 12) as x, y, z and the rotation row by row; status (n,).");
+      py::arg("model"), py::arg("samples"),
+      "Compute the platform's poses, (n, 12) as x, y, z in mm and the rotation row by row, and their status, (n,).");
 }
 
 }  // namespace hexdbb::bindings

@@ -9,20 +9,20 @@ namespace py = pybind11;
 
 namespace {
 
-/// Fill the columns of a state from a dict of arrays by name; ValueError on a name that is none.
+/// Fill the columns of a state from a dict of arrays by name; ValueError on an unknown name.
 State make_state(const py::dict& columns) {
   State state;
   std::size_t used = 0;
-  for_each_column(state, [&](const char* name, auto& column) {
-    if (!columns.contains(name)) return;
-    column = columns[name].template cast<std::decay_t<decltype(column)>>();
+  for_each_column(state, [&](const ColumnInfo& info, auto& column) {
+    if (!columns.contains(info.name)) return;
+    column = columns[info.name].template cast<std::decay_t<decltype(column)>>();
     ++used;
   });
   if (used == columns.size()) return state;
   for (const auto& item : columns) {
     const std::string given = item.first.cast<std::string>();
     bool known = false;
-    for_each_column(state, [&](const char* name, const auto&) { known = known || given == name; });
+    for_each_column(state, [&](const ColumnInfo& info, const auto&) { known = known || given == info.name; });
     if (!known) throw std::invalid_argument("a sample's state has no column " + given);
   }
   return state;
@@ -37,8 +37,37 @@ Samples make_samples(const SliderTable& sliders_mm, const Eigen::VectorXi& set_u
 
 py::dict state_of(const Samples& samples) {
   py::dict out;
-  for_each_column(samples.state, [&](const char* name, const auto& column) {
-    if (column.size() > 0) out[name] = column;
+  for_each_column(samples.state, [&](const ColumnInfo& info, const auto& column) {
+    if (column.size() > 0) out[info.name] = column;
+  });
+  return out;
+}
+
+/// A column of the vocabulary as Python sees it.
+struct NamedColumn {
+  ColumnInfo info;
+  int width;
+};
+
+const char* name_of(ColumnOf of) {
+  switch (of) {
+    case ColumnOf::kAxis:
+      return "axis";
+    case ColumnOf::kSlider:
+      return "slider";
+    case ColumnOf::kLeg:
+      return "leg";
+    case ColumnOf::kSample:
+      break;
+  }
+  return "sample";
+}
+
+std::vector<NamedColumn> state_columns() {
+  std::vector<NamedColumn> out = {{kSlidersColumn, kLegs}};
+  State state;
+  for_each_column(state, [&](const ColumnInfo& info, const auto& column) {
+    out.push_back({info, static_cast<int>(std::decay_t<decltype(column)>::ColsAtCompileTime)});
   });
   return out;
 }
@@ -51,16 +80,40 @@ void bind_samples(py::module_& module) {
              return SetUp{cup_mm, ball_offset_mm, bar_length_mm};
            }),
            py::kw_only(), py::arg("cup_mm"), py::arg("ball_offset_mm"), py::arg("bar_length_mm"))
-      .def_readonly("cup_mm", &SetUp::cup_mm)
-      .def_readonly("ball_offset_mm", &SetUp::ball_offset_mm)
+      .def_readonly("cup_mm", &SetUp::cup_mm, "Tool cup, base frame.")
+      .def_readonly("ball_offset_mm", &SetUp::ball_offset_mm, "Centre ball, platform frame.")
       .def_readonly("bar_length_mm", &SetUp::bar_length_mm);
+
+  py::class_<NamedColumn>(module, "StateColumn", "Description of one column of a sample's state.")
+      .def_property_readonly("name", [](const NamedColumn& column) { return column.info.name; })
+      .def_property_readonly("unit", [](const NamedColumn& column) { return column.info.unit; })
+      .def_property_readonly("meaning", [](const NamedColumn& column) { return column.info.meaning; })
+      .def_property_readonly(
+          "of", [](const NamedColumn& column) { return name_of(column.info.of); },
+          "What its numbers belong to: sample (shape (n,)), axis ((n, 3): x, y, z or roll, pitch, yaw), slider or leg "
+          "((n, 6)).")
+      .def_readonly("width", &NamedColumn::width, "Numbers per sample: 1, 3 or 6.")
+      .def_property_readonly(
+          "may_be_nan", [](const NamedColumn& column) { return column.info.may_be_nan; },
+          "Whether nan is a value: not measured.");
+  module.def("state_columns", &state_columns,
+             "Return every column of a sample's state, sliders_mm first: the one vocabulary of names and units.");
 
   py::class_<Samples>(module, "Samples", "Samples of a record, one row each, with what is known of their state.")
       .def(py::init(&make_samples), py::kw_only(), py::arg("sliders_mm"), py::arg("set_up"), py::arg("mount"),
            py::arg("set_ups"), py::arg("state") = py::dict(),
-           "`state`: columns by name; any may be missing, an effect that needs one says so.")
+           "Build samples.\n\n"
+           "Parameters\n----------\nsliders_mm : ndarray, shape (n, 6)\n    As the encoders report them.\n"
+           "set_up : ndarray of int, shape (n,)\n    Index into set_ups.\n"
+           "mount : ndarray of int, shape (n,)\n    Fixing of the tool cup, from 0.\n"
+           "set_ups : sequence of SetUp\nstate : dict of str to ndarray, optional\n"
+           "    Columns by name (state_columns()), each of n rows; any may be missing.\n\n"
+           "Raises\n------\nValueError\n    An unknown column, a column of another length, an index out of range.")
       .def_property_readonly("size", &Samples::size)
       .def_readonly("sliders_mm", &Samples::sliders_mm)
+      .def_readonly("set_up", &Samples::set_up)
+      .def_readonly("mount", &Samples::mount)
+      .def_readonly("set_ups", &Samples::set_ups)
       .def_property_readonly("state", &state_of, "Columns of the state that are known, by name.")
       .def(
           "rows",
@@ -68,11 +121,15 @@ void bind_samples(py::module_& module) {
              const py::array_t<Eigen::Index, py::array::c_style | py::array::forcecast>& which) {
             return samples.rows({which.data(), which.data() + which.size()});
           },
-          py::arg("which"), "Some rows; what is tabulated for the whole stays right for the part.")
+          py::arg("which"),
+          "Return some rows, by index from 0; they remember their place in the table. ValueError where there is no "
+          "such "
+          "row.")
       .def(
           "derive", [](Samples& samples, const Machine& machine) { derive(NominalGeometry(machine), samples); },
           py::arg("machine"), py::call_guard<py::gil_scoped_release>(),
-          "Fill what follows from time_s, sweep and the sliders: motion, leg forces, nominal readings.");
+          "Compute every column that follows from time_s, sweep, angle_rad and the sliders.\n\n"
+          "Raises\n------\nValueError\n    Where time_s or sweep is missing, or time does not rise within a sweep.");
 }
 
 }  // namespace hexdbb::bindings

@@ -1,4 +1,4 @@
-// One function per concept; module.cpp calls them in order.
+// One function per concept, called in order by module.cpp.
 #pragma once
 
 #include <pybind11/eigen.h>

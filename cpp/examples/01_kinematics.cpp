@@ -1,4 +1,4 @@
-// Where must the sliders stand for a pose, and which pose belongs to them on a machine with one leg 50 um too long?
+// Slider coordinates of a pose, and the pose they lead to on a machine with one leg 50 um too long.
 #include <hexdbb/kinematics.hpp>
 #include <iostream>
 

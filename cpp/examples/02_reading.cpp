@@ -1,4 +1,4 @@
-// What does the ball bar read, and by how much does each leg move the reading?
+// Reading of the ball bar at a pose, and its sensitivity to each leg and slider.
 #include <hexdbb/ball_bar.hpp>
 #include <iostream>
 

@@ -1,4 +1,4 @@
-// Hide leg errors in simulated readings of one circle and find what can be found.
+// Simulate readings of one circle with leg errors and diagnose them.
 #include <cmath>
 #include <hexdbb/diagnosis.hpp>
 #include <iostream>

@@ -1,5 +1,5 @@
-// Where must the sliders of the real machine stand for its platform to be where it is told? A leg 50 um too long and 20
-// um of play in every drive, written to a compensation file as diagnosis would, and loaded as a motion controller does.
+// Slider targets at which the platform of the real machine takes the commanded pose: a leg 50 um too long and 20 um of
+// play in every drive, written to a compensation file and loaded as a motion controller does.
 #include <cmath>
 #include <fstream>
 #include <hexdbb/compensation.hpp>

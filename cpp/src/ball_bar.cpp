@@ -31,7 +31,7 @@ Bar bar(const Pose& pose, const SetUp& set_up, const Ports& push) {
   return out;
 }
 
-/// `share[k] * leg_k` is the force in leg k, leg_k the vector from slider joint to ball joint.
+/// Fill the sensitivities; `share[k] * leg_k` is the force in leg k, leg_k the vector from slider joint to ball joint.
 void fill(const NominalGeometry& nominal, const Mechanism& mechanism, const Pose& pose, const Bar& along,
           const Matrix36& leg, const Vector6& share, Ports& out) {
   for (int k = 0; k < kLegs; ++k) {

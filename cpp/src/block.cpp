@@ -9,7 +9,7 @@ namespace hexdbb {
 
 namespace {
 
-constexpr int kMaxSteps = 12;  // lanes that need more are left to the single-pose solver
+constexpr int kMaxSteps = 12;  // neighbours need 3; lanes that need more are left to the single-pose solver
 
 inline rssr::Joints<Lanes> load_joints(const NominalGeometry& nominal, const Block& block, Eigen::Index row) {
   rssr::Joints<Lanes> out;
@@ -21,10 +21,10 @@ inline rssr::Joints<Lanes> load_joints(const NominalGeometry& nominal, const Blo
   return out;
 }
 
-/// Newton on all lanes until the worst of them is solved; a solved lane's further steps do not move it. Not a number
-/// compares false, so lanes without a solution do not hold the others up. A lane whose last determinant is not
-/// negative, or that took too long a step, may have come to another way to assemble the machine (see kinematics.cpp):
-/// its residual becomes infinite.
+/// Newton on all lanes until the worst of them is solved; a solved lane's further steps do not move it. NaN compares
+/// false, so lanes without a solution do not delay the others. A lane whose last determinant is not negative, or that
+/// took too long a step, may have reached another assembly of the machine (see kinematics.cpp): its residual becomes
+/// infinite.
 inline rssr::Loops<Lanes> solve_loops(const rssr::Joints<Lanes>& joints, const rssr::TriangleFrame<Lanes>& frame,
                                       Lanes (&c)[3], Lanes (&s)[3], Lanes& residual_mm) {
   rssr::Circle<Lanes> circle[3];
@@ -77,14 +77,13 @@ inline void solve_lanes(const NominalGeometry& nominal, Block& block, Eigen::Ind
     const Vec<Lanes> n = bar.direction;
     const rssr::LegForces<Lanes> forces = rssr::leg_forces(joints, frame, platform, bar.ball, n);
     store_sensitivity(nominal, forces.leg, forces.share, joints.length, platform, n, block, row);
-    // A singular pose or a bar of no length has no sensitivity: its numbers are not finite, and neither is its residual
-    // then.
+    // A singular pose or a bar of zero length has no sensitivity: its numbers are not finite, nor is its residual then.
     residual_mm += 0.0 * (forces.share[0] + n.x);
   }
   store(residual_mm, &block.residual_mm(row));
 }
 
-/// Columns i, i+1 against j .. j+3: eight running sums stay in registers.
+/// Accumulate columns i, i+1 against j .. j+3: eight running sums stay in registers.
 inline void add_tile(const double* a, Eigen::Index rows, Eigen::Index i, Eigen::Index j, Eigen::Index columns,
                      double* information) {
   Lanes sum[2][4] = {};
@@ -118,7 +117,7 @@ void solve_block(const NominalGeometry& nominal, Block& block, Eigen::Index rows
   }
 }
 
-// `columns` is a multiple of 4, so that tiles cover the lower triangle; what they add above the diagonal is not read.
+// `columns` is a multiple of 4, so that tiles cover the lower triangle; entries above the diagonal are not read.
 HEXDBB_MULTIVERSION_WIDE
 void accumulate(const double* jacobian, const double* residual, Eigen::Index rows, Eigen::Index columns,
                 double* information, double* gradient) noexcept {

@@ -1,4 +1,4 @@
-// One number a row of a block, on the stack: a fixed largest size, so that nothing is allocated.
+// One number per row of a block, on the stack: its maximum size is fixed, so that nothing is allocated.
 #pragma once
 
 #include "block.hpp"

@@ -1,4 +1,4 @@
-// Eight rows of a block as lanes: what the kernels take out of it and put back.
+// Eight rows of a block as lanes: loading and storing the quantities of the kernels.
 #pragma once
 
 #include "block.hpp"
@@ -8,9 +8,9 @@ namespace hexdbb {
 
 using rssr::Vec;
 
-constexpr double kLargestTurn = 0.05;  // a longer one means that the start was no neighbour
+constexpr double kLargestTurn = 0.05;  // tangent of a Newton step beyond which the start was not a neighbouring pose
 
-/// Columns `first`, `first` + 1, `first` + 2 of a table as a vector of lanes.
+/// Load columns `first`, `first` + 1, `first` + 2 of a table as a vector of lanes.
 template <class Table>
 inline Vec<Lanes> load3(const Table& table, Eigen::Index row, int first) {
   return {load(&table(row, first)), load(&table(row, first + 1)), load(&table(row, first + 2))};
@@ -27,7 +27,7 @@ inline Vec<Lanes> constant3(const Matrix36& columns, int k) {
   return {lanes_of(columns(0, k)), lanes_of(columns(1, k)), lanes_of(columns(2, k))};
 }
 
-/// A slider's joint in eight rows.
+/// Load a slider's joint in eight rows.
 inline Vec<Lanes> load_base(const NominalGeometry& nominal, const Block& block, Eigen::Index row, int k) {
   const Lanes along = load(&block.sliders_mm(row, k)) + load(&block.ports(row, port::kSlider + k));
   return constant3(nominal.vertex, k) + along * constant3(nominal.direction, k) +
@@ -49,7 +49,7 @@ inline bool any_above(const Lanes& v, double limit) {
   return above;
 }
 
-/// `share[k]` times `leg[k]` is the force in leg k, `n` the unit vector from cup to ball.
+/// Store the sensitivities; `share[k]` times `leg[k]` is the force in leg k, `n` the unit vector from cup to ball.
 inline void store_sensitivity(const NominalGeometry& nominal, const Vec<Lanes> (&leg)[6], const Lanes (&share)[6],
                               const Lanes (&length)[6], const rssr::PlacedPlatform<Lanes>& platform,
                               const Vec<Lanes>& n, Block& block, Eigen::Index row) {
@@ -70,7 +70,7 @@ inline void store_sensitivity(const NominalGeometry& nominal, const Vec<Lanes> (
 /// The ball bar in eight rows.
 struct LanesBar {
   Vec<Lanes> ball;       // platform frame
-  Vec<Lanes> direction;  // unit vector from cup to ball, base frame; not a number where the bar has no length
+  Vec<Lanes> direction;  // unit vector from cup to ball, base frame; NaN where the bar has zero length
   Lanes reading_mm;
 };
 

@@ -1,4 +1,4 @@
-// Rows whose legs have joints of their own: from the pose the shared joints give, Newton on six coordinates, eight rows
+// Rows in which every leg has its own joint: from the pose of the shared joints, Newton on six coordinates, eight rows
 // at a time.
 #include <limits>
 
@@ -11,7 +11,7 @@ namespace hexdbb {
 namespace {
 
 constexpr int kMaxSteps = 6;  // joints a fraction of a mm apart need two
-// A diagonal of R (squared) this small means that locked sliders do not hold the platform.
+// Squared diagonal element of R, of unit columns, below which locked sliders do not hold the platform: rounding.
 constexpr double kSingular = 1e-18;
 
 inline rssr::PlacedPlatform<Lanes> load_pose(const Block& block, Eigen::Index row) {
@@ -29,8 +29,8 @@ inline bool any_long(const Lanes (&values)[6], double limit) {
   return above;
 }
 
-/// What a solution is judged by: infinite where it is none, or another way to assemble the machine may have been found.
-inline Lanes judged(const rssr::SixLegs<Lanes>& legs, const Lanes& longest_turn, const Lanes& least_squared) {
+/// Compute the residual of a solution: infinite where there is none, or another assembly of the machine may be found.
+inline Lanes residual_of(const rssr::SixLegs<Lanes>& legs, const Lanes& longest_turn, const Lanes& least_squared) {
   const Lanes nowhere = lanes_of(std::numeric_limits<double>::infinity());
   Lanes residual_mm = {};
   for (const Lanes& each : legs.too_long) residual_mm = magnitude(each) > residual_mm ? magnitude(each) : residual_mm;
@@ -61,7 +61,7 @@ inline void solve_lanes_six(const NominalGeometry& nominal, Block& block, Eigen:
   store_pose(platform, block, row);
   const LanesBar bar = read_bar(platform, block, row);
   store(bar.reading_mm, &block.reading_mm(row));
-  Lanes residual_mm = judged(legs, longest_turn, wrenches.least_squared);
+  Lanes residual_mm = residual_of(legs, longest_turn, wrenches.least_squared);
   if (want_sensitivity) {
     Lanes share[6];
     wrenches.forces(rssr::wrench(bar.direction, platform.turned(bar.ball)), share);
@@ -69,7 +69,7 @@ inline void solve_lanes_six(const NominalGeometry& nominal, Block& block, Eigen:
     store_sensitivity(nominal, legs.leg, share, length, platform, bar.direction, block, row);
     residual_mm += 0.0 * (share[0] + bar.direction.x);
   }
-  // Where the shared joints had no solution, this one is none either.
+  // Where the shared joints had no solution, neither has this row.
   const Lanes before = load(&block.residual_mm(row));
   store(before <= kResidualTolerance_mm ? residual_mm : before, &block.residual_mm(row));
 }

@@ -77,14 +77,14 @@ void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fre
   if (!shared) solve_block_six(model_.nominal, block, rows.count, want_sensitivity);
   for (Eigen::Index row = 0; row < rows.count; ++row) {
     if (is_solved(block, row)) continue;
-    store_angles(RssrAngles(), block, row);  // what the lanes left there led nowhere
+    store_angles(RssrAngles(), block, row);  // the lanes' own angles did not converge
     solve_row(rows, row, want_sensitivity);
   }
   last_ = angles_of(block, rows.count - 1);
   if (memory_ != nullptr) memory_->blocks[rows.first / Block::kRows] = block.angles;
 }
 
-/// One row by the single-pose functions, from the angles the block has: the RSSR loops, then six coordinates where
+/// Solve one row by the single-pose functions, from the angles in the block: the RSSR loops, then six coordinates where
 /// joints are not shared.
 void BlockSolver::solve_row(const SampleBlock& rows, Eigen::Index row, bool want_sensitivity) {
   Block& block = *block_;

@@ -1,6 +1,6 @@
-// Runs a model over samples block by block: effects push, the block is solved, what has no solution from its start is
-// tried again one by one. Angles of an earlier run are kept as the next one's start: between two iterations of a fit
-// they hardly move.
+// Runs a model over samples block by block: effects push, the block is solved, rows without a solution from their start
+// are solved again one by one. Angles of an earlier run are kept as the start of the next: between two iterations of a
+// fit they hardly change.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace hexdbb {
 
-/// Angles of every sample, one block after another, as they were last solved.
+/// Angles of every sample, one block after another, as last solved.
 struct AngleMemory {
   std::vector<Block::Table<6>> blocks;
 };
@@ -20,7 +20,7 @@ class BlockSolver {
   /// Both must outlive the solver; `memory`, where given, is read and written for the blocks visited.
   BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory = nullptr);
 
-  /// visit(SampleBlock, Block) for rows [first, last) in order; `first` is a multiple of Block::kRows.
+  /// Call visit(SampleBlock, Block) for rows [first, last) in order; `first` is a multiple of Block::kRows.
   template <class Visit>
   void each_block(Eigen::Index first, Eigen::Index last, bool want_sensitivity, Visit visit) {
     bool fresh = true;
@@ -45,11 +45,11 @@ class BlockSolver {
   RssrAngles last_;  // of the sample before the block
 };
 
-/// Status of a row after solve: a residual below the tolerance is a solution, else it holds the status' number,
-/// negative.
+/// Return the status of a row after solve: a residual below the tolerance is a solution, otherwise it holds the number
+/// of the status, negative.
 Status status_of(const Block& block, Eigen::Index row);
 
-/// Chain rule for every term of a model: columns of `jacobian`, one a value.
+/// Apply the chain rule for every term of a model: columns of `jacobian`, one per value.
 void chain(const Model& model, const SampleBlock& rows, const Block& block, Eigen::MatrixXd& jacobian);
 
 }  // namespace hexdbb

@@ -33,7 +33,7 @@ constexpr StatusText kTexts[] = {
     {HEXDBB_CANNOT_READ, "cannot_read", "the compensation file cannot be read"},
     {HEXDBB_MALFORMED, "malformed", "not a compensation file, or a wrong key or value in it"},
     {HEXDBB_TRUNCATED, "truncated", "the compensation file ends before its checksum"},
-    {HEXDBB_ALTERED, "altered", "the compensation file's checksum does not agree with its content"},
+    {HEXDBB_ALTERED, "altered", "the compensation file's checksum does not match its content"},
     {HEXDBB_LATER_VERSION, "later_version", "the compensation file is of a later version"},
     {HEXDBB_OTHER_MACHINE, "other_machine", "the compensation is of another machine"},
     {HEXDBB_UNKNOWN_EFFECT, "unknown_effect", "an effect that this version does not know or cannot correct"},
@@ -48,7 +48,7 @@ const StatusText& text_of(hexdbb_status status) {
   return found == std::end(kTexts) ? kUnknown : *found;
 }
 
-/// Version 1 of the interface knows one size of each struct; a caller with a larger one is a later one.
+/// Version 1 of the interface has one size of each struct; a larger one is that of a later version.
 template <class Struct>
 bool is_known(const Struct* given) {
   return given != nullptr && given->struct_size == sizeof(Struct);
@@ -73,7 +73,7 @@ void report(const char* what, char* message, size_t message_size) {
   message[length] = '\0';
 }
 
-/// Runs `data`, which gives compensation data and throws, and makes a compensator of them.
+/// Create a compensator from what `data` returns; `data` may throw.
 template <class Data>
 hexdbb_status create(Data data, const char* source, const hexdbb_dimensions* machine, hexdbb_compensator** out,
                      char* message, size_t message_size) {
@@ -97,7 +97,7 @@ hexdbb_status create(Data data, const char* source, const hexdbb_dimensions* mac
   }
 }
 
-/// Values of one effect stand one after another.
+/// Convert constants, in which the values of one effect are consecutive.
 hexdbb::CompensationData from_constants(const hexdbb_constants& constants) {
   hexdbb::CompensationData out;
   out.machine = to_machine(constants.machine);

@@ -1,4 +1,4 @@
-// From a model to what of it can be compensated, and back to a model.
+// From a model to the part of it that can be compensated, and back to a model.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,10 +11,10 @@ namespace {
 
 using Reason = std::string;  // empty: none
 
-/// Columns of the state that a controller knows of the very moment.
+/// Return whether a controller knows a column of the state at the present moment.
 bool is_known_to_controllers(const std::string& column) {
-  static const std::vector<std::string> known = {"side",          "since_reversal_mm", "velocity_mm_s", "leg_force",
-                                                 "temperature_c", "warming_k",         "time_s"};
+  static const std::vector<std::string> known = {"travel_direction", "since_reversal_mm", "velocity_mm_s", "leg_force",
+                                                 "temperature_c",    "warming_k",         "time_s"};
   return std::find(known.begin(), known.end(), column) != known.end();
 }
 
@@ -22,23 +22,15 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool is_engines_own(const Machine& machine, const std::string& name) {
-  try {
-    find_effect(machine, 1, name);
-    return true;
-  } catch (const std::invalid_argument&) {
-    return false;
-  }
-}
-
-Reason why_not(const Machine& machine, const EffectInfo& info, double reference_temperature_c) {
+/// Return why an effect cannot be compensated.
+Reason why_not(const EffectInfo& info, double reference_temperature_c) {
   if (info.is_set_up) return "belongs to the measurement, not to the machine";
-  if (!is_engines_own(machine, info.name)) return "is known to the program that fitted it, not to the engine";
+  if (!is_known_effect(info.name)) return "is defined outside the engine";
   for (const char* port : {"ball", "cup", "reading"}) {
     if (has(info.ports, port)) return std::string("pushes the ") + port + ", not the machine";
   }
   for (const std::string& column : info.needs) {
-    if (!is_known_to_controllers(column)) return "depends on " + column + ", which a controller does not follow";
+    if (!is_known_to_controllers(column)) return "depends on " + column + ", which is not known to a controller";
   }
   const bool has_temperature = has(info.needs, "warming_k") || has(info.needs, "temperature_c");
   if (has(info.needs, "time_s") && !has_temperature) return "depends on time";
@@ -65,7 +57,7 @@ CompensatedEffect named_values(const Term& term) {
   throw CompensationError(fault, message);
 }
 
-/// Values in the effect's own order; every one named once.
+/// Return values in the effect's own order; every one must be named once.
 Eigen::VectorXd ordered_values(const EffectInfo& info, const CompensatedEffect& given, const std::string& where) {
   Eigen::VectorXd out = Eigen::VectorXd::Constant(info.size(), std::numeric_limits<double>::quiet_NaN());
   for (const CompensationValue& value : given.values) {
@@ -78,7 +70,8 @@ Eigen::VectorXd ordered_values(const EffectInfo& info, const CompensatedEffect& 
     }
     const auto place = (element - info.elements.begin()) * static_cast<std::ptrdiff_t>(info.parameters.size()) +
                        (parameter - info.parameters.begin());
-    if (!std::isnan(out[place])) refuse(CompensationFault::kMalformed, where + "." + name + ": there twice");
+    if (!std::isnan(out[place]))
+      refuse(CompensationFault::kMalformed, where + "." + name + ": given twice (expected once)");
     if (!std::isfinite(value.value)) {
       refuse(CompensationFault::kMalformed, where + "." + name + ": expected a finite number");
     }
@@ -119,7 +112,7 @@ CompensationData compensation_of(const Model& model, const std::string& name, co
   out.limits = limits;
   for (const Term& term : model.terms) {
     const EffectInfo& info = term.effect->info();
-    const Reason reason = why_not(out.machine, info, reference_temperature_c);
+    const Reason reason = why_not(info, reference_temperature_c);
     if (!reason.empty()) {
       out.left_out.push_back({info.name, reason});
       continue;
@@ -142,7 +135,7 @@ void require_machine(const Machine& of_data, const Machine& of_controller, const
 
 Model compensation_model(const CompensationData& data, const std::string& source) {
   if (!is_possible(data.machine))
-    refuse(CompensationFault::kMalformed, source + ": dimensions: no such machine can stand");
+    refuse(CompensationFault::kMalformed, source + ": dimensions: no such machine can be assembled");
   for (const layout::Limit& each : layout::kLimits) {
     if (!(data.limits.*each.member > 0.0) || !std::isfinite(data.limits.*each.member)) {
       refuse(CompensationFault::kMalformed, source + ": limits." + each.name + ": expected a number above 0");
@@ -151,7 +144,7 @@ Model compensation_model(const CompensationData& data, const std::string& source
   Model out(data.machine);
   for (const CompensatedEffect& given : data.effects) {
     const std::string where = source + ": effect." + given.name;
-    if (!is_engines_own(data.machine, given.name)) {
+    if (!is_known_effect(given.name)) {
       refuse(CompensationFault::kUnknownEffect, where + ": no such effect in this version");
     }
     out.add(find_effect(data.machine, 1, given.name));

@@ -1,4 +1,4 @@
-// What a compensation file is made of: shared by what writes it and what reads it.
+// Layout of a compensation file, shared by writer and reader.
 #pragma once
 
 #include <array>
@@ -36,14 +36,14 @@ struct Limit {
 constexpr std::array<Limit, 2> kLimits = {{{"max_correction_mm", &CompensationLimits::max_correction_mm},
                                            {"reversal_travel_mm", &CompensationLimits::reversal_travel_mm}}};
 
-/// Shortest decimal number that reads as the same bits, whatever the locale.
+/// Return the shortest decimal number that reads as the same bits, whatever the locale.
 inline std::string number(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);
 }
 
-/// The last section, without its line ends: what is above it is what it sums up.
+/// Return the last section: the checksum of everything above it.
 inline std::string check_section(const std::string& above) {
   std::array<char, 9> hex;
   std::snprintf(hex.data(), hex.size(), "%08x", static_cast<unsigned>(crc32(above)));

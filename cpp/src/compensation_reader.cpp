@@ -1,4 +1,4 @@
-// Reads what compensation_writer.cpp writes, and nothing else: every key known, none twice, none missing.
+// Reader of the files written by compensation_writer.cpp: every key must be known, none given twice, none missing.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -76,7 +76,7 @@ class Reader {
     }
     const std::string expected = layout::check_section(text.substr(0, at));
     if (text.compare(at, std::string::npos, expected) != 0) {
-      refuse(CompensationFault::kAltered, "altered: its checksum does not agree with its content");
+      refuse(CompensationFault::kAltered, "altered: its checksum does not match its content");
     }
   }
 

@@ -6,7 +6,7 @@ namespace hexdbb {
 
 namespace {
 
-/// A string of TOML, and of C: quoted, control characters as spaces.
+/// Quote a string for TOML and C, control characters as spaces.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char each : text) {
@@ -18,7 +18,7 @@ std::string quoted(const std::string& text) {
 
 std::string line(const std::string& key, const std::string& value) { return key + " = " + value + "\n"; }
 
-/// "# longer: mm" for people; numbers are in these units by definition.
+/// Return a comment as "# longer: mm"; numbers are in these units by definition.
 std::string unit_comment(const Machine& machine, const std::string& effect) {
   std::string out;
   const EffectPtr found = find_effect(machine, 1, effect);
@@ -66,7 +66,7 @@ std::uint32_t crc32(const std::string& bytes) noexcept {
 }
 
 std::string compensation_text(const CompensationData& data) {
-  compensation_model(data, "compensation data");  // what could not be read must not be written
+  compensation_model(data, "compensation data");  // throws where the file could not be read again
   const std::string above = without_check(data);
   return above + layout::check_section(above);
 }

@@ -9,13 +9,14 @@ namespace hexdbb {
 
 namespace {
 
-constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-// Slider coordinates answer to a push on their leg by at most this factor, wherever a machine is any use.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+// Change of a slider coordinate per push on its leg, 1 / cos of the angle between leg and guideway: 2.5 at 66 deg;
+// nearer to the perpendicular a machine is of no use.
 constexpr double kLever = 2.5;
-// Curvature of what is pushed, as 2 pi / the shortest period, per mm.
+// Curvature of the pushes, as 2 pi / the shortest period, per mm: pitch errors with a period of 1 mm.
 constexpr double kCurvature_mm = 6.3;
-// What four iterations must reach at least.
-constexpr double kGoodEnough_mm = 1e-5;
+// Error above which a target that has used all iterations is refused: a tenth of an encoder count.
+constexpr double kLargestError_mm = 1e-5;
 
 Samples one_row() {
   Samples out;
@@ -52,7 +53,7 @@ Compensator::Compensator(const CompensationData& data, const std::string& source
 }
 
 void Compensator::prepare() {
-  side_per_mm_ = 2.0 / limits_.reversal_travel_mm;
+  direction_per_mm_ = 2.0 / limits_.reversal_travel_mm;
   now_ = one_row();
   nominal_triangle_ = PlatformTriangle(shared_joints(assemble(model_.nominal, Vector6::Zero(), Ports())));
   has_effects_ = !model_.terms.empty();
@@ -67,54 +68,58 @@ void Compensator::prepare() {
 }
 
 void Compensator::reset() noexcept {
-  side_.setZero();
-  followed_mm_.setConstant(kNowhere);
-  visited_mm_.setConstant(kNowhere);
+  travel_direction_.setZero();
+  followed_mm_.setConstant(kUnknown);
+  checked_mm_.setConstant(kUnknown);
   last_correction_mm_.setZero();
   angles_ = nominal_angles_ = RssrAngles();
   last_pose_ = home_pose(model_.nominal);
 }
 
-/// Play operator of the commanded travel; see the header. False, and nothing changed, for a pose that is only visited.
+/// Update the directions of travel by the play operator of the commanded travel (see the header). Return false, and
+/// change nothing, for a pose that is only checked.
 bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) noexcept {
   const Vector6& velocity_mm_s = direction.velocity_mm_s;
   if (velocity_mm_s.isZero(0.0) && largest(nominal_mm - followed_mm_) > kFollow_mm) {
-    const bool is_near_visited = largest(nominal_mm - visited_mm_) <= kFollow_mm;
-    if (!is_near_visited) {
-      visited_mm_ = nominal_mm;
+    const bool is_near_checked = largest(nominal_mm - checked_mm_) <= kFollow_mm;
+    if (!is_near_checked) {
+      checked_mm_ = nominal_mm;
       return false;
     }
-    followed_mm_ = visited_mm_;
+    followed_mm_ = checked_mm_;
   }
-  visited_mm_.setConstant(kNowhere);
-  if (std::isnan(followed_mm_[0])) {  // whoever moves at the first call is taken to have moved so before
-    for (int k = 0; k < kLegs; ++k) side_[k] = velocity_mm_s[k] == 0.0 ? 0.0 : std::copysign(1.0, velocity_mm_s[k]);
+  checked_mm_.setConstant(kUnknown);
+  if (std::isnan(followed_mm_[0])) {  // a slider that moves at the first call is assumed to have moved so before
+    for (int k = 0; k < kLegs; ++k)
+      travel_direction_[k] = velocity_mm_s[k] == 0.0 ? 0.0 : std::copysign(1.0, velocity_mm_s[k]);
   } else {
     for (int k = 0; k < kLegs; ++k) {
       const double travel = nominal_mm[k] - followed_mm_[k];
       const double towards = velocity_mm_s[k] == 0.0 ? travel : std::copysign(travel, velocity_mm_s[k]);
-      side_[k] = std::clamp(side_[k] + side_per_mm_ * towards, -1.0, 1.0);
+      travel_direction_[k] = std::clamp(travel_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
     }
   }
-  side_ = direction.side.array().isNaN().select(side_, direction.side);
+  travel_direction_ = direction.travel_direction.array().isNaN().select(travel_direction_, direction.travel_direction);
   followed_mm_ = nominal_mm;
   return true;
 }
 
-void Compensator::set_state(const Direction& direction, const Vector6& side, const Vector6& leg_force) noexcept {
+void Compensator::set_state(const Direction& direction, const Vector6& travel_direction,
+                            const Vector6& leg_force) noexcept {
   const double warming_k = direction.temperature_c - reference_temperature_c_;
-  polynomials_.settle({direction.velocity_mm_s, side, leg_force, std::isfinite(warming_k) ? warming_k : 0.0});
+  polynomials_.settle(
+      {direction.velocity_mm_s, travel_direction, leg_force, std::isfinite(warming_k) ? warming_k : 0.0});
   if (model_.terms.empty()) return;
   State& state = now_.state;
   state.velocity_mm_s.row(0) = direction.velocity_mm_s.transpose();
-  state.side.row(0) = side.transpose();
+  state.travel_direction.row(0) = travel_direction.transpose();
   state.leg_force.row(0) = leg_force.transpose();
   state.temperature_c[0] = direction.temperature_c;
   state.warming_k[0] = warming_k;
 }
 
-/// Static equilibrium of the nominal machine: forces in the legs that carry a newton at the reference point, tension
-/// positive.
+/// Compute the static equilibrium of the nominal machine: forces in the legs under a newton of load at the reference
+/// point, tension positive.
 Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept {
   const NominalGeometry& nominal = model_.nominal;
   rssr::Joints<double> joints;
@@ -149,9 +154,9 @@ const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
   return push_;
 }
 
-/// Fixed point from the last correction. Each slider's coordinate answers to its own: two steps tell the ratio r at
-/// which they shrink, and all that would follow is step r / (1 - r) (Aitken). What is left is of second order in the
-/// steps.
+/// Solve the fixed point from the last correction. A slider's coordinate depends almost only on itself: two steps
+/// determine the ratio r at which they shrink, and the sum of all that follow is step r / (1 - r) (Aitken). The
+/// remaining error is of second order in the steps.
 bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept {
   Vector6 at = nominal_mm + last_correction_mm_, step_before;
   double left_mm = 0.0, largest_before = 0.0;
@@ -175,7 +180,7 @@ bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTarge
     step_before = step;
     largest_before = largest_step;
   }
-  if (!(left_mm <= kGoodEnough_mm)) out.status = Status::kIterationLimit;
+  if (!(left_mm <= kLargestError_mm)) out.status = Status::kIterationLimit;
   out.correction_mm = out.sliders_mm - nominal_mm;
   return out.status == Status::kOk;
 }
@@ -198,7 +203,7 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   out.slider = nominal.leg;
   if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
   const bool is_followed = follow(nominal.sliders_mm, direction);
-  set_state(direction, side_, needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero());
+  set_state(direction, travel_direction_, needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero());
   if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
@@ -217,9 +222,9 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
     out.status = Status::kNotANumber;
     return out;
   }
-  Vector6 side = side_;
+  Vector6 travel_direction = travel_direction_;
   for (int k = 0; k < kLegs; ++k) {
-    if (direction.velocity_mm_s[k] != 0.0) side[k] = std::copysign(1.0, direction.velocity_mm_s[k]);
+    if (direction.velocity_mm_s[k] != 0.0) travel_direction[k] = std::copysign(1.0, direction.velocity_mm_s[k]);
   }
   Vector6 force = Vector6::Zero();
   if (needs_leg_force_) {
@@ -227,7 +232,7 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
     if (standing.status == Status::kOk) force = leg_force(standing.pose, sliders_mm);
   }
-  set_state(direction, side, force);
+  set_state(direction, travel_direction, force);
   const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(sliders_mm));
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);

@@ -13,10 +13,11 @@ namespace hexdbb {
 
 namespace {
 
-// Singular values this far below the largest are redundancies: J'J resolves them to about 1e-8.
+// Ratio to the largest singular value below which a direction is structurally redundant: J'J resolves ratios to about
+// 1e-8, and the identifiable directions of the plans examined (condition up to 2832) are above 3e-4.
 constexpr double kRedundant = 1e-6;
 
-/// One number of every value's parameter, in the order of a model's values.
+/// Return one number of every value's parameter, in the order of a model's values.
 template <class Number>
 Eigen::VectorXd of_each_value(const Model& model, Number number) {
   Eigen::VectorXd out(model.size());
@@ -45,7 +46,7 @@ class CompressedCost : public ceres::CostFunction {
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
     const Eigen::Index size = unknowns_.size();
     const Eigen::Map<const Eigen::VectorXd> z(parameters[0], size);
-    // Ceres asks for the cost of a step first and for its derivatives when it likes it: both come out of one pass.
+    // Ceres evaluates the cost of a step first, and its derivatives where it accepts it: both result from one pass.
     Model model = model_;
     model.set_values(unknowns_.values(parameters[0]));
     const NormalEquations& now = accumulator_.at(model);
@@ -92,7 +93,7 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
   for (int j = 0; j < model.size(); ++j) {
     if (options.free.empty() || options.free[j]) out.columns.push_back(j);
   }
-  out.scale = expected_sizes(model)(out.columns);
+  out.scale = prior_sigmas(model)(out.columns);
   out.limit = physical_limits(model)(out.columns);
   const Eigen::VectorXd shapes =
       of_each_value(model, [](const ParameterInfo& parameter) { return parameter.is_shape ? 1.0 : 0.0; });
@@ -100,8 +101,8 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
   return out;
 }
 
-/// Rank and condition of the machine's own unknowns at the nominal machine, where redundancies are exact to first
-/// order: the Schur complement of the set-up's part of J'J.
+/// Compute rank and condition of the machine's own unknowns at the nominal machine, where redundancies are exact to
+/// first order: the Schur complement of the set-up's part of J'J.
 Identifiability machine_identifiability(const Model& model, Accumulator& accumulator, const Unknowns& unknowns,
                                         const FitOptions& options) {
   std::vector<bool> is_set_up;
@@ -114,7 +115,7 @@ Identifiability machine_identifiability(const Model& model, Accumulator& accumul
   nominal.set_values(Eigen::VectorXd::Zero(model.size()));
   const Eigen::MatrixXd information =
       unknowns.scale.asDiagonal() * at_or_throw(accumulator, nominal).information * unknowns.scale.asDiagonal();
-  return identifiability_of(information, machine, set_up, kRedundant, options.noise_mm / options.telling_part);
+  return identifiability_of(information, machine, set_up, kRedundant, options.noise_mm / options.identified_fraction);
 }
 
 void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
@@ -142,15 +143,15 @@ void minimize(const Model& model, Accumulator& accumulator, const Unknowns& unkn
   out.values = unknowns.values(z.data());
 }
 
-/// For a fit that only judges a model: few readings show the way, all of them decide. Gives where the way ended.
+/// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.
 ///
-/// A model that lacks something bends its geometry far away to imitate it, from where the way back is long once it has
-/// what it lacks; so the way is also tried from the values most probable before any reading was known.
-Eigen::VectorXd judge(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-                      Accumulator& accumulator, const Unknowns& unknowns, double noise_mm, FitResult& out) {
-  constexpr int kMostCoarse = 60, kMost = 20;
-  constexpr double kCoarseFall = 1.0;  // of chi-square; the other readings move the minimum by more
-  constexpr double kFall = 0.02;       // no verdict hangs on so little
+/// A model that lacks an effect distorts its geometry by many prior standard deviations to imitate it; from there the
+/// minimum of the complete model is far. The fit is therefore also started from the values most probable a priori.
+Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+                               Accumulator& accumulator, const Unknowns& unknowns, double noise_mm, FitResult& out) {
+  constexpr int kMostCoarse = 60, kMost = 20;  // iteration limits
+  constexpr double kCoarseFall = 1.0;          // of chi-square: the remaining readings move the minimum by more
+  constexpr double kFall = 0.02;               // of chi-square: verdicts depend on differences of several units
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
   const auto down_from = [&](const Eigen::VectorXd& z) {
@@ -167,12 +168,12 @@ Eigen::VectorXd judge(const Model& model, const Samples& samples, const Eigen::V
               coarse.z, bound, kFall, kMost);
   out.usable = fine.is_reachable;
   out.iterations = fine.steps;
-  out.termination = fine.is_at_rest ? "No further step is worth while." : "Many steps were not enough.";
+  out.termination = fine.is_at_rest ? "Converged: no further step improves the fit." : "Iteration limit reached.";
   out.values = unknowns.values(fine.z.data());
   return fine.z;
 }
 
-/// Covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.
+/// Compute the covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.
 Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unknowns& unknowns, double noise_mm) {
   const auto per_noise = unknowns.scale / noise_mm;
   Eigen::MatrixXd total = per_noise.asDiagonal() * information * per_noise.asDiagonal();
@@ -180,14 +181,15 @@ Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unk
   return Eigen::LLT<Eigen::MatrixXd>(total).solve(Eigen::MatrixXd::Identity(unknowns.size(), unknowns.size()));
 }
 
-/// What the curvature of the readings along weakly known directions adds to the covariance of the well known ones.
+/// Contribution of the readings' curvature along weakly determined directions to the covariance of the others.
 ///
-/// Along a direction no reading tells to first order (the cup's height under horizontal circles: its square shortens
-/// the bar) the truth may be a whole expected size away, and what that does to the readings to second order is taken
-/// for something else. With unit steps s_k of one standard deviation along the weak directions, reading(x + sum t_k
-/// s_k) = ... + sum h_kl t_k t_l, t standard normal; the estimate is off by P sum h_kl t_k t_l, P = C J' / noise^2,
-/// whose second moment is m m' + 2 sum p_kl p_kl', p_kl = P h_kl, m = sum p_kk. Evenly spaced rows suffice: h is smooth
-/// along a circle.
+/// Along a direction that no reading determines to first order (the cup's height under horizontal circles: its square
+/// shortens the bar) the truth may be a whole prior standard deviation away, and its second-order effect on the
+/// readings is attributed to other values. With steps s_k of one standard deviation along the weak directions,
+///   reading(x + sum t_k s_k) = ... + sum h_kl t_k t_l,   t standard normal;
+/// the estimate is off by P sum h_kl t_k t_l, P = C J' / noise^2, whose second moment is
+///   m m' + 2 sum p_kl p_kl',   p_kl = P h_kl,   m = sum p_kk.
+/// Evenly spaced rows suffice: h is smooth along a circle.
 class Curvature {
  public:
   Curvature(const Model& model, const Samples& samples, const Unknowns& unknowns, const Eigen::MatrixXd& spread,
@@ -228,8 +230,10 @@ class Curvature {
   }
 
  private:
-  static constexpr Eigen::Index kRows = 256;
-  static constexpr double kWeak = 0.02;  // directions known better than this have no curvature worth the name
+  static constexpr Eigen::Index kRows = 256;  // some 36 per circle of a seven-circle plan
+  // In prior standard deviations: the curvature along directions determined better than this is (1 / 50)^2 of the
+  // prior's.
+  static constexpr double kWeak = 0.02;
 
   Eigen::VectorXd reading(const Eigen::VectorXd& step) const {
     Model model = model_;
@@ -242,18 +246,18 @@ class Curvature {
   const Unknowns& unknowns_;
   Samples rows_;
   Eigen::VectorXd no_reading_;
-  std::unique_ptr<Accumulator> accumulator_;  // of the rows; remembers where they stood
+  std::unique_ptr<Accumulator> accumulator_;  // of the rows; remembers their last solutions
   Eigen::MatrixXd gain_;
   std::vector<Eigen::VectorXd> steps_;
 };
 
 }  // namespace
 
-Eigen::VectorXd expected_sizes(const Model& model) {
+Eigen::VectorXd prior_sigmas(const Model& model) {
   return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.prior_sigma; });
 }
 
-double correlation_length(const Eigen::VectorXd& residual, const Eigen::VectorXi& sweep) {
+double autocorrelation_time(const Eigen::VectorXd& residual, const Eigen::VectorXi& sweep) {
   const Eigen::Index count = residual.size();
   const auto covariance = [&](Eigen::Index lag) {
     double sum = 0.0;
@@ -277,7 +281,14 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
               const FitOptions& options) {
   samples.validate();
   if (samples.size() == 0) throw std::invalid_argument("there are no readings to fit");
-  if (measured_mm.size() != samples.size()) throw std::invalid_argument("as many readings as samples are needed");
+  if (measured_mm.size() != samples.size()) {
+    throw std::invalid_argument("measured_mm has " + std::to_string(measured_mm.size()) + " readings, expected " +
+                                std::to_string(samples.size()) + ", one per sample");
+  }
+  if (options.sweep.size() != 0 && options.sweep.size() != samples.size()) {
+    throw std::invalid_argument("sweep has " + std::to_string(options.sweep.size()) + " entries, expected " +
+                                std::to_string(samples.size()) + ", one per sample");
+  }
   for (Eigen::Index row = 0; row < measured_mm.size(); ++row) {
     if (!std::isfinite(measured_mm[row])) {
       throw std::invalid_argument("measured_mm[" + std::to_string(row) + "] is not finite");
@@ -287,14 +298,14 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
 
   FitResult out;
   const Unknowns unknowns = make_unknowns(model, options);
-  if (unknowns.size() == 0) throw std::invalid_argument("there is nothing free to fit");
+  if (unknowns.size() == 0) throw std::invalid_argument("no value of the model is free");
   out.free_columns = unknowns.columns;
   Accumulator accumulator(samples, measured_mm, unknowns.columns, options.robust_mm);
   Eigen::VectorXd z = unknowns.scaled_start();
-  if (options.judging && options.robust_mm == 0.0) {
-    z = judge(model, samples, measured_mm, accumulator, unknowns, options.noise_mm, out);
+  if (options.hypothesis && options.robust_mm == 0.0) {
+    z = fit_hypothesis(model, samples, measured_mm, accumulator, unknowns, options.noise_mm, out);
   }
-  if (!options.judging) {
+  if (!options.hypothesis) {
     at_or_throw(accumulator, model);
     out.rms_before_mm = rms(accumulator.residual_mm());
     out.machine = machine_identifiability(model, accumulator, unknowns, options);
@@ -306,12 +317,12 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   const NormalEquations& after = at_or_throw(accumulator, fitted);
   out.residual_mm = accumulator.residual_mm();
   out.rms_after_mm = rms(out.residual_mm);
-  // The weighted rows under Huber's loss leave glitches out of the noise.
+  // Under Huber's loss the weighted rows keep glitches out of the noise.
   out.noise_mm = std::max(options.noise_mm, std::sqrt(after.squared / static_cast<double>(samples.size())));
-  if (options.sweep.size() == samples.size()) out.correlation = correlation_length(out.residual_mm, options.sweep);
+  if (options.sweep.size() != 0) out.correlation = autocorrelation_time(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
-  if (!options.judging) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
+  if (!options.hypothesis) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

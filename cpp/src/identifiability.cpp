@@ -3,12 +3,15 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace hexdbb {
 
 namespace {
 
-constexpr double kNuisanceRank = 1e-6;
+constexpr double kNuisanceRank = 1e-6;  // as kRedundant of diagnosis.cpp: ratios that J'J still resolves
 
 void count_rank(Identifiability& out, double relative, double absolute) {
   const double limit = std::max(relative * out.singular_values[0], absolute);
@@ -22,7 +25,7 @@ Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double re
   Identifiability out;
   const Eigen::Index unknowns = scaled_jacobian.cols();
   if (unknowns == 0 || scaled_jacobian.rows() == 0) return out;
-  // The triangular factor has the same singular values and directions as the tall matrix, at a fraction of the work.
+  // The triangular factor has the singular values and directions of the tall matrix, at a fraction of the work.
   const Eigen::Index rows = std::min(scaled_jacobian.rows(), unknowns);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled_jacobian);
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(unknowns, unknowns);
@@ -57,8 +60,13 @@ Identifiability identifiability_of(const Eigen::MatrixXd& information, const std
 }
 
 RowMajorMatrix project_out(const RowMajorMatrix& jacobian, const RowMajorMatrix& nuisance) {
+  if (nuisance.cols() != 0 && nuisance.rows() != jacobian.rows()) {
+    throw std::invalid_argument("nuisance has " + std::to_string(nuisance.rows()) + " rows, jacobian " +
+                                std::to_string(jacobian.rows()) + "; expected the same number");
+  }
   if (nuisance.cols() == 0 || jacobian.cols() == 0) return jacobian;
-  // Columns that the nuisance cannot tell from its others within a millionth must not take part of the rest with them.
+  // Nuisance columns that are linear combinations of the others within a millionth must not remove a direction of
+  // rounding.
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(kNuisanceRank);
   qr.compute(nuisance);

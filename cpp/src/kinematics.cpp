@@ -19,10 +19,11 @@ Vec<double> vec(const Matrix36& columns, int k) { return {columns(0, k), columns
 
 Vector3 vector(const Vec<double>& v) { return {v.x, v.y, v.z}; }
 
-// A determinant this small against its two terms means that locked sliders do not hold the platform.
+// Ratio of a determinant to the size of its terms below which locked sliders do not hold the platform: at 1e-9 an error
+// of 1 nm in a leg moves it by a metre.
 constexpr double kSingularRatio = 1e-9;
-// Largest turn of a Newton step, as a tangent: from a neighbouring pose, where a longer one means that it is none, and
-// from the symmetric start.
+// Largest turn of a Newton step, as a tangent: from a neighbouring pose, where a longer one shows that it is not one,
+// and from the symmetric start.
 constexpr double kNeighbourTurn = 0.05;
 constexpr double kHomeTurn = 0.5;
 
@@ -66,13 +67,13 @@ LoopState start_at(const RssrAngles& angles) {
   return out;
 }
 
-/// Newton on F = `open_part` * open until the residual is below `tolerance_mm`. Ball joints that all move inward
-/// shorten all sides, so that on the way the machine is assembled the determinant is negative; a search that comes to
-/// the other side of a singularity, or takes a step so long that it may have jumped over one, would find another way to
-/// assemble it and is ended.
+/// Solve F = `open_part` * open by Newton until the residual is below `tolerance_mm`. Ball joints that all move inward
+/// shorten all sides, so that in the actual assembly of the machine the determinant is negative; a search that reaches
+/// the other side of a singularity, or takes a step so long that it may have crossed one, would find another assembly
+/// and is ended.
 Status newton(const LoopProblem& problem, double open_part, double tolerance_mm, double largest_turn, LoopState& state,
               int& iterations) {
-  constexpr int kMost = 10;
+  constexpr int kMost = 10;  // steps; quadratic convergence needs fewer
   for (int steps = 0;; ++steps) {
     state.loops = rssr::close_loops(problem.circle, state.c, state.s, problem.side_squared);
     double (&f)[3] = state.loops.f;
@@ -95,8 +96,8 @@ Status newton(const LoopProblem& problem, double open_part, double tolerance_mm,
   }
 }
 
-/// The machine with its platform level over the base centre, all sliders at equal distance from the middle of their
-/// guideways, and the angles it then has: where a search from nowhere starts.
+/// Return the machine with its platform level over the base centre and all sliders at equal distance from the middle of
+/// their guideways, and its angles: the start of a search without a neighbour.
 Mechanism symmetric_start(const Mechanism& target, const PlatformTriangle& triangle, LoopState& state) {
   constexpr double kRadiusPart = 0.66;  // of the squared leg length: half-way up
   Mechanism out = target;
@@ -117,8 +118,9 @@ Mechanism symmetric_start(const Mechanism& target, const PlatformTriangle& trian
   return out;
 }
 
-/// From nowhere: the sliders are moved from the symmetric start to where they stand, in steps that halve where Newton
-/// does not follow, so that the solution is the one the machine reaches without being taken apart.
+/// Solve without a neighbour: the sliders are moved from the symmetric start to their positions, in steps that are
+/// halved where Newton does not converge, so that the solution is the assembly the machine reaches without being taken
+/// apart.
 Status track(const Mechanism& target, const PlatformTriangle& triangle, LoopState& state, int& iterations) {
   constexpr double kCoarse_mm = 1e-3;
   constexpr double kSmallestStep = 1.0 / 1024.0;
@@ -206,7 +208,7 @@ const char* status_name(Status status) {
     case Status::kTravel:
       return "travel: a slider would leave its travel";
     case Status::kGap:
-      return "gap: two sliders would come closer than the smallest gap";
+      return "gap: two sliders would come closer than the minimum gap";
     case Status::kCorrectionLimit:
       return "correction limit: more than the compensation file allows";
     case Status::kNotANumber:
@@ -303,7 +305,7 @@ ForwardResult forward_six(const Mechanism& mechanism, const Pose& start) noexcep
     const Vector6 step = -lu.solve(error);
     const Vector3 turn = step.tail<3>();
     const double angle = turn.norm();
-    // Long steps are shortened to half a radian or 200 mm, so that a search from afar stays on its branch.
+    // Long steps are shortened to half a radian or 200 mm, so that a search from a distant start stays on its branch.
     const double fraction =
         std::min({1.0, 0.5 / std::max(angle, 1e-300), 200.0 / std::max(step.head<3>().norm(), 1e-300)});
     out.pose.position += fraction * step.head<3>();

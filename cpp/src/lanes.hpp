@@ -1,5 +1,5 @@
-// Eight doubles side by side, as GCC's vector extension: two registers with AVX2, one with AVX-512, four without
-// either. The kernels written for a scalar type T take it as they take double.
+// Eight doubles in GCC's vector extension: two registers with AVX2, one with AVX-512, four without either. Kernels
+// written for a scalar type T accept it as they accept double.
 #pragma once
 
 #include <cmath>

@@ -14,13 +14,14 @@ namespace hexdbb {
 namespace {
 
 using Rows = std::vector<Eigen::Index>;
-using Track = Eigen::Matrix<double, Eigen::Dynamic, kLegs, Eigen::RowMajor>;  // of one sweep, a row an instant
+using Track = Eigen::Matrix<double, Eigen::Dynamic, kLegs, Eigen::RowMajor>;  // of one sweep, a row per instant
 
-constexpr double kHalfWindow_s = 0.05;
-constexpr Eigen::Index kFewest = 2, kMost = 64;  // neighbours on either side
+constexpr double kHalfWindow_s = 0.05;  // see state.hpp
+// Neighbours on either side: two determine a parabola and one degree of freedom; 64 bound the work at high rates.
+constexpr Eigen::Index kFewest = 2, kMost = 64;
 constexpr Eigen::Index kFewestRows = 2 * kFewest + 1;
 
-/// Rows of each sweep, in order.
+/// Return the rows of each sweep, in order.
 std::vector<Rows> rows_by_sweep(const Eigen::VectorXi& sweep) {
   std::map<int, std::size_t> place;
   std::vector<Rows> out;
@@ -37,7 +38,8 @@ struct Smooth {
   Track place_mm, velocity_mm_s, acceleration_mm_s2, jerk_mm_s3, snap_mm_s4;
 };
 
-/// First and last row of the window about `row`; at a sweep's ends it reaches further to the other side.
+/// Return the first and last row of the window about `row`; at the ends of a sweep it extends further to the other
+/// side.
 std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eigen::Index row) {
   const Eigen::Index end = time_s.size() - 1;
   const auto reaches = [&](Eigen::Index other) { return std::abs(time_s[other] - time_s[row]) <= kHalfWindow_s; };
@@ -49,7 +51,8 @@ std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eige
   return {first, last};
 }
 
-/// Weights of the values in rows [first, last] for the slope in `row` of the polynomial through all of them.
+/// Compute the weights of the values in rows [first, last] for the slope in `row` of the polynomial through all of
+/// them.
 Eigen::Array<double, kFewestRows, 1> slope_through_all(const Eigen::VectorXd& time_s, Eigen::Index first,
                                                        Eigen::Index row) {
   Eigen::Array<double, kFewestRows, 1> out = Eigen::Array<double, kFewestRows, 1>::Zero();
@@ -67,7 +70,8 @@ Eigen::Array<double, kFewestRows, 1> slope_through_all(const Eigen::VectorXd& ti
   return out;
 }
 
-/// Rows of the inverse normal matrix for value and slope at u = 0 of the polynomial of degree `degree` in u.
+/// Compute the rows of the inverse normal matrix for value and slope at u = 0 of the polynomial of degree `degree` in
+/// u.
 std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int degree) {
   std::array<Vector3, 2> out = {Vector3::Zero(), Vector3::Zero()};
   const auto& s = moment;
@@ -91,9 +95,9 @@ struct Stencil {
   Eigen::VectorXd value, slope;
 };
 
-/// Of the parabola through a window by least squares. Where sampling is so slow that a window holds the fewest rows, a
-/// parabola would cut the corners of the motion (by 0.1 % of the velocity at 8 Hz on a circle of 20 s), while noise
-/// tells little: the slope is then that of the polynomial through all of them.
+/// Compute the stencil of the least-squares parabola through a window. Where sampling is so slow that a window has the
+/// minimum number of rows, a parabola would flatten the motion (by 0.1 % of the velocity at 8 Hz on a circle of 20 s),
+/// while noise matters little: the slope is then that of the polynomial through all of them.
 Stencil stencil(const Eigen::VectorXd& time_s, Eigen::Index row) {
   const auto [first, last] = window(time_s, row);
   const Eigen::Index count = last - first + 1;
@@ -132,15 +136,15 @@ Smooth smooth(Eigen::VectorXd time_s, const Track& raw_mm) {
           std::move(jerk_mm_s3), std::move(snap_mm_s4)};
 }
 
-/// Where a slider turned back.
+/// A reversal of a slider.
 struct Turn {
   double time_s, place_mm;
 };
 
-/// The turning point near row `extreme`, between rows: the zero of the velocity, taken as linear between two rows, and
-/// the vertex of the parabola that goes with it.
-Turn turn_near(const Smooth& track, int k, Eigen::Index extreme, double side) {
-  const auto velocity = [&](Eigen::Index row) { return side * track.velocity_mm_s(row, k); };
+/// Compute the turning point near row `extreme`, between rows: the zero of the velocity, assumed linear between two
+/// rows, and the vertex of the corresponding parabola.
+Turn turn_near(const Smooth& track, int k, Eigen::Index extreme, double direction) {
+  const auto velocity = [&](Eigen::Index row) { return direction * track.velocity_mm_s(row, k); };
   const Eigen::Index end = track.time_s.size() - 1;
   Eigen::Index before = extreme;
   if (velocity(extreme) <= 0.0 && extreme > 0) --before;
@@ -152,29 +156,29 @@ Turn turn_near(const Smooth& track, int k, Eigen::Index extreme, double side) {
   return {track.time_s[extreme], track.place_mm(extreme, k)};
 }
 
-/// Turning points of slider k and the side it moves to at first; 0 where it never moves.
+/// Turning points of slider k and its first direction of travel; 0 where it never moves.
 struct Turns {
-  double first_side = 0.0;
+  double first_direction = 0.0;
   std::vector<Turn> at;
 };
 
 Turns turns_of(const Smooth& track, int k) {
   Turns out;
   const auto place = track.place_mm.col(k);
-  double side = 0.0, low = place[0], high = place[0];
+  double direction = 0.0, low = place[0], high = place[0];
   Eigen::Index extreme = 0;
   for (Eigen::Index row = 1; row < place.size(); ++row) {
-    if (side == 0.0) {
+    if (direction == 0.0) {
       low = std::min(low, place[row]);
       high = std::max(high, place[row]);
       if (high - low <= kReversal_mm) continue;
-      side = out.first_side = place[row] > low + kReversal_mm ? 1.0 : -1.0;
+      direction = out.first_direction = place[row] > low + kReversal_mm ? 1.0 : -1.0;
       extreme = row;
-    } else if (side * (place[row] - place[extreme]) > 0.0) {
+    } else if (direction * (place[row] - place[extreme]) > 0.0) {
       extreme = row;
-    } else if (side * (place[extreme] - place[row]) > kReversal_mm) {
-      out.at.push_back(turn_near(track, k, extreme, side));
-      side = -side;
+    } else if (direction * (place[extreme] - place[row]) > kReversal_mm) {
+      out.at.push_back(turn_near(track, k, extreme, direction));
+      direction = -direction;
       extreme = row;
     }
   }
@@ -183,23 +187,23 @@ Turns turns_of(const Smooth& track, int k) {
 
 void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
   const Turns turns = turns_of(track, k);
-  double side = turns.first_side;
+  double direction = turns.first_direction;
   std::size_t passed = 0;
   for (Eigen::Index at = 0; at < track.time_s.size(); ++at) {
     const Eigen::Index row = rows[static_cast<std::size_t>(at)];
     while (passed < turns.at.size() && track.time_s[at] > turns.at[passed].time_s) {
-      side = -side;
+      direction = -direction;
       ++passed;
     }
     out.velocity_mm_s(row, k) = track.velocity_mm_s(at, k);
     out.acceleration_mm_s2(row, k) = track.acceleration_mm_s2(at, k);
     out.jerk_mm_s3(row, k) = track.jerk_mm_s3(at, k);
     out.snap_mm_s4(row, k) = track.snap_mm_s4(at, k);
-    out.side(row, k) = side;
+    out.travel_direction(row, k) = direction;
     if (passed > 0) {
       const Turn& last = turns.at[passed - 1];
       out.since_reversal_s(row, k) = track.time_s[at] - last.time_s;
-      out.since_reversal_mm(row, k) = std::max(side * (track.place_mm(at, k) - last.place_mm), 0.0);
+      out.since_reversal_mm(row, k) = std::max(direction * (track.place_mm(at, k) - last.place_mm), 0.0);
     }
   }
 }

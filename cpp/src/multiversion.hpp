@@ -1,5 +1,5 @@
-// Functions compiled for several processors (any x86-64, AVX2 with FMA, AVX-512), of which the best is chosen when the
-// program loads, so that one build is fast on every machine. Sanitizers cannot follow the resolver and get the plain
+// Functions compiled for several processors (any x86-64, AVX2 with FMA, AVX-512); the best version is selected when the
+// program loads, so that one build is fast on every machine. Sanitizers do not support the resolver and use the plain
 // version.
 #pragma once
 

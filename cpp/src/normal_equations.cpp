@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace hexdbb {
 
 namespace {
 
-constexpr Eigen::Index kBlocksPerThread = 32;  // fewer do not pay for starting one
+constexpr Eigen::Index kBlocksPerThread = 32;  // 2048 samples; for fewer, starting a thread costs more than it saves
 
 Eigen::Index blocks_of(const Samples& samples) { return (samples.size() + Block::kRows - 1) / Block::kRows; }
 
@@ -21,8 +22,8 @@ NormalEquations zero(Eigen::Index columns) {
   return out;
 }
 
-/// Huber's loss: residuals beyond `limit` are scaled down to count linearly. Gives the sum of losses, which for them is
-/// 2 limit |r| - limit^2.
+/// Weight residuals by Huber's loss: those beyond `limit` are scaled down to count linearly. Return the sum of losses,
+/// which for them is 2 limit |r| - limit^2.
 double weigh(Eigen::VectorXd& residual, double limit, Eigen::VectorXd& weight) {
   double loss = 0.0;
   for (Eigen::Index row = 0; row < residual.size(); ++row) {
@@ -35,7 +36,7 @@ double weigh(Eigen::VectorXd& residual, double limit, Eigen::VectorXd& weight) {
   return loss;
 }
 
-/// Accumulated tiles need a number of columns divisible by four.
+/// Round up to a number of columns divisible by four, as accumulated tiles require.
 Eigen::Index padded(Eigen::Index columns) { return (columns + 3) / 4 * 4; }
 
 }  // namespace
@@ -134,7 +135,10 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
 
 NormalEquations normal_equations(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm) {
   samples.validate();
-  if (measured_mm.size() != samples.size()) throw std::invalid_argument("as many readings as samples are needed");
+  if (measured_mm.size() != samples.size()) {
+    throw std::invalid_argument("measured_mm has " + std::to_string(measured_mm.size()) + " readings, expected " +
+                                std::to_string(samples.size()) + ", one per sample");
+  }
   std::vector<int> columns(model.size());
   std::iota(columns.begin(), columns.end(), 0);
   return Accumulator(samples, measured_mm, columns).at(model);

@@ -1,5 +1,4 @@
-// J'J, J'r and r'r of all readings in one pass over the samples, on all cores: what a least-squares step needs of them.
-// The Jacobian itself is never stored.
+// Accumulation of the normal equations in one pass over the samples, on all cores.
 #pragma once
 
 #include <vector>
@@ -9,7 +8,7 @@
 
 namespace hexdbb {
 
-/// Works through the same samples again and again, as a fit does; remembers where every solution stood.
+/// Accumulates over the same samples repeatedly, as a fit requires; remembers every solution as the start of the next.
 class Accumulator {
  public:
   /// `columns`: values of the model that count, in order. All must outlive the accumulator.
@@ -17,8 +16,8 @@ class Accumulator {
   Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns,
               double robust_mm = 0.0);
 
-  /// The values asked for last are answered from memory: a fit's start, its first iteration and the nominal machine are
-  /// often one.
+  /// Return the normal equations at a model's values. Those of the last values are kept: the start of a fit, its first
+  /// iteration and the nominal machine often coincide.
   const NormalEquations& at(const Model& model);
 
   /// Residuals of the last at(), mm.
@@ -28,7 +27,7 @@ class Accumulator {
   void keep_jacobian();
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
 
-  /// Predicted readings alone, mm; a sample without a solution reads zero.
+  /// Predict readings alone, mm; zero for a sample without a solution.
   Eigen::VectorXd reading_mm(const Model& model);
 
  private:

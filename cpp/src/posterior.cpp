@@ -40,11 +40,11 @@ BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& d
     factor_.compute(free);
     const Eigen::VectorXd moved = solve(right);
     for (Eigen::Index j = 0; j < z.size(); ++j) step_[j] = is_held_[j] ? step_[j] : moved[j];
-  } while (hold_what_leaves(z, bound));
-  promised_ = step_.dot(2.0 * downhill - matrix * step_);
+  } while (hold_beyond_bounds(z, bound));
+  predicted_fall_ = step_.dot(2.0 * downhill - matrix * step_);
 }
 
-bool BoundedStep::hold_what_leaves(const Eigen::VectorXd& z, const Eigen::VectorXd& bound) {
+bool BoundedStep::hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& bound) {
   bool any = false;
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     const double there = std::clamp(z[j] + step_[j], -bound[j], bound[j]);

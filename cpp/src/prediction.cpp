@@ -70,6 +70,13 @@ RowMajorMatrix port_sensitivity(const Model& model, const Samples& samples) {
   return out;
 }
 
+Pose PoseTable::at(Eigen::Index row) const {
+  Pose out;
+  out.position = pose.row(row).head<3>().transpose();
+  for (int i = 0; i < 3; ++i) out.rotation.row(i) = pose.row(row).segment<3>(3 + 3 * i);
+  return out;
+}
+
 PoseTable forward_table(const Model& model, const Samples& samples) {
   PoseTable out;
   out.pose.setZero(samples.size(), 12);

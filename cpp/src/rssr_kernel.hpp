@@ -1,4 +1,4 @@
-// The RSSR loops on a scalar type T: double for one pose, a pack of doubles for many side by side.
+// The RSSR loops on a scalar type T: double for one pose, lanes of doubles for several at once.
 //
 // Ball joint i: Q_i = C_i + U_i cos + W_i sin, with C_i the centre of the circle in which the spheres about the two
 // slider joints meet, U_i its radius vector in the plane of the axis and the upward normal, W_i the one across,
@@ -42,10 +42,10 @@ template <class T>
 struct Circle {
   Vec<T> centre, up, in;
   T radius_squared;  // not positive where the legs do not meet
-  T span_squared;    // squared horizontal distance of the slider joints; zero where up is undefined
+  T span_squared;    // squared horizontal distance of the slider joints; zero where `up` is undefined
 };
 
-/// Where spheres of radii l1, l2 about b1, b2 meet. With d = b2 - b1: centre b1 + t d, t = (d.d + l1^2 - l2^2) / (2
+/// Intersect spheres of radii l1, l2 about b1, b2. With d = b2 - b1: centre b1 + t d, t = (d.d + l1^2 - l2^2) / (2
 /// d.d).
 template <class T>
 inline Circle<T> meeting_circle(const Vec<T>& b1, const Vec<T>& b2, const T& l1, const T& l2) {
@@ -66,7 +66,7 @@ inline Circle<T> meeting_circle(const Vec<T>& b1, const Vec<T>& b2, const T& l1,
           span_squared};
 }
 
-/// The ball joints at some angles and how far the three sides are from closing.
+/// The ball joints at given angles, and the closing errors of the three sides.
 template <class T>
 struct Loops {
   Vec<T> q[3];     // ball joints
@@ -108,7 +108,7 @@ inline LoopJacobian<T> loop_jacobian(const Circle<T> (&circle)[3], const T (&c)[
   return out;
 }
 
-/// Newton step by Cramer's rule, (2.18)-(2.20): the three formulas are one another's cyclic shift.
+/// Compute the Newton step by Cramer's rule, (2.18)-(2.20): the three formulas are cyclic shifts of each other.
 template <class T>
 inline void cramer_step(const Loops<T>& loops, const LoopJacobian<T>& jacobian, T (&step)[3]) {
   const T(&a)[3] = jacobian.a;
@@ -122,13 +122,13 @@ inline void cramer_step(const Loops<T>& loops, const LoopJacobian<T>& jacobian, 
   }
 }
 
-/// 1 / sqrt(1 + e) for small e by its series: below 2e-16 for |e| < 4e-4, without a root or a division.
+/// Compute 1 / sqrt(1 + e) by its series: error below 2e-16 for |e| < 4e-4, without a root or a division.
 template <class T>
 inline T inverse_root_near_one(const T& e) {
   return 1.0 - e * (0.5 - e * (0.375 - e * (0.3125 - e * 0.2734375)));
 }
 
-/// Turn an angle held as cosine and sine by atan(t), which is t to third order, and put it back on the unit circle.
+/// Rotate an angle held as cosine and sine by atan(t), which is t to third order, and normalize it.
 template <class T>
 inline void turn_by(const T& t, const T& scale, T& c, T& s) {
   const T turned = scale * (c - s * t);

@@ -1,5 +1,5 @@
-// One sample from joints to reading and sensitivity, on a scalar type T: double, or eight samples in lanes. Each step
-// is what kinematics.hpp and ball_bar.hpp describe; both the single-pose functions and the batch are made of these.
+// One sample from joints to reading and sensitivity, on a scalar type T: double, or eight samples in lanes. The steps
+// are described in kinematics.hpp and ball_bar.hpp; both the single-pose functions and the batch consist of them.
 #pragma once
 
 #include "rssr_kernel.hpp"
@@ -38,8 +38,8 @@ struct PlacedPlatform {
   Vec<T> turned_back(const Vec<T>& v) const { return {dot(column[0], v), dot(column[1], v), dot(column[2], v)}; }
 };
 
-/// R maps q2-q1, q3-q1 and their cross product; the reference point lies below the joint plane along the platform's own
-/// normal, not along base z as thesis (2.26) has it.
+/// Compute the pose from three ball joints: R maps q2-q1, q3-q1 and their cross product. The reference point lies below
+/// the joint plane along the platform's own normal, not along base z as in thesis (2.26).
 template <class T>
 inline PlacedPlatform<T> align(const Vec<T> (&joint)[3], const TriangleFrame<T>& frame, const Vec<T>& first) {
   const Vec<T> x = joint[1] - joint[0], y = joint[2] - joint[0], n = cross(x, y);
@@ -61,9 +61,9 @@ struct LegForces {
 };
 
 // The bar's unit force n at ball = Q1 + alpha x + beta y + gamma x*y (x = Q2-Q1, y = Q3-Q1) is equivalent to forces h_i
-// at the three ball joints. Adding forces m along the sides keeps it so; they are chosen such that no joint force has a
-// component along t_i, the normal of the plane of its two legs: a cyclic 3 x 3 system, the transpose of the loops' own
-// (2.17).
+// at the three ball joints, and remains so when forces m along the sides are added. They are chosen such that no joint
+// force has a component along t_i, the normal of the plane of its two legs: a cyclic 3 x 3 system, the transpose of
+// that of the loops (2.17).
 template <class T>
 inline LegForces<T> leg_forces(const Joints<T>& joints, const TriangleFrame<T>& frame,
                                const PlacedPlatform<T>& platform, const Vec<T>& ball, const Vec<T>& n) {

@@ -35,8 +35,8 @@ void Samples::validate() const {
   };
   require_length("set_up", set_up.size());
   require_length("mount", mount.size());
-  for_each_column(state, [&](const char* name, const auto& column) {
-    if (column.size() > 0) require_length(name, column.rows());
+  for_each_column(state, [&](const ColumnInfo& info, const auto& column) {
+    if (column.size() > 0) require_length(info.name, column.rows());
   });
   for (Eigen::Index row = 0; row < size(); ++row) {
     if (set_up[row] < 0 || set_up[row] >= static_cast<int>(set_ups.size())) {

@@ -1,7 +1,7 @@
-// A platform on six legs that each have a joint of their own, on a scalar type T: Newton on its six coordinates, and
-// the forces that hold it. Both are linear systems in the same matrix W, whose column k is the wrench of a unit force
-// in leg k about the reference point: W' step = what the legs lack in length, W force = the wrench they must bear. W =
-// Q R by modified Gram-Schmidt, which needs no choice of pivots, so that lanes stay together.
+// A platform on six legs with separate joints, on a scalar type T: Newton on its six coordinates, and the forces that
+// hold it. Both are linear systems in the same matrix W, whose column k is the wrench of a unit force in leg k about
+// the reference point: W' step = length errors of the legs, W force = wrench of the load. W = Q R by modified
+// Gram-Schmidt, which needs no choice of pivots, so that lanes stay together.
 #pragma once
 
 #include "sample_kernel.hpp"
@@ -10,7 +10,7 @@ namespace hexdbb::rssr {
 
 constexpr double kLever_mm = 100.0;  // moments are divided by it: all six coordinates are then lengths of one size
 
-/// Three coordinates of place (or force) and three of turn (or moment).
+/// Three coordinates of translation (or force) and three of rotation (or moment).
 template <class T>
 struct Six {
   Vec<T> force, moment;
@@ -33,7 +33,7 @@ inline T dot(const Six<T>& a, const Six<T>& b) {
   return dot(a.force, b.force) + dot(a.moment, b.moment);
 }
 
-/// Unit force along `direction` at `arm` from the reference point.
+/// Return the wrench of a unit force along `direction` at `arm` from the reference point.
 template <class T>
 inline Six<T> wrench(const Vec<T>& direction, const Vec<T>& arm) {
   return {direction, (T{} + 1.0 / kLever_mm) * cross(arm, direction)};
@@ -93,7 +93,7 @@ template <class T>
 struct SixLegs {
   Vec<T> leg[6];     // from slider joint to platform joint
   T inverse[6];      // of its length
-  T too_long[6];     // length beyond what it should be
+  T too_long[6];     // actual minus required length
   Six<T> column[6];  // of W
 };
 
@@ -112,7 +112,7 @@ inline SixLegs<T> six_legs(const Vec<T> (&base)[6], const T (&length)[6], const 
   return out;
 }
 
-/// Move a platform back by `by`; the turn is Cayley's, a rotation to rounding and the turn itself to third order.
+/// Move a platform back by `by`; the rotation is Cayley's: orthogonal to rounding, its angle exact to third order.
 template <class T>
 inline void move_back(const Six<T>& by, PlacedPlatform<T>& platform) {
   platform.position = platform.position - by.force;

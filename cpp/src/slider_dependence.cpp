@@ -7,15 +7,15 @@ namespace hexdbb {
 
 namespace {
 
-constexpr int kTrials = 24;
+constexpr int kTrials = 24;  // more than the 15 coefficients a port may have
 
-/// Numbers in -1 .. 1 that no period divides: multiples of the golden ratio, another phase a column.
+/// Return numbers in -1 to 1 without a period: multiples of the golden ratio, with a phase per column.
 double spread(int row, int column) {
   const double turns = 0.6180339887498949 * (row + 1) + 0.7548776662466927 * (column + 1);
   return 2.0 * (turns - std::floor(turns)) - 1.0;
 }
 
-/// Sum of magnitudes over the ports of leg k.
+/// Sum the magnitudes over the ports of leg k.
 double on_leg(const Eigen::Matrix<double, 1, port::kCount>& push, int k) {
   return std::abs(push[port::kSlider + k]) + std::abs(push[port::kLeg + k]) +
          push.segment<3>(port::kSliderJoint + 3 * k).cwiseAbs().sum() +
@@ -24,7 +24,7 @@ double on_leg(const Eigen::Matrix<double, 1, port::kCount>& push, int k) {
 
 }  // namespace
 
-SliderTable trial_places(const Machine& machine) {
+SliderTable trial_positions(const Machine& machine) {
   const double middle_mm = 0.5 * (machine.travel_min_mm + machine.travel_max_mm);
   const double half_mm = 0.5 * (machine.travel_max_mm - machine.travel_min_mm);
   SliderTable out(int{kTrials}, int{kLegs});
@@ -40,7 +40,7 @@ std::vector<InstantState> trial_instants() {
     InstantState& instant = out[static_cast<std::size_t>(row)];
     for (int k = 0; k < kLegs; ++k) {
       instant.velocity_mm_s[k] = 30.0 * spread(row, 6 + k);
-      instant.side[k] = spread(row, 12 + k);
+      instant.travel_direction[k] = spread(row, 12 + k);
       instant.leg_force[k] = spread(row, 18 + k);
     }
     instant.warming_k = row % 2 == 0 ? 0.0 : 10.0 * spread(row, 24);
@@ -56,19 +56,19 @@ State state_of(const std::vector<InstantState>& instants) {
   out.warming_k.setZero(rows);
   out.since_reversal_mm.setConstant(rows, int{kLegs}, kLongAgo);
   out.velocity_mm_s.resize(rows, int{kLegs});
-  out.side.resize(rows, int{kLegs});
+  out.travel_direction.resize(rows, int{kLegs});
   out.leg_force.resize(rows, int{kLegs});
   for (Eigen::Index row = 0; row < rows; ++row) {
     const InstantState& instant = instants[static_cast<std::size_t>(row)];
     out.velocity_mm_s.row(row) = instant.velocity_mm_s.transpose();
-    out.side.row(row) = instant.side.transpose();
+    out.travel_direction.row(row) = instant.travel_direction.transpose();
     out.leg_force.row(row) = instant.leg_force.transpose();
     out.warming_k[row] = instant.warming_k;
   }
   return out;
 }
 
-Pushes ask(const Term& term, const SliderTable& sliders_mm, const State& state) {
+Pushes pushes_of(const Term& term, const SliderTable& sliders_mm, const State& state) {
   Samples samples;
   samples.sliders_mm = sliders_mm;
   samples.state = state;
@@ -79,9 +79,9 @@ Pushes ask(const Term& term, const SliderTable& sliders_mm, const State& state) 
 
 double steepness(const Term& term, const Machine& machine) {
   constexpr double kStep_mm = 0.01;
-  const SliderTable places = trial_places(machine), beside = (places.array() + kStep_mm).matrix();
+  const SliderTable positions = trial_positions(machine), beside = (positions.array() + kStep_mm).matrix();
   const State state = state_of(trial_instants());
-  const Pushes change = ask(term, beside, state) - ask(term, places, state);
+  const Pushes change = pushes_of(term, beside, state) - pushes_of(term, positions, state);
   double out = 0.0;
   for (Eigen::Index row = 0; row < change.rows(); ++row) {
     for (int k = 0; k < kLegs; ++k) out = std::max(out, on_leg(change.row(row), k) / kStep_mm);

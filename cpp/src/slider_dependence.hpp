@@ -1,5 +1,5 @@
-// How an effect's push depends on the places of the sliders and on the state of an instant, found by asking it at trial
-// places in trial states.
+// Dependence of an effect's push on the slider coordinates and on the state of an instant, determined by evaluating it
+// at trial positions in trial states.
 #pragma once
 
 #include <vector>
@@ -10,17 +10,17 @@ namespace hexdbb {
 
 using Pushes = Eigen::Matrix<double, Eigen::Dynamic, port::kCount>;
 
-/// Places of all sliders, each row elsewhere for each slider, within the travel; as many states to go with them.
-SliderTable trial_places(const Machine& machine);
+/// Return positions of all sliders within the travel, different in each row and for each slider, and as many states.
+SliderTable trial_positions(const Machine& machine);
 std::vector<InstantState> trial_instants();
 
-/// Columns of the state a controller can fill, a row an instant: any play is crossed, no time has passed.
+/// Return the columns of the state that a controller knows, a row per instant: any play is crossed, no time has passed.
 State state_of(const std::vector<InstantState>& instants);
 
-/// What a term pushes with the sliders at these places.
-Pushes ask(const Term& term, const SliderTable& sliders_mm, const State& state);
+/// Compute the pushes of a term with the sliders at these coordinates.
+Pushes pushes_of(const Term& term, const SliderTable& sliders_mm, const State& state);
 
-/// Most that the pushes on one leg change per mm of its slider's travel.
+/// Compute the largest change of the pushes on one leg per mm of its slider's travel.
 double steepness(const Term& term, const Machine& machine);
 
 }  // namespace hexdbb

@@ -9,9 +9,9 @@ namespace {
 
 using PortVector = Eigen::Matrix<double, SliderPolynomials::kPorts, 1>;
 
-constexpr double kSame_mm = 1e-11;
+constexpr double kSame_mm = 1e-11;  // rounding of pushes of some mm
 
-/// The slider's number to every port that belongs to it.
+/// Assign each slider's number to every port that belongs to it.
 PortVector of_ports(const Vector6& of_sliders) {
   PortVector out;
   for (int k = 0; k < kLegs; ++k) {
@@ -23,11 +23,11 @@ PortVector of_ports(const Vector6& of_sliders) {
   return out;
 }
 
-/// A state with one factor at one and the others at zero.
+/// Return a state with one factor at one and the others at zero.
 State unit_state(int factor, Eigen::Index rows) {
   InstantState instant;
   if (factor == 1) instant.velocity_mm_s.setOnes();
-  if (factor == 2) instant.side.setOnes();
+  if (factor == 2) instant.travel_direction.setOnes();
   if (factor == 3) instant.leg_force.setOnes();
   if (factor == 4) instant.warming_k = 1.0;
   return state_of(std::vector<InstantState>(static_cast<std::size_t>(rows), instant));
@@ -43,10 +43,10 @@ SliderPolynomials::SliderPolynomials(const Machine& machine)
   settled_.setZero();
 }
 
-SliderPolynomials::Coefficients SliderPolynomials::asked(const Term& term, int factor) const {
-  SliderTable places(3, int{kLegs});
-  for (int row = 0; row < 3; ++row) places.row(row).setConstant(middle_mm_ + (row - 1) * half_mm_);
-  const Pushes known = ask(term, places, unit_state(factor, 3));
+SliderPolynomials::Coefficients SliderPolynomials::coefficients_of(const Term& term, int factor) const {
+  SliderTable positions(3, int{kLegs});
+  for (int row = 0; row < 3; ++row) positions.row(row).setConstant(middle_mm_ + (row - 1) * half_mm_);
+  const Pushes known = pushes_of(term, positions, unit_state(factor, 3));
   Coefficients out;
   out.col(0) = known.row(1).head<kPorts>();
   out.col(1) = 0.5 * (known.row(2) - known.row(0)).head<kPorts>();
@@ -58,18 +58,18 @@ bool SliderPolynomials::fold(const Term& term) {
   SliderPolynomials alone(machine_);
   for (int factor = 0; factor < kFactors; ++factor) {
     Coefficients& found = alone.of_factor_[factor];
-    found = asked(term, factor);
+    found = coefficients_of(term, factor);
     if (factor > 0) found -= alone.of_factor_[0];
     for (int power = 0; power < 3; ++power) alone.is_used_[factor][power] = !found.col(power).isZero(0.0);
   }
   alone.varies_ = {true, true, true};
-  const SliderTable places = trial_places(machine_);
+  const SliderTable positions = trial_positions(machine_);
   const std::vector<InstantState> instants = trial_instants();
-  const Pushes pushed = ask(term, places, state_of(instants));
+  const Pushes pushed = pushes_of(term, positions, state_of(instants));
   for (std::size_t row = 0; row < instants.size(); ++row) {
     Ports expected;
     alone.settle(instants[row]);
-    alone.evaluate(places.row(static_cast<Eigen::Index>(row)).transpose(), expected);
+    alone.evaluate(positions.row(static_cast<Eigen::Index>(row)).transpose(), expected);
     const auto given = pushed.row(static_cast<Eigen::Index>(row)).transpose();
     if (!((given - expected.value).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kSame_mm)) return false;
   }
@@ -84,11 +84,11 @@ bool SliderPolynomials::fold(const Term& term) {
   return true;
 }
 
-// Plain loops: they become vector instructions of whichever processor the function is compiled for.
+// Plain loops, which the compiler vectorizes for each processor the function is compiled for.
 HEXDBB_MULTIVERSION
 void SliderPolynomials::settle(const InstantState& state) noexcept {
   const Vector6 warming = Vector6::Constant(state.warming_k);
-  const Vector6* const factors[] = {nullptr, &state.velocity_mm_s, &state.side, &state.leg_force, &warming};
+  const Vector6* const factors[] = {nullptr, &state.velocity_mm_s, &state.travel_direction, &state.leg_force, &warming};
   for (int power = 0; power < 3; ++power) {
     if (varies_[power]) settled_.col(power) = of_factor_[0].col(power);
   }

@@ -1,5 +1,7 @@
 #include "hexdbb/state.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -9,11 +11,9 @@ namespace hexdbb {
 
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-bool may_lack_values(const std::string& column) { return column == "temperature_c" || column == "warming_k"; }
-
-/// First row that is not a number all through, or -1.
+/// Return the first row that holds a NaN or infinity, or -1.
 template <class Column>
 Eigen::Index first_unknown(const Column& column) {
   if (column.template cast<double>().allFinite()) return -1;
@@ -22,8 +22,8 @@ Eigen::Index first_unknown(const Column& column) {
   return row;
 }
 
-/// Samples of slider places alone, the bar set up one way for all.
-Samples places(const SliderTable& sliders_mm, const SetUp& set_up) {
+/// Return samples of slider positions alone, with one set-up for all.
+Samples samples_at(const SliderTable& sliders_mm, const SetUp& set_up) {
   Samples out;
   out.sliders_mm = sliders_mm;
   out.set_up.setZero(sliders_mm.rows());
@@ -32,11 +32,46 @@ Samples places(const SliderTable& sliders_mm, const SetUp& set_up) {
   return out;
 }
 
+double angle_between(const Vector3& one, const Vector3& other) {
+  return std::acos(std::clamp(one.dot(other), -1.0, 1.0));
+}
+
+/// Fill the columns of the joints. Angles are handled as arcs of the leg's far end, so that the dead band of reversals
+/// is that of the sliders.
+void derive_joints(const NominalPoses& poses, double leg_length_mm, State& state) {
+  Motion slider_end = motion(state.time_s, state.sweep, leg_length_mm * poses.slider_joint_angle_rad);
+  const Motion platform_end = motion(state.time_s, state.sweep, leg_length_mm * poses.platform_joint_angle_rad);
+  const auto arc_mm = slider_end.since_reversal_mm.array();
+  state.slider_joint_angle_rad = poses.slider_joint_angle_rad;
+  state.slider_joint_rate_rad_s = slider_end.velocity_mm_s / leg_length_mm;
+  state.slider_joint_direction = std::move(slider_end.travel_direction);
+  state.slider_joint_since_reversal_rad = (arc_mm < kLongAgo).select(arc_mm / leg_length_mm, kLongAgo);
+  state.platform_joint_angle_rad = poses.platform_joint_angle_rad;
+  state.platform_joint_rate_rad_s = platform_end.velocity_mm_s / leg_length_mm;
+}
+
+void derive_motion(const SliderTable& sliders_mm, State& state) {
+  Motion moved = motion(state.time_s, state.sweep, sliders_mm);
+  state.velocity_mm_s = std::move(moved.velocity_mm_s);
+  state.acceleration_mm_s2 = std::move(moved.acceleration_mm_s2);
+  state.jerk_mm_s3 = std::move(moved.jerk_mm_s3);
+  state.snap_mm_s4 = std::move(moved.snap_mm_s4);
+  state.travel_direction = std::move(moved.travel_direction);
+  state.since_reversal_s = std::move(moved.since_reversal_s);
+  state.since_reversal_mm = std::move(moved.since_reversal_mm);
+}
+
+double wrapped(double angle_rad) {
+  constexpr double kTurn = 2.0 * M_PI;
+  const double out = angle_rad - kTurn * std::floor(angle_rad / kTurn);
+  return out < kTurn ? out : 0.0;  // of -1e-17 the difference rounds to a whole turn
+}
+
 }  // namespace
 
 State State::rows(const std::vector<Eigen::Index>& which) const {
   State out = *this;
-  for_each_column(out, [&](const char*, auto& column) {
+  for_each_column(out, [&](const ColumnInfo&, auto& column) {
     if (column.size() > 0) column = column(which, Eigen::all).eval();
   });
   return out;
@@ -44,31 +79,55 @@ State State::rows(const std::vector<Eigen::Index>& which) const {
 
 void require_column(const State& state, const std::string& wanted, const std::string& who) {
   bool known = false;
-  for_each_column(state, [&](const char* name, const auto& column) {
-    if (wanted != name) return;
+  for_each_column(state, [&](const ColumnInfo& info, const auto& column) {
+    if (wanted != info.name) return;
     known = true;
     if (column.size() == 0) {
       throw std::invalid_argument(who + " needs the samples' " + wanted + ", which these samples do not have");
     }
-    const Eigen::Index row = may_lack_values(wanted) ? -1 : first_unknown(column);
-    if (row >= 0) throw std::invalid_argument(who + " needs " + wanted + "[" + std::to_string(row) + "], not a number");
+    const Eigen::Index row = info.may_be_nan ? -1 : first_unknown(column);
+    if (row >= 0) {
+      throw std::invalid_argument(who + " needs " + wanted + "[" + std::to_string(row) + "], which is not a number");
+    }
   });
   if (!known) throw std::invalid_argument(who + " needs " + wanted + ", which is no column of a sample's state");
 }
 
 SliderTable leg_force(const NominalGeometry& nominal, const SliderTable& sliders_mm) {
-  // A bar from the reference point down to a cup 1000 km below hangs vertical: what it reads is height.
+  // A bar from the reference point down to a cup 1000 km below hangs vertically: it reads the height.
   const SetUp plumb{Vector3(0.0, 0.0, -1e9), Vector3::Zero(), 0.0};
-  SliderTable out = -port_sensitivity(Model(nominal.machine), places(sliders_mm, plumb)).middleCols<kLegs>(port::kLeg);
+  SliderTable out =
+      -port_sensitivity(Model(nominal.machine), samples_at(sliders_mm, plumb)).middleCols<kLegs>(port::kLeg);
   for (Eigen::Index row = 0; row < out.rows(); ++row) {
-    if (out.row(row).isZero(0.0)) out.row(row).setConstant(kNothing);
+    if (out.row(row).isZero(0.0)) out.row(row).setConstant(kUnknown);
+  }
+  return out;
+}
+
+NominalPoses nominal_poses(const NominalGeometry& nominal, const SliderTable& sliders_mm) {
+  const Eigen::Index count = sliders_mm.rows();
+  const PoseTable table = forward_table(Model(nominal.machine), samples_at(sliders_mm, SetUp()));
+  NominalPoses out{AxisTable::Constant(count, 3, kUnknown), AxisTable::Constant(count, 3, kUnknown),
+                   SliderTable::Constant(count, kLegs, kUnknown), SliderTable::Constant(count, kLegs, kUnknown)};
+  for (Eigen::Index row = 0; row < count; ++row) {
+    if (table.status[row] != 0) continue;
+    const Pose pose = table.at(row);
+    out.position_mm.row(row) = pose.position.transpose();
+    out.platform_rpy_rad.row(row) = rpy_from_rotation(pose.rotation).transpose();
+    for (int k = 0; k < kLegs; ++k) {
+      const Vector3 slider_joint = nominal.vertex.col(k) + sliders_mm(row, k) * nominal.direction.col(k);
+      const Vector3 platform_joint = pose.position + pose.rotation * nominal.platform_joint.col(k);
+      const Vector3 along = (platform_joint - slider_joint).normalized();
+      out.slider_joint_angle_rad(row, k) = angle_between(along, nominal.direction.col(k));
+      out.platform_joint_angle_rad(row, k) = angle_between(along, pose.rotation.col(2));
+    }
   }
   return out;
 }
 
 Eigen::VectorXd nominal_reading_mm(const NominalGeometry& nominal, const Samples& samples) {
   const Prediction predicted = predict(Model(nominal.machine), samples, false);
-  return (predicted.status.array() == 0).select(predicted.reading_mm, kNothing);
+  return (predicted.status.array() == 0).select(predicted.reading_mm, kUnknown);
 }
 
 void derive(const NominalGeometry& nominal, Samples& samples) {
@@ -76,14 +135,12 @@ void derive(const NominalGeometry& nominal, Samples& samples) {
   require_column(state, "time_s", "the sliders' motion");
   require_column(state, "sweep", "the sliders' motion");
   samples.validate();
-  Motion moved = motion(state.time_s, state.sweep, samples.sliders_mm);
-  state.velocity_mm_s = std::move(moved.velocity_mm_s);
-  state.acceleration_mm_s2 = std::move(moved.acceleration_mm_s2);
-  state.jerk_mm_s3 = std::move(moved.jerk_mm_s3);
-  state.snap_mm_s4 = std::move(moved.snap_mm_s4);
-  state.side = std::move(moved.side);
-  state.since_reversal_s = std::move(moved.since_reversal_s);
-  state.since_reversal_mm = std::move(moved.since_reversal_mm);
+  derive_motion(samples.sliders_mm, state);
+  state.angle_wrapped_rad = state.angle_rad.unaryExpr(&wrapped);
+  const NominalPoses poses = nominal_poses(nominal, samples.sliders_mm);
+  state.position_mm = poses.position_mm;
+  state.platform_rpy_rad = poses.platform_rpy_rad;
+  derive_joints(poses, nominal.machine.leg_length_mm, state);
   state.leg_force = leg_force(nominal, samples.sliders_mm);
   state.nominal_reading_mm = nominal_reading_mm(nominal, samples);
 }

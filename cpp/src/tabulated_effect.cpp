@@ -20,16 +20,18 @@ BlockColumn rows_of(const SampleBlock& block, const Eigen::VectorXd& table) {
 }  // namespace
 
 TabulatedEffect::TabulatedEffect(EffectInfo info, std::vector<TabulatedLink> links)
-    : info_(std::move(info)), links_(std::move(links)) {
+    : Effect(std::move(info)), links_(std::move(links)) {
   count_ = links_.empty() ? 0 : links_.front().per_unit.size();
   for (const TabulatedLink& link : links_) {
-    if (link.value < 0 || link.value >= info_.size() || link.port < 0 || link.port >= port::kCount) {
-      throw std::invalid_argument(info_.name + ": value " + std::to_string(link.value) + " or port " +
-                                  std::to_string(link.port) + " is not there");
+    if (link.value < 0 || link.value >= this->info().size() || link.port < 0 || link.port >= port::kCount) {
+      throw std::invalid_argument(this->info().name + ": value " + std::to_string(link.value) + " or port " +
+                                  std::to_string(link.port) + " does not exist (expected values 0 to " +
+                                  std::to_string(this->info().size() - 1) + ", ports 0 to " +
+                                  std::to_string(port::kCount - 1) + ")");
     }
     if (link.per_unit.size() != count_ || !link.per_unit.allFinite()) {
-      throw std::invalid_argument(info_.name + ": its table needs " + std::to_string(count_) +
-                                  " finite numbers a column");
+      throw std::invalid_argument(this->info().name + ": its table needs " + std::to_string(count_) +
+                                  " finite numbers per column");
     }
   }
 }
@@ -38,8 +40,8 @@ void TabulatedEffect::require(const Samples& samples) const {
   const Eigen::VectorXi& row = samples.state.row;
   const bool fits = row.size() == 0 ? samples.size() == count_ : row.minCoeff() >= 0 && row.maxCoeff() < count_;
   if (!fits) {
-    throw std::invalid_argument("effect " + info_.name + " is tabulated for " + std::to_string(count_) +
-                                " samples, and these are others");
+    throw std::invalid_argument("effect " + this->info().name + " is tabulated for " + std::to_string(count_) +
+                                " samples, not for these (expected the same samples or rows of them)");
   }
 }
 

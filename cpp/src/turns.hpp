@@ -1,5 +1,5 @@
-// Cosine and sine of an angle given in turns, to 2e-15: the turn is reduced exactly, and there is no call, no branch
-// and no table, so that loops over samples become vector instructions.
+// Cosine and sine of an angle given in turns, to 2e-15. The turn is reduced exactly, without a call, a branch or a
+// table, so that loops over samples are vectorized.
 //
 // x in [-1/4, 1/4] turns from the nearest half turn, then Taylor's series of sin and cos of 2 pi x.
 #pragma once
@@ -10,9 +10,9 @@ struct CosSin {
   double cosine, sine;
 };
 
-/// For |turns| below 2^50.
+/// Compute cosine and sine of 2 pi turns, for |turns| below 2^50.
 inline CosSin cos_sin_of_turns(double turns) {
-  // Adding and taking off 1.5 * 2^52 rounds to a whole number (round-to-nearest mode, as everywhere here).
+  // Adding and subtracting 1.5 * 2^52 rounds to a whole number (round-to-nearest mode, as everywhere here).
   constexpr double kRound = 6755399441055744.0;
   const double half_turns = (2.0 * turns + kRound) - kRound;
   const double odd = half_turns - 2.0 * ((0.5 * half_turns + kRound) - kRound);  // -1, 0 or 1

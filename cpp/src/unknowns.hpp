@@ -1,4 +1,4 @@
-// What a fit estimates: a model's free values in units of their expected sizes, within their physical limits.
+// The unknowns of a fit: a model's free values in units of their prior standard deviations, within their limits.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +9,9 @@ namespace hexdbb {
 struct Unknowns {
   Eigen::VectorXd start;     // values of the whole model
   std::vector<int> columns;  // of the free ones
-  Eigen::VectorXd scale;     // expected sizes of the free ones
-  Eigen::VectorXd limit;     // and their physical limits, engine units
-  std::vector<bool> shapes;  // whether it only shapes what others push
+  Eigen::VectorXd scale;     // prior standard deviations of the free ones
+  Eigen::VectorXd limit;     // their limits, engine units
+  std::vector<bool> shapes;  // ParameterInfo::is_shape
 
   Eigen::Index size() const { return scale.size(); }
 
@@ -23,7 +23,7 @@ struct Unknowns {
 
   Eigen::VectorXd scaled_start() const { return start(columns).cwiseQuotient(scale); }
 
-  /// Most probable before any reading is known; shapes stay where they are.
+  /// Return the values most probable a priori; shapes keep their start.
   Eigen::VectorXd scaled_expected() const {
     Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
     for (Eigen::Index j = 0; j < size(); ++j) {

@@ -7,10 +7,11 @@ namespace hexdbb {
 
 namespace {
 
-// Nielsen (1999): more damping ever faster while steps fail, less the better the last one kept its promise.
+// Damping after Nielsen (1999): it grows ever faster while steps fail, and falls the more the closer the last step came
+// to its predicted fall; constants as there.
 constexpr double kDamping = 1e-3, kMoreDamping = 3.0, kFaster = 2.0, kLeastPart = 0.1, kMostDamping = 1e9;
-constexpr double kProbe = 0.1;     // of a step, to find its acceleration
-constexpr double kMostBend = 1.0;  // acceleration over velocity beyond which a step is not trusted
+constexpr double kProbe = 0.1;          // fraction of a step at which its acceleration is measured (Transtrum, Sethna)
+constexpr double kMostCurvature = 1.0;  // acceleration over velocity beyond which the expansion of a step is not valid
 
 Eigen::VectorXd every(const Eigen::VectorXd& column, Eigen::Index stride) {
   return column(Eigen::seq(0, column.size() - 1, stride));
@@ -30,7 +31,7 @@ FewReadings::FewReadings(const Model& model, const Samples& samples, const Eigen
   accumulator_.keep_jacobian();
 }
 
-Eigen::VectorXd FewReadings::bend(const Eigen::VectorXd& z, const Eigen::VectorXd& v) {
+Eigen::VectorXd FewReadings::curvature(const Eigen::VectorXd& z, const Eigen::VectorXd& v) {
   at(z);
   const Eigen::VectorXd here = measured_mm_ - accumulator_.residual_mm();
   const Eigen::VectorXd probed = z + kProbe * v;
@@ -42,7 +43,7 @@ Eigen::VectorXd FewReadings::bend(const Eigen::VectorXd& z, const Eigen::VectorX
 }
 
 Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewReadings& few, Eigen::VectorXd z,
-                const Eigen::VectorXd& bound, double worth_a_step, int most_steps) {
+                const Eigen::VectorXd& bound, double least_fall, int most_steps) {
   Descent out;
   Posterior now = at(z);
   out.is_reachable = now.is_reachable;
@@ -51,22 +52,22 @@ Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewR
     Eigen::MatrixXd damped = now.information;
     damped.diagonal().array() += damping;
     const BoundedStep straight(damped, now.downhill, z, bound);
-    out.is_at_rest = straight.promised() < worth_a_step;
+    out.is_at_rest = straight.predicted_fall() < least_fall;
     if (out.is_at_rest) break;
     const double used = damping;
     damping *= more;
     more *= kFaster;
-    const Eigen::VectorXd acceleration = -straight.solve(few.bend(z, straight.step()));
-    if (!(acceleration.norm() < kMostBend * straight.step().norm())) continue;
+    const Eigen::VectorXd acceleration = -straight.solve(few.curvature(z, straight.step()));
+    if (!(acceleration.norm() < kMostCurvature * straight.step().norm())) continue;
     Eigen::VectorXd further = z + straight.step() + 0.5 * acceleration;
     if ((further.cwiseAbs().array() > bound.array()).any()) further = z + straight.step();
     const Posterior next = at(further);
     if (!next.is_reachable || !(next.cost < now.cost)) continue;
-    const double kept = 2.0 * (now.cost - next.cost) / straight.promised();
-    out.is_at_rest = now.cost - next.cost < 0.5 * worth_a_step;
+    const double achieved = 2.0 * (now.cost - next.cost) / straight.predicted_fall();
+    out.is_at_rest = now.cost - next.cost < 0.5 * least_fall;
     z = further;
     now = next;
-    damping = used * std::max(kLeastPart, 1.0 - std::pow(2.0 * std::min(kept, 1.0) - 1.0, 3.0));
+    damping = used * std::max(kLeastPart, 1.0 - std::pow(2.0 * std::min(achieved, 1.0) - 1.0, 3.0));
     more = kMoreDamping;
     if (out.is_at_rest) break;
   }

@@ -10,10 +10,10 @@
 static kins_engines engines;
 static kins_pins* pins;
 
-static bool has_begun, is_moving, has_complained_of_bracket;
+static bool has_begun, is_moving, has_reported_bracket;
 static double since_followed_s;
 static double followed_mm[HEXDBB_SLIDERS]; /* nominal; NAN before the first */
-static hexdbb_status complained_of;
+static hexdbb_status reported;
 
 void motion_start(const kins_engines* given, kins_pins* given_pins) {
   engines = *given;
@@ -46,10 +46,10 @@ static hexdbb_motion at_rest(void) {
   return motion;
 }
 
-/* Says why, once until it is something else. */
-static void complain(hexdbb_status status, int slider) {
-  if (status == complained_of) return;
-  complained_of = status;
+/* Report a status, once until it changes. */
+static void report(hexdbb_status status, int slider) {
+  if (status == reported) return;
+  reported = status;
   if (status == HEXDBB_OK) return;
   rtapi_print_msg(RTAPI_MSG_ERR, "hexdbb_kins: joint %d: %s: %s\n", slider, hexdbb_status_name(status),
                   hexdbb_status_text(status));
@@ -66,7 +66,7 @@ static void find_velocity(const hexdbb_pose* pose, hexdbb_motion* motion) {
     const double step_mm = now.sliders_mm[k] - followed_mm[k];
     followed_mm[k] = now.sliders_mm[k];
     motion->velocity_mm_s[k] = step_s > 0.0 ? step_mm / step_s : 0.0;
-    /* a comparison that is false where there was no place before */
+    /* false where there was no position before (NAN) */
     largest_mm = fabs(step_mm) <= MOTION_STEP_MM ? largest_mm : 2.0 * MOTION_STEP_MM;
   }
   if (largest_mm > MOTION_STEP_MM) {
@@ -99,15 +99,15 @@ static hexdbb_status follow(const hexdbb_pose* pose, hexdbb_target* target) {
   return target->status;
 }
 
-static hexdbb_status look_at(const hexdbb_pose* pose, hexdbb_target* target) {
+static hexdbb_status check(const hexdbb_pose* pose, hexdbb_target* target) {
   const hexdbb_motion motion = at_rest();
-  if (!has_begun && *pins->enable && !has_complained_of_bracket) {
-    has_complained_of_bracket = true;
+  if (!has_begun && *pins->enable && !has_reported_bracket) {
+    has_reported_bracket = true;
     rtapi_print_msg(RTAPI_MSG_ERR,
                     "hexdbb_kins: no compensation: hexdbb-kins.begin does not run (expected addf of hexdbb-kins.begin "
                     "before motion-controller, of hexdbb-kins.end after it)\n");
   }
-  return hexdbb_sliders_from_pose(has_begun && *pins->enable ? engines.looking : engines.nominal, pose, &motion,
+  return hexdbb_sliders_from_pose(has_begun && *pins->enable ? engines.checking : engines.nominal, pose, &motion,
                                   target);
 }
 
@@ -115,10 +115,10 @@ int kinematicsInverse(const EmcPose* world, double* joints, const KINEMATICS_INV
                       KINEMATICS_FORWARD_FLAGS* fflags) {
   const hexdbb_pose pose = to_pose(world);
   hexdbb_target target = HEXDBB_TARGET_INIT;
-  const hexdbb_status status = is_moving ? follow(&pose, &target) : look_at(&pose, &target);
+  const hexdbb_status status = is_moving ? follow(&pose, &target) : check(&pose, &target);
   (void)iflags;
   (void)fflags;
-  complain(status, target.slider);
+  report(status, target.slider);
   if (status != HEXDBB_OK) return -1;
   for (int k = 0; k < HEXDBB_SLIDERS; ++k) joints[k] = target.sliders_mm[k];
   return 0;
@@ -147,7 +147,7 @@ int kinematicsForward(const double* joints, EmcPose* world, const KINEMATICS_FOR
 
 KINEMATICS_TYPE kinematicsType(void) { return KINEMATICS_BOTH; }
 
-/* The one way to be asked: there is no other machine to switch to. (kinematics.h has these in a macro of K&R style.) */
+/* There is only one kinematics, so nothing to switch to. (kinematics.h defines these in a macro of K&R style.) */
 int kinematicsSwitchable(void) { return 0; }
 
 int kinematicsSwitch(int type) {

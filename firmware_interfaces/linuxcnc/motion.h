@@ -1,23 +1,23 @@
-/* Kinematics in the servo thread: what motmod asks, answered by the engine.
+/* Kinematics in the servo thread: the functions called by motmod, computed by the engine.
  *
- * Which calls are motion. motmod asks for joints from two places: motion-controller, once a period, for the pose the
- * trajectory has reached; and motion-command-handler, once a move, to see whether its end point is within the joints'
- * limits. Only the first may be followed: from it comes the direction of each slider, and an end point taken for a
- * place the machine was at would turn the play of every slider about. The call itself does not say where it comes from,
- * so the HAL file brackets the controller with two functions of this module:
+ * Which calls are motion. motmod calls kinematicsInverse from two functions: motion-controller, once per period, for
+ * the pose the trajectory has reached; and motion-command-handler, once per move, to check whether its end point is
+ * within the joints' limits. Only the first is motion: it determines the direction of travel of each slider, and an end
+ * point mistaken for a position of the machine would reverse the correction for the play of every slider. The call
+ * itself does not show its origin, so the HAL file brackets the controller with two functions of this module:
  *
  *   addf motion-command-handler servo-thread
  *   addf hexdbb-kins.begin      servo-thread
  *   addf motion-controller      servo-thread
  *   addf hexdbb-kins.end        servo-thread
  *
- * What is asked outside of the bracket is only looked at. Where begin never runs, compensation never acts.
+ * A pose outside the bracket is only checked. Where begin never runs, compensation never acts.
  *
- * Direction: nominal slider coordinates of this pose less those of the pose before, over the time between. A step
- * beyond MOTION_STEP_MM is no motion of this thread (joints were jogged meanwhile) and has none.
+ * Velocity: nominal slider coordinates of this pose minus those of the pose before, divided by the time between. A step
+ * beyond MOTION_STEP_MM is not a motion of this thread (joints were jogged meanwhile) and has zero velocity.
  *
- * Where the platform stands (kinematicsForward) follows from the same compensator, with the part of the correction in
- * force and the sides the sliders are on: joints asked for a pose give that pose back.
+ * The pose of the platform (kinematicsForward) is computed by the same compensator, with the part of the correction in
+ * force and the present directions of travel: the joints of a pose lead back to that pose.
  */
 #ifndef HEXDBB_LINUXCNC_MOTION_H
 #define HEXDBB_LINUXCNC_MOTION_H
@@ -31,7 +31,7 @@
 
 typedef struct {
   hexdbb_compensator* following; /* the trajectory */
-  hexdbb_compensator* looking;   /* at end points; its correction is always on */
+  hexdbb_compensator* checking;  /* end points; its correction is always on */
   hexdbb_compensator* nominal;   /* the machine without errors */
 } kins_engines;
 

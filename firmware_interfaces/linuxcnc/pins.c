@@ -1,6 +1,6 @@
 #include "pins.h"
 
-/* What HAL has no use for a table of: pins of one type, one after another. */
+/* Exports one pin; HAL's functions differ by type, hence a macro. */
 #define EXPORT(type, direction, member, name) \
   if (failed == 0) failed = hal_pin_##type##_newf(direction, &pins->member, component, "hexdbb-kins." name)
 

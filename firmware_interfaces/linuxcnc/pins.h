@@ -27,7 +27,7 @@ typedef struct {
   hal_s32_t* time_max;
 } kins_pins;
 
-/* In HAL's shared memory, all zero; NULL where it cannot be had. */
+/* Export the pins in HAL's shared memory, all zero; NULL where that fails. */
 kins_pins* export_pins(int component);
 
 #endif

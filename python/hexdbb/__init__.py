@@ -1,5 +1,35 @@
-"""hexdbb: why a HexGlider parallel manipulator does not go where it is told, by a double-ball-bar circular test."""
+"""hexdbb: why a HexGlider parallel manipulator does not go where it is told, by a double-ball-bar circular test.
+
+The functions a user needs, each loaded when it is first used::
+
+    import hexdbb as hx
+
+    record = hx.measure("standard", "today.parquet")          # or hx.read_record("monday.parquet")
+    found = hx.diagnose(record, hx.new_model(record.machine))
+    print(hx.compare(record, found.model))                    # where does the model fail?
+    print(hx.discover(record, found.model))                   # which physical effect is missing?
+    found = hx.add_effect(record, found.model, "backlash:4")  # add it, and watch the error fall
+    hx.save_model(found.model, "model.toml")
+
+====================  ==================================================================================================
+measure               `measure`, `simulated_rig`, `Plan`, `load_plan`, `shipped_plans`, `load_machine`,
+                      `shipped_machine`
+records               `read_record`, `write_record`, `Record`; `Samples.of(records)` is the table that all below take
+models                `new_model`, `load_model`, `save_model`, `Model`, `effect_names`, `effect_info`
+why does it err       `diagnose`, `predict`, `compare`, `discover`, `discover_all`
+what is missing       `add_effect`, `remove_effect`, `undo`, `history`; an effect of your own: `effect`, `load_effects`
+what follows          `compensate`, `propose_plan`
+errors                `HexdbbError`: `InputError` (bad input), `RunError` (what failed while running)
+====================  ==================================================================================================
+
+Units inside: mm, rad, s, N; the unit is part of every name. Terms: docs/glossary.md; packages: docs/architecture.md.
+"""
 
 from importlib.metadata import version as _version
 
+import lazy_loader as _lazy
+
 __version__ = _version("hexdbb")
+
+# The names stand in __init__.pyi, once for type checkers and for loading.
+__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

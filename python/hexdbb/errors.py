@@ -1,17 +1,17 @@
-"""The exception family of hexdbb: what the user gave is wrong, or the machine or a fit did not succeed."""
+"""Exceptions of hexdbb: wrong input, or a run, fit or conversion that did not succeed."""
 
 
 class HexdbbError(Exception):
-    """Root of every error hexdbb raises on purpose; `exit_status` is what a command ends with."""
+    """Base class of all errors that hexdbb raises on purpose; `exit_status` is the exit status of a command."""
 
     exit_status = 1
 
 
 class InputError(HexdbbError):
-    """A file, key, row or option is wrong: names it, its value and what was expected. Nothing was written or moved."""
+    """Raised for a wrong file, key, row or option; names it, its value and what was expected. Nothing was changed."""
 
     exit_status = 2
 
 
 class RunError(HexdbbError):
-    """A measurement, fit or conversion was begun and did not succeed: says what happened and what was kept."""
+    """Raised where a measurement, fit or conversion was begun and failed; states what happened and what was kept."""

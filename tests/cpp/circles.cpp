@@ -35,7 +35,7 @@ Samples circle_samples(const Machine& machine, const std::vector<CircleSpec>& ci
       const double angle = 2.0 * M_PI * i / count;
       const Vector3 ball = cup_mm + tilted * Vector3(100.0 * std::cos(angle), 100.0 * std::sin(angle), 0.0);
       const InverseResult result = inverse(nominal, {ball - rotation * ball_offset_mm, rotation});
-      if (result.status != Status::kOk) throw std::logic_error("a test's circle is out of reach");
+      if (result.status != Status::kOk) throw std::logic_error("a circle of the test is out of reach");
       out.sliders_mm.row(row) = result.sliders_mm.transpose();
       out.mount[row] = circle.mount;
     }

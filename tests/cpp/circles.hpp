@@ -13,25 +13,24 @@ struct CircleSpec {
   int mount = 0;
 };
 
-/// The seven horizontal circles of the standard plan: level, roll and pitch +-12 deg, yaw +-15 deg.
+/// Return the seven horizontal circles of the standard plan: level, roll and pitch +-12 deg, yaw +-15 deg.
 std::vector<CircleSpec> seven_circles();
 
-/// `count` samples a circle of 100 mm, ball 40 mm above the joint plane unless said otherwise.
+/// Return `count` samples per circle of 100 mm, ball 40 mm above the joint plane unless given.
 Samples circle_samples(const Machine& machine, const std::vector<CircleSpec>& circles, int count,
                        const Vector3& cup_mm = {0.0, 0.0, 340.0}, const Vector3& ball_offset_mm = {0.0, 0.0, 60.0});
 
-/// The same in motion, state and all: a sweep a circle, each of one lap that takes `lap_s`, an hour after the
-/// record began; temperature is measured in
-/// the second half only, and the bar is 0.1 mm short of the circle's radius.
+/// Return the same with their state: one sweep per circle, each of one lap that takes `lap_s`, an hour after the record
+/// began; the temperature is measured in the second half only, and the bar is 0.1 mm shorter than the circle's radius.
 Samples moving_samples(const Machine& machine, const std::vector<CircleSpec>& circles, int count, double lap_s = 2.0);
 
-/// A model with every geometric and set-up effect, all values zero.
+/// Return a model with every geometric and set-up effect, all values zero.
 Model full_model(const Machine& machine, int mounts);
 
-/// A model with every effect the engine knows, all values zero.
+/// Return a model with every effect of the engine, all values zero.
 Model model_of_everything(const Machine& machine, int mounts);
 
-/// Central differences of the prediction for one value, `step` in its unit.
+/// Compute central differences of the prediction for one value, `step` in its unit.
 Eigen::VectorXd difference(Model model, const Samples& samples, int value, double step);
 
 }  // namespace hexdbb::testing

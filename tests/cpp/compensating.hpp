@@ -1,4 +1,4 @@
-// Wrong machines to compensate, and paths to drive them along.
+// Machines with errors to compensate, and paths to drive them along.
 #pragma once
 
 #include <string>
@@ -10,24 +10,25 @@
 namespace hexdbb::testing {
 
 inline const std::vector<std::string> kGeometricNames = effect_names(group::kGeometry);
-/// What a controller can correct beyond geometry, without a thermometer.
+/// Effects beyond geometry that a controller can correct without a thermometer.
 inline const std::vector<std::string> kCorrectable = {"backlash",  "pitch_cyclic", "lead_error",  "straightness",
                                                       "servo_lag", "gravity_sag",  "joint_offset"};
 
-/// The SP-120 with these effects, values drawn: 50 um, 0.2 mrad, and the sizes the catalogue expects.
+/// Return the SP-120 with these effects, values drawn: 50 um, 0.2 mrad, and the prior standard deviations of the
+/// catalogue.
 Model wrong_machine(const std::vector<std::string>& effects, std::uint64_t seed);
 
-/// Data of a model with wide limits.
+/// Return the compensation data of a model with wide limits.
 CompensationData data_of(const Model& model, double reference_temperature_c = 20.0);
 
-/// Poses along a circle of 90 mm, tilted, one every `step_s` over `laps` of 12 s each.
+/// Return poses along a tilted circle of 90 mm, one every `step_s`, over `laps` of 12 s each.
 std::vector<Pose> circle_path(double step_s, double laps, const Vector3& rpy_rad = {0.05, -0.03, 0.1});
 
-/// Slider coordinates of a path, one row a pose, as a compensator gives them with velocities ahead.
+/// Compute the slider coordinates of a path, one row per pose, by a compensator that knows the velocities.
 SliderTable drive(Compensator& compensator, const std::vector<Pose>& path, double step_s,
                   double temperature_c = std::numeric_limits<double>::quiet_NaN());
 
-/// Distance of two poses: the largest error of the ball joints and the reference point, mm.
+/// Return the distance of two poses: the largest error of the ball joints and the reference point, mm.
 double distance_mm(const NominalGeometry& nominal, const Pose& one, const Pose& other);
 
 }  // namespace hexdbb::testing

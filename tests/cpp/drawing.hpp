@@ -1,4 +1,4 @@
-// Seeded random numbers, poses and pushes. Own arithmetic on top of the generator: the same on every standard library.
+// Seeded random numbers, poses and pushes. The distributions are computed here: the same with every standard library.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace hexdbb::testing {
 
-/// Something of that type, for what is asked of a call without making it.
+/// A value of a type for unevaluated expressions.
 template <class T>
 const T& any() noexcept;
 
@@ -25,7 +25,7 @@ class Drawing {
   std::mt19937_64 engine_;
 };
 
-/// How far poses reach: half widths in mm and rad.
+/// Range of poses: half widths in mm and rad.
 struct Extent {
   double lateral_mm;
   double low_mm;  // height of the platform's reference point
@@ -42,9 +42,9 @@ struct Reached {
   Vector6 sliders_mm;
 };
 
-/// A pose that the sliders reach and that the sliders hold: not closer than `smallest_hold` to a singular pose
-/// (smallest singular value of the legs' Jacobian, turns in units of the platform's circumradius) and on home's side of
-/// every singular pose.
+/// Draw a pose that the sliders reach and hold: not closer than `smallest_hold` to a singular pose (smallest singular
+/// value of the legs' Jacobian, rotations in units of the platform's circumradius) and on the same side of every
+/// singular pose as home.
 Reached draw_reachable(Drawing& drawing, const NominalGeometry& nominal, const Extent& extent,
                        double smallest_hold = 0.02);
 
@@ -55,8 +55,8 @@ struct Hold {
 };
 Hold hold(const NominalGeometry& nominal, const Vector6& sliders_mm, const Pose& pose);
 
-/// Every port pushed by up to `length_mm`, each guideway turned by up to `angle_rad` about its midpoint on top; the
-/// ball joints of a pair stay one, or not.
+/// Draw a push of every port by up to `length_mm` and, in addition, a rotation of each guideway by up to `angle_rad`
+/// about its midpoint; the ball joints of a pair stay shared, or not.
 Ports draw_push(Drawing& drawing, const NominalGeometry& nominal, const Vector6& sliders_mm, double length_mm,
                 double angle_rad, bool shared_joints);
 

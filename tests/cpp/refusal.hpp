@@ -1,4 +1,4 @@
-// What a call is refused with.
+// Message with which a call is refused.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 namespace hexdbb::testing {
 
-/// Text of the std::invalid_argument that `call` throws; empty where it throws nothing.
+/// Return the text of the std::invalid_argument that `call` throws; empty where it throws nothing.
 template <class Call>
 std::string refusal(Call call) {
   try {

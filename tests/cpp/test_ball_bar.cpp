@@ -1,5 +1,5 @@
-// The reading's answer to a push at each of the 55 ports, against central differences and against the six-coordinate
-// form.
+// Sensitivity of the reading to a push at each of the 55 ports, against central differences and against the
+// six-coordinate form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,10 +19,10 @@ static_assert(noexcept(reading_sensitivity_six(any<NominalGeometry>(), any<Mecha
 class BallBar : public ::testing::Test {
  protected:
   NominalGeometry nominal{Machine()};
-  // The ball is off the platform's axis and the bar points down a little, so that no port is without effect.
+  // The ball is off the platform's axis and the bar points slightly down, so that no port is without effect.
   const hexdbb::SetUp set_up{{3.0, -4.0, 325.0}, {5.0, -7.0, 60.0}, 100.0};
 
-  /// Reading of the machine pushed like this, by the six-coordinate solver from a pose nearby.
+  /// Compute the reading of the machine under this push, by the six-coordinate solver from a neighbouring pose.
   double reading(const Vector6& sliders_mm, const Ports& push, const Pose& near) const {
     const ForwardResult result = forward_six(assemble(nominal, sliders_mm, push), near);
     EXPECT_EQ(result.status, Status::kOk);

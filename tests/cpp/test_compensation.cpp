@@ -1,6 +1,6 @@
-// The compensator against prediction: a machine that errs as the model says, driven to the targets, goes where it is
-// told. The truth is forward_table(), which shares the effects with the compensator but neither its direction, its
-// folding of effects nor its iteration.
+// The compensator against prediction: a machine with the errors of the model, driven to the targets, takes the
+// commanded poses. The truth is forward_table(), which shares the effects with the compensator but neither its
+// directions of travel, its folding of effects nor its iteration.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +30,8 @@ struct Driven {
   }
 };
 
-/// The machine that errs, its drives at these coordinates, one every kStep_s: its state found as a record's would be.
+/// Return the poses of the machine with errors, its drives at these coordinates, one every kStep_s, with the state of a
+/// record.
 Driven run(const Model& truth, const std::vector<Pose>& path, const SliderTable& sliders_mm, double warming_k = kNaN) {
   Samples samples;
   samples.sliders_mm = sliders_mm;
@@ -76,7 +77,7 @@ TEST(Compensation, OfGeometryIsExact) {
   }
 }
 
-TEST(Compensation, OffTheSameMachineErrs) {
+TEST(Compensation, WithoutItTheMachineErrs) {
   const Model truth = wrong_machine(kGeometricNames, 1);
   Compensator nominal{Machine()};
   const std::vector<Pose> path = circle_path(kStep_s, 0.2);
@@ -178,7 +179,7 @@ TEST(Compensation, StandsStillWithTheMachine) {
   }
 }
 
-TEST(Compensation, APoseOnlyLookedAtIsNotFollowed) {
+TEST(Compensation, APoseOnlyCheckedIsNotFollowed) {
   const Model truth = wrong_machine({"backlash"}, 9);
   Compensator straight(data_of(truth)), looking(data_of(truth));
   for (int call = 0; call < 200; ++call) {
@@ -191,22 +192,24 @@ TEST(Compensation, APoseOnlyLookedAtIsNotFollowed) {
   }
 }
 
-TEST(Compensation, TakesTheSidesAControllerSaysThatLooksAhead) {
+TEST(Compensation, UsesDirectionsOfTravelFromAControllerThatLooksAhead) {
   const Model truth = wrong_machine({"backlash"}, 14);
   Compensator compensator(data_of(truth));
   const std::vector<Pose> path = circle_path(kStep_s, 0.1);
   const NominalGeometry nominal{Machine()};
-  Direction said;
-  said.side << 1.0, -1.0, 0.5, 0.0, -0.25, 1.0;
+  Direction stated;
+  stated.travel_direction << 1.0, -1.0, 0.5, 0.0, -0.25, 1.0;
   for (const Pose& pose : path) {
-    const SliderTargets targets = compensator.sliders(pose, said);
+    const SliderTargets targets = compensator.sliders(pose, stated);
     ASSERT_EQ(targets.status, Status::kOk);
-    const Vector6 expected = 0.5 * said.side.cwiseProduct(truth.terms[0].values);
+    const Vector6 expected = 0.5 * stated.travel_direction.cwiseProduct(truth.terms[0].values);
     EXPECT_LT((targets.sliders_mm - inverse(nominal, pose).sliders_mm - expected).cwiseAbs().maxCoeff(), 1e-9);
   }
-  // What is not said follows from the motion again, from the sides said last.
+  // What is not stated follows from the motion again, starting from the directions stated last.
   const SliderTargets after = compensator.sliders(path.back());
-  EXPECT_LT((after.correction_mm - 0.5 * said.side.cwiseProduct(truth.terms[0].values)).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT(
+      (after.correction_mm - 0.5 * stated.travel_direction.cwiseProduct(truth.terms[0].values)).cwiseAbs().maxCoeff(),
+      1e-9);
 }
 
 TEST(Compensation, IsRefusedBeyondItsLimitAndHolds) {
@@ -251,7 +254,7 @@ TEST(Compensation, FadesWhenSwitched) {
   }
 }
 
-TEST(Compensation, LeavesOutWhatIsNotTheMachinesOrNotKnownToControllers) {
+TEST(Compensation, LeavesOutWhatIsNotTheMachinesOrUnknownToControllers) {
   const std::vector<std::string> out = {"cup_position", "ball_offset", "bar_length",   "reversal_spike",
                                         "bar_drift",    "bar_gain",    "sample_delay", "ball_eccentricity"};
   std::vector<std::string> all = kGeometricNames;

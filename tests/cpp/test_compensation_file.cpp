@@ -1,4 +1,4 @@
-// The compensation file: nothing lost on the way, nothing wrong accepted.
+// The compensation file: nothing lost in a round trip, nothing wrong accepted.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -19,7 +19,7 @@ CompensationData everything() {
   return data;
 }
 
-/// The text with a right checksum again, as a program other than this would write it.
+/// Return the text with a correct checksum, as another program would write it.
 std::string resealed(const std::string& text) {
   const std::string above = text.substr(0, text.rfind("[check]\n"));
   char hex[9];
@@ -65,7 +65,7 @@ TEST(CompensationFile, ReadsAsTheSameBits) {
   EXPECT_EQ(again.reference_temperature_c, data.reference_temperature_c);
 }
 
-TEST(CompensationFile, ChecksumIsTheUsualOne) { EXPECT_EQ(crc32("123456789"), 0xcbf43926u); }
+TEST(CompensationFile, ChecksumIsTheStandardOne) { EXPECT_EQ(crc32("123456789"), 0xcbf43926u); }
 
 TEST(CompensationFile, CutShortAnywhereIsTruncated) {
   const std::string text = compensation_text(everything());
@@ -107,7 +107,7 @@ TEST(CompensationFile, OfAnotherMachineIsNamed) {
   }
 }
 
-TEST(CompensationFile, ThatIsNotThereIsNamed) {
+TEST(CompensationFile, ThatDoesNotExistIsNamed) {
   try {
     load_compensation("/no/such/file.hexcomp");
     FAIL();
@@ -147,7 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"twice", "2.longer", "1.longer", CompensationFault::kMalformed, "expected every key once"},
         Wrong{"number", "1.longer = ", "1.longer = x", CompensationFault::kMalformed, "expected a finite number"},
         Wrong{"infinite", "leg_length_mm = 400", "leg_length_mm = inf", CompensationFault::kMalformed, "finite number"},
-        Wrong{"impossible", "leg_length_mm = 400", "leg_length_mm = 40", CompensationFault::kMalformed, "can stand"},
+        Wrong{"impossible", "leg_length_mm = 400", "leg_length_mm = 40", CompensationFault::kMalformed,
+              "can be assembled"},
         Wrong{"no_limit", "max_correction_mm = 2", "max_correction_mm = 0", CompensationFault::kMalformed, "above 0"},
         Wrong{"missing_key", "leg_length_mm = 400\n", "", CompensationFault::kMalformed, "leg_length_mm: missing"},
         Wrong{"unknown_key", "[limits]", "speed = 1\n[limits]", CompensationFault::kMalformed, "no such key"},

@@ -1,4 +1,4 @@
-// Diagnosis: inject known errors, recover what the readings can tell of them, and say what they cannot.
+// Diagnosis: inject known errors, recover what the readings determine, and report what they do not.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -20,7 +20,7 @@ class Diagnosis : public ::testing::Test {
   Machine machine;
   Samples samples = circle_samples(machine, seven_circles(), 120);
   Model model = full_model(machine, 1);
-  Eigen::VectorXd scale = expected_sizes(model);
+  Eigen::VectorXd scale = prior_sigmas(model);
   FitOptions options = [this] {
     FitOptions out;
     out.noise_mm = kNoise_mm;
@@ -29,7 +29,7 @@ class Diagnosis : public ::testing::Test {
     return out;
   }();
 
-  /// Readings of a machine with these values, gauge noise on top.
+  /// Return readings of a machine with these values, with gauge noise.
   Eigen::VectorXd measure(const Eigen::VectorXd& truth, int seed) const {
     Model real = model;
     real.set_values(truth);
@@ -39,7 +39,7 @@ class Diagnosis : public ::testing::Test {
     return predicted.reading_mm + kNoise_mm * drawing.normals(samples.size());
   }
 
-  /// Errors as large as they are expected to be.
+  /// Draw errors from the prior.
   Eigen::VectorXd draw_truth(int seed) const {
     Drawing drawing(static_cast<std::uint64_t>(seed));
     Eigen::VectorXd truth = scale.cwiseProduct(drawing.normals(model.size()));
@@ -54,11 +54,11 @@ class Diagnosis : public ::testing::Test {
   }
 };
 
-/// Misses of the free values along the principal directions of their stated covariance, in its own sigmas; best known
-/// last.
+/// Errors of the free values along the principal directions of their stated covariance, in its own standard deviations;
+/// best determined last.
 struct Misses {
   Eigen::VectorXd in_sigmas;
-  Eigen::VectorXd sigma;  // in expected sizes
+  Eigen::VectorXd sigma;  // in prior standard deviations
 };
 
 Misses misses(const FitResult& result, const Eigen::VectorXd& truth, const Eigen::VectorXd& scale) {
@@ -71,7 +71,7 @@ Misses misses(const FitResult& result, const Eigen::VectorXd& truth, const Eigen
   return {(principal.eigenvectors().transpose() * miss).reverse().cwiseQuotient(sigma), sigma};
 }
 
-TEST_F(Diagnosis, RecoversWhatCanBeKnown) {
+TEST_F(Diagnosis, RecoversWhatIsIdentifiable) {
   for (int seed = 1; seed <= 5; ++seed) {
     const Eigen::VectorXd truth = draw_truth(seed);
     const FitResult result = fit(model, samples, measure(truth, 100 + seed), options);
@@ -81,12 +81,12 @@ TEST_F(Diagnosis, RecoversWhatCanBeKnown) {
     EXPECT_EQ(result.machine.rank, 21);
     const Misses found = misses(result, truth, scale);
     EXPECT_LT(found.in_sigmas.cwiseAbs().maxCoeff(), 4.0) << "seed " << seed;
-    EXPECT_LT(found.sigma.tail(20).maxCoeff(), 0.05);  // and it is not by stating large sigmas
+    EXPECT_LT(found.sigma.tail(20).maxCoeff(), 0.05);  // and not by stating large uncertainties
   }
 }
 
-TEST_F(Diagnosis, StatedUncertaintiesAreTheRealOnes) {
-  // Mean squared miss in own sigmas is 1 for honest ones, over many directions and machines.
+TEST_F(Diagnosis, StatedUncertaintiesAreCorrect) {
+  // The mean squared error in stated standard deviations is 1 where they are right, over many directions and machines.
   double sum = 0.0;
   int count = 0;
   for (int seed = 1; seed <= 12; ++seed) {
@@ -121,11 +121,12 @@ TEST_F(Diagnosis, PerfectMachineStaysPerfect) {
   const FitResult result = fit(model, samples, Eigen::VectorXd::Zero(samples.size()), options);
   EXPECT_LT(result.values.cwiseQuotient(scale).cwiseAbs().maxCoeff(), 1e-6);
   EXPECT_LT(result.rms_after_mm, 1e-9);
-  EXPECT_EQ(result.noise_mm, kNoise_mm);  // not less than what the gauge is stated to have
+  EXPECT_EQ(result.noise_mm, kNoise_mm);  // not less than the stated noise of the gauge
 }
 
-TEST_F(Diagnosis, UnknownDirectionsKeepTheirPlaceAndTheirDoubt) {
-  // A guideway moved along itself, both its sliders moved back: nothing changes, and nothing is said about it.
+TEST_F(Diagnosis, NullDirectionsKeepTheirPrior) {
+  // A guideway moved along itself and both its sliders moved back: no reading changes, so value and sigma stay the
+  // prior's.
   const FitResult result = fit(model, samples, measure(draw_truth(7), 107), options);
   Eigen::VectorXd direction = Eigen::VectorXd::Zero(40);
   direction[6] = direction[7] = direction[13] = 0.1;  // slider offsets 1 and 2, y of guideway 1: all mm of one size
@@ -142,7 +143,7 @@ TEST_F(Diagnosis, StartDoesNotMatter) {
   perturbed.set_values(draw_truth(9));
   const FitResult second = fit(perturbed, samples, measured, options);
   ASSERT_TRUE(first.usable && second.usable);
-  EXPECT_GT(std::abs(second.rms_before_mm - first.rms_before_mm), 10.0 * kNoise_mm);  // it did start elsewhere
+  EXPECT_GT(std::abs(second.rms_before_mm - first.rms_before_mm), 10.0 * kNoise_mm);  // the starts did differ
   EXPECT_NEAR(second.rms_after_mm, first.rms_after_mm, 1e-8);
   EXPECT_LT((second.values - first.values).cwiseQuotient(scale).cwiseAbs().maxCoeff(), 1e-3);
 }
@@ -150,7 +151,7 @@ TEST_F(Diagnosis, StartDoesNotMatter) {
 TEST_F(Diagnosis, MisfitStretchesTheUncertainty) {
   Eigen::VectorXd measured = measure(draw_truth(10), 110);
   const FitResult clean = fit(model, samples, measured, options);
-  for (Eigen::Index row = 0; row < measured.size(); row += 2) measured[row] += 0.01;  // no geometry does this
+  for (Eigen::Index row = 0; row < measured.size(); row += 2) measured[row] += 0.01;  // no geometry can explain this
   const FitResult result = fit(model, samples, measured, options);
   EXPECT_NEAR(result.noise_mm, 5e-3, 1e-3);
   EXPECT_GT(result.rms_after_mm, 4e-3);
@@ -178,8 +179,8 @@ TEST_F(Diagnosis, FreeSubsetIsRecoveredOnItsOwn) {
   }
 }
 
-TEST_F(Diagnosis, NothingKnownIsRankZero) {
-  // One level circle, ball in the joint plane: guideways that stand higher do not show.
+TEST_F(Diagnosis, NothingIdentifiableIsRankZero) {
+  // One level circle, ball in the joint plane: the height of the guideways does not affect the readings.
   samples = circle_samples(machine, {CircleSpec()}, 90, {0.0, 0.0, 300.0}, {0.0, 0.0, 20.0});
   options.free.assign(40, false);
   for (int j : {14, 17, 20}) options.free[static_cast<std::size_t>(j)] = true;  // z of the guideway translations
@@ -187,7 +188,7 @@ TEST_F(Diagnosis, NothingKnownIsRankZero) {
   EXPECT_EQ(result.machine.rank, 0);
   EXPECT_EQ(result.machine.condition, 0.0);
   for (int j : {14, 17, 20}) {
-    EXPECT_NEAR(std::sqrt(result.covariance(j, j)), scale[j], 0.01 * scale[j]);  // as doubtful as before
+    EXPECT_NEAR(std::sqrt(result.covariance(j, j)), scale[j], 0.01 * scale[j]);  // the prior
     EXPECT_LT(std::abs(result.values[j]), scale[j]);
   }
   EXPECT_NEAR(result.rms_after_mm, result.rms_before_mm, 0.02 * kNoise_mm);
@@ -209,7 +210,7 @@ TEST_F(Diagnosis, ShapesThatDisagreeAreRefused) {
   EXPECT_EQ(refusal([&] { fit(model, samples, measured, short_free); }), "free has 39 entries, expected 40");
   FitOptions held = options;
   held.free.assign(static_cast<std::size_t>(model.size()), false);
-  EXPECT_EQ(refusal([&] { fit(model, samples, measured, held); }), "there is nothing free to fit");
+  EXPECT_EQ(refusal([&] { fit(model, samples, measured, held); }), "no value of the model is free");
   FitOptions silent = options;
   silent.noise_mm = 0.0;
   EXPECT_THROW(fit(model, samples, measured, silent), std::invalid_argument);

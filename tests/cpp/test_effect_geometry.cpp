@@ -1,4 +1,4 @@
-// What the geometric effects push, against the geometry they stand for, and the redundancies among them.
+// Pushes of the geometric effects against the geometry they describe, and the redundancies among them.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +24,7 @@ class EffectGeometry : public ::testing::Test {
     return ports;
   }
 
-  /// Predicted readings with these effects at these values.
+  /// Predict readings with these effects at these values.
   Eigen::VectorXd readings(const std::vector<std::pair<std::string, Eigen::VectorXd>>& effects) const {
     Model model(machine);
     for (const auto& [name, values] : effects) {
@@ -39,7 +39,7 @@ class EffectGeometry : public ::testing::Test {
 
 TEST_F(EffectGeometry, NominalMachineReadsZero) { EXPECT_LT(readings({}).cwiseAbs().maxCoeff(), 1e-11); }
 
-TEST_F(EffectGeometry, PlatformSidesAreExactlyAsLongAsSaid) {
+TEST_F(EffectGeometry, PlatformSidesHaveExactlyTheStatedLength) {
   Drawing drawing(51);
   for (int i = 0; i < 20; ++i) {
     const Vector3 longer = drawing.vector(5.0);
@@ -62,7 +62,7 @@ TEST_F(EffectGeometry, PlatformSidesAreExactlyAsLongAsSaid) {
   }
 }
 
-TEST_F(EffectGeometry, GuidewaysTurnAsRigidBodies) {
+TEST_F(EffectGeometry, GuidewaysRotateAsRigidBodies) {
   struct Case {
     const char* name;
     int local_axis;
@@ -109,10 +109,10 @@ TEST_F(EffectGeometry, TranslationAlongTheGuidewayIsAnOffsetOfBothSliders) {
   EXPECT_LT((one - readings({{"slider_offset", offset}})).cwiseAbs().maxCoeff(), 1e-10);
 }
 
-TEST_F(EffectGeometry, TurnAboutTheBaseCentreIsATurnAboutTheMidpointAndATranslation) {
+TEST_F(EffectGeometry, RotationAboutTheBaseCentreIsOneAboutTheMidpointAndATranslation) {
   const Vector3 angle(5e-3, -3e-3, 8e-3);
   Eigen::VectorXd exact = Eigen::VectorXd::Zero(9);
-  for (int g = 0; g < kGuideways; ++g) {  // where the midpoint goes, local axes
+  for (int g = 0; g < kGuideways; ++g) {  // displacement of the midpoint, local axes
     exact[3 * g] = machine.base_inradius_mm * (std::cos(angle[g]) - 1.0);
     exact[3 * g + 1] = machine.base_inradius_mm * std::sin(angle[g]);
   }

@@ -25,12 +25,12 @@ class Forward : public ::testing::Test {
 
   void expect_same(const Pose& found, const Pose& wanted, double mm) const {
     EXPECT_LT((found.position - wanted.position).norm(), mm);
-    // An orientation error counts by how far it moves a ball joint.
+    // An orientation error counts as the displacement of a ball joint.
     EXPECT_LT((found.rotation - wanted.rotation).norm() * machine.platform_circumradius_mm, mm);
   }
 };
 
-TEST_F(Forward, RoundTripFromHomeWhereCirclesAreRun) {
+TEST_F(Forward, RoundTripFromHomeInTheRangeOfCircles) {
   Drawing drawing(11);
   int iterations = 0;
   for (int i = 0; i < 500; ++i) {
@@ -66,7 +66,7 @@ TEST_F(Forward, RoundTripFromHomeOverTheWholeWorkspace) {
 }
 
 TEST_F(Forward, StartFromAnotherCornerOfTheWorkspace) {
-  // Records that follow one another, rows left out: the last solution is no start for the next then.
+  // Consecutive records, or omitted rows: the last solution is then not a neighbour of the next.
   Drawing drawing(16);
   RssrAngles angles;
   int failed = 0, elsewhere = 0;
@@ -142,7 +142,7 @@ TEST_F(Forward, SolversAgreeUnderPushesAtEveryPort) {
     ASSERT_EQ(rssr.status, Status::kOk);
     ASSERT_EQ(six.status, Status::kOk);
     expect_same(rssr.pose, six.pose, 1e-9);
-    // The pushes are not nothing, and no leg is left stretched.
+    // The pushes are not negligible, and no leg is stretched.
     EXPECT_GT((rssr.pose.position - reached.pose.position).norm(), 1e-3);
     for (int k = 0; k < kLegs; ++k) {
       const Vector3 joint = rssr.pose.position + rssr.pose.rotation * mechanism.platform_joint.col(k);
@@ -182,7 +182,7 @@ TEST_F(Forward, LegsThatDoNotMeetAreUnreachable) {
   EXPECT_EQ(forward(assemble(nominal, sliders, none), angles).status, Status::kUnreachable);
 }
 
-TEST_F(Forward, LoopsThatCannotCloseAreSaidSo) {
+TEST_F(Forward, LoopsThatCannotCloseAreReported) {
   // Legs nearly flat along their guideways: the ball joints stay 9 mm from them, 415 mm and more apart, where sides are
   // 208 mm.
   Vector6 sliders;

@@ -1,4 +1,4 @@
-// Whatever comes in, what goes out is finite, and ok only where the legs fit.
+// For any input the output is finite, and the status is ok only where the legs have their lengths.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ double wild(Drawing& drawing) {
   return drawing.uniform(20.0, 846.0);
 }
 
-/// A pose of numbers, and a residual that is one too (infinite where legs are pulled apart beyond all numbers).
+/// Expect a finite pose and a residual that is not NaN (infinite where legs are pulled apart beyond all numbers).
 bool finite(const ForwardResult& result) {
   return result.pose.position.allFinite() && result.pose.rotation.allFinite() && !std::isnan(result.residual_mm);
 }
@@ -72,7 +72,7 @@ TEST_F(ForwardFuzz, WildPushAtOnePort) {
       RssrAngles angles;
       const ForwardResult rssr = forward(mechanism, angles);
       ASSERT_TRUE(finite(rssr)) << "port " << p << " pushed by " << value << ": " << status_name(rssr.status);
-      // The pose before the push fits every leg but one: the solver must look at all six.
+      // The pose before the push fits every leg but one: the solver must check all six.
       const ForwardResult six = forward_six(mechanism, home);
       ASSERT_TRUE(finite(six)) << "port " << p << " pushed by " << value << ": " << status_name(six.status);
       ASSERT_NE(six.status, Status::kOk) << "port " << p << " pushed by " << value;

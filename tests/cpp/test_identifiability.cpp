@@ -1,7 +1,8 @@
-// Rank and condition of matrices whose answers are known.
+// Rank and condition of matrices with known ones.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <stdexcept>
 
 #include "drawing.hpp"
 #include "hexdbb/identifiability.hpp"
@@ -15,7 +16,7 @@ RowMajorMatrix random_matrix(Drawing& drawing, int rows, int columns) {
   return out;
 }
 
-/// rows x sizes.size() with these singular values and random directions.
+/// Return a matrix of rows x sizes.size() with these singular values and random directions.
 RowMajorMatrix with_singular_values(Drawing& drawing, int rows, const Eigen::VectorXd& sizes,
                                     Eigen::MatrixXd& directions) {
   const int count = static_cast<int>(sizes.size());
@@ -57,7 +58,7 @@ TEST(Identifiability, FewerReadingsThanUnknowns) {
   EXPECT_EQ(found.unidentifiable().cols(), 4);
 }
 
-TEST(Identifiability, NothingToKnow) {
+TEST(Identifiability, NoUnknowns) {
   const Identifiability nothing = identifiability(RowMajorMatrix::Zero(10, 3), 1e-9, 0.0);
   EXPECT_EQ(nothing.rank, 0);
   EXPECT_EQ(nothing.condition, 0.0);
@@ -73,9 +74,10 @@ TEST(ProjectOut, RestIsOrthogonalToTheNuisance) {
   const RowMajorMatrix rest = project_out(jacobian, nuisance);
   EXPECT_LT((nuisance.transpose() * rest).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((project_out(rest, nuisance) - rest).cwiseAbs().maxCoeff(), 1e-13);
-  // What was taken away lies in the nuisance's span.
+  // The removed part lies in the nuisance's span.
   EXPECT_LT(project_out(jacobian - rest, nuisance).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_EQ(project_out(jacobian, RowMajorMatrix(30, 0)), jacobian);
+  EXPECT_THROW(project_out(jacobian, random_matrix(drawing, 29, 4)), std::invalid_argument);
 }
 
 }  // namespace

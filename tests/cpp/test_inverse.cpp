@@ -1,4 +1,4 @@
-// Inverse kinematics: legs of the right length, and a named status where there is no answer.
+// Inverse kinematics: legs of the right length, and a named status where there is no solution.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,7 +99,7 @@ TEST_F(Inverse, EveryStatusHasAName) {
   EXPECT_STREQ(status_name(static_cast<Status>(99)), "unknown status");
 }
 
-TEST_F(Inverse, OrientationGoesThereAndBack) {
+TEST_F(Inverse, OrientationRoundTrip) {
   Drawing drawing(3);
   for (int i = 0; i < 100; ++i) {
     const Vector3 rpy = drawing.vector(1.5);

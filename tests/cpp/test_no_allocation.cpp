@@ -1,4 +1,4 @@
-// The single-pose path allocates nothing. Every allocation made by code linked into this program is counted: `new` is
+// The single-pose path allocates nothing. Every allocation by code linked into this program is counted: `new` is
 // replaced here, the C functions (which Eigen calls for its dynamic matrices) are wrapped by the linker.
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ void* operator new(std::size_t size) {
   if (out == nullptr) throw std::bad_alloc();
   return out;
 }
-// Not inlined: the compiler would take free() in the caller for the wrong partner of new.
+// Not inlined: otherwise the compiler warns that free() in the caller does not match new.
 [[gnu::noinline]] void operator delete(void* old) noexcept { std::free(old); }
 [[gnu::noinline]] void operator delete(void* old, std::size_t) noexcept { std::free(old); }
 
@@ -58,7 +58,7 @@ class NoAllocation : public ::testing::Test {
   NominalGeometry nominal{Machine()};
   hexdbb::SetUp set_up{{0, 0, 325}, {5, -7, 60}, 100.0};
 
-  /// Allocations while `work` runs.
+  /// Count the allocations while `work` runs.
   template <class Work>
   long during(Work work) {
     const long before = allocations;
@@ -74,7 +74,7 @@ TEST_F(NoAllocation, TheCounterCounts) {
               ASSERT_EQ(dynamic.sum(), 0.0);
             }),
             1);
-  void* volatile kept = nullptr;  // or the compiler leaves out the pair of new and delete
+  void* volatile kept = nullptr;  // otherwise the compiler removes the pair of new and delete
   EXPECT_GE(during([&] { kept = ::operator new(static_cast<std::size_t>(size)); }), 1);
   ::operator delete(kept);
 }

@@ -1,4 +1,4 @@
-// Prediction in batch: the same as sample by sample, whatever came before in the table.
+// Prediction in batch: the same as sample by sample, whatever the order of the table.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST_F(PredictionTest, PosesOfTheNominalMachine) {
   }
 }
 
-TEST_F(PredictionTest, PortSensitivityIsWhatTheJacobianIsMadeOf) {
+TEST_F(PredictionTest, PortSensitivityIsThatOfTheJacobian) {
   const RowMajorMatrix ports = port_sensitivity(model, samples);
   const RowMajorMatrix jacobian = predict(model, samples, true).jacobian;
   ASSERT_EQ(model.terms[0].effect->info().name, "leg_length");

@@ -1,6 +1,5 @@
-// A hundred thousand calls of the compensator in a process that the kernel ends at its first system call: in seccomp's
-// strict mode nothing is allowed but read, write and exit. A lock that waits would call futex, memory that grows brk or
-// mmap.
+// A hundred thousand calls of the compensator in a process that the kernel ends at its first system call: seccomp's
+// strict mode allows only read, write and exit. A waiting lock would call futex, growing memory brk or mmap.
 #include <gtest/gtest.h>
 #include <linux/seccomp.h>
 #include <sys/prctl.h>
@@ -22,7 +21,7 @@ constexpr int kCalls = 100000;
   __builtin_unreachable();
 }
 
-/// Runs `work` in a child under strict seccomp; what waitpid says of it.
+/// Run `work` in a child under strict seccomp and return the status of waitpid.
 template <class Work>
 int confined(Work work) {
   const pid_t child = fork();

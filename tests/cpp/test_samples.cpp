@@ -1,4 +1,4 @@
-// Samples that do not fit together are answered with column, row and what was expected.
+// Inconsistent samples are refused with column, row and what was expected.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -28,7 +28,7 @@ TEST_F(SamplesTest, ColumnOfAnotherLength) {
   EXPECT_EQ(said(), "mount has 6 rows, expected 5 as in sliders_mm");
 }
 
-TEST_F(SamplesTest, SetUpThatIsNotThere) {
+TEST_F(SamplesTest, SetUpThatDoesNotExist) {
   samples.set_up[3] = 1;
   EXPECT_EQ(said(), "set_up[3] is 1, expected 0 to 0");
   samples.set_up[3] = -1;
@@ -46,7 +46,7 @@ TEST_F(SamplesTest, SliderThatIsNotANumber) {
 }
 
 TEST_F(SamplesTest, MountThatTheModelDoesNotKnow) {
-  samples.mount[1] = 2;  // the model knows two mounts, 0 and 1
+  samples.mount[1] = 2;  // the model has two mounts, 0 and 1
   const Model model = full_model(Machine(), 2);
   EXPECT_THROW(predict(model, samples, true), std::invalid_argument);
 }

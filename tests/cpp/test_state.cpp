@@ -1,7 +1,9 @@
-// State that follows from the sliders' places over time: velocity, reversals, leg forces.
+// Columns of the state that follow from the sliders' positions over time: velocity, reversals, leg forces, joints.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <set>
 
 #include "circles.hpp"
 #include "drawing.hpp"
@@ -45,9 +47,9 @@ TEST_P(Encoders, VelocityAndReversals) {
     for (Eigen::Index row = 0; row < swing.time_s.size(); ++row) {
       const double angle = swing.angle(row, k), speed = kAmplitude_mm * kOmega;
       ASSERT_NEAR(moved.velocity_mm_s(row, k), speed * std::cos(angle), 0.03 * speed) << "row " << row;
-      const double past = std::fmod(angle + 0.5 * M_PI, M_PI) / kOmega;  // s since the last turn, were it in the sweep
-      if (past < 0.1 || past > M_PI / kOmega - 0.1) continue;            // a tenth of a second about a turn
-      ASSERT_EQ(moved.side(row, k), std::cos(angle) > 0.0 ? 1.0 : -1.0) << "row " << row << " slider " << k;
+      const double past = std::fmod(angle + 0.5 * M_PI, M_PI) / kOmega;  // s since the last reversal, if in the sweep
+      if (past < 0.1 || past > M_PI / kOmega - 0.1) continue;            // a tenth of a second about a reversal
+      ASSERT_EQ(moved.travel_direction(row, k), std::cos(angle) > 0.0 ? 1.0 : -1.0) << "row " << row << " slider " << k;
       if (past < swing.time_s[row]) {
         ASSERT_NEAR(moved.since_reversal_s(row, k), past, 0.06);
         ASSERT_NEAR(moved.since_reversal_mm(row, k),
@@ -71,7 +73,7 @@ TEST(State, SweepsAreApart) {
   const Motion whole = motion(swing.time_s, swing.sweep, swing.sliders_mm);
   const Eigen::Index half = swing.time_s.size() / 2;
   swing.sweep.tail(half).setConstant(1);
-  swing.time_s.tail(half).array() -= 100.0;  // what came before in another sweep does not matter
+  swing.time_s.tail(half).array() -= 100.0;  // sweeps do not affect each other
   swing.sliders_mm.bottomRows(half).array() += 7.0;
   const Motion apart = motion(swing.time_s, swing.sweep, swing.sliders_mm);
   EXPECT_LT((whole.velocity_mm_s - apart.velocity_mm_s).cwiseAbs().maxCoeff(), 0.1);
@@ -93,8 +95,8 @@ TEST(State, SweepsMayBeInterleaved) {
   const Motion alone = motion(swing.time_s, swing.sweep, swing.sliders_mm);
   const Motion both = motion(time_s, sweep, sliders_mm);
   for (Eigen::Index row = 0; row < count; ++row) {
-    ASSERT_EQ(both.side.row(2 * row), alone.side.row(row));
-    ASSERT_EQ(both.side.row(2 * row + 1), -alone.side.row(row));
+    ASSERT_EQ(both.travel_direction.row(2 * row), alone.travel_direction.row(row));
+    ASSERT_EQ(both.travel_direction.row(2 * row + 1), -alone.travel_direction.row(row));
     ASSERT_LT((both.since_reversal_mm.row(2 * row) - alone.since_reversal_mm.row(row)).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
@@ -106,7 +108,7 @@ TEST(State, SliderThatStandsHasNoSide) {
     swing.sliders_mm(row, 0) = 300.0 + 1e-4 * std::round(2.0 * drawing.normal());  // noise of 0.2 um
   }
   const Motion moved = motion(swing.time_s, swing.sweep, swing.sliders_mm);
-  EXPECT_TRUE(moved.side.col(0).isZero(0.0));
+  EXPECT_TRUE(moved.travel_direction.col(0).isZero(0.0));
   EXPECT_TRUE((moved.since_reversal_mm.col(0).array() == kLongAgo).all());
 }
 
@@ -163,8 +165,76 @@ TEST(State, RowsKeepTheirPlaceInTheTable) {
   const Samples part = samples.rows({5, 3, 100}).rows({2, 0});
   EXPECT_EQ(part.state.row, Eigen::Vector2i(100, 5));
   EXPECT_EQ(part.state.time_s[0], samples.state.time_s[100]);
-  EXPECT_EQ(part.state.side.row(1), samples.state.side.row(5));
+  EXPECT_EQ(part.state.travel_direction.row(1), samples.state.travel_direction.row(5));
   EXPECT_THROW(samples.rows({140}), std::invalid_argument);
+}
+
+// The angular velocity of a leg relative to its slider is u x du/dt; the joint's rate is its component across leg and
+// guideway. du/dt from the nominal poses a moment before and after.
+TEST(State, JointRatesAreThoseOfTheLegs) {
+  const Machine machine;
+  const NominalGeometry nominal(machine);
+  const double lap_s = 20.0;
+  const int count = 2000;
+  std::vector<CircleSpec> tilted = {CircleSpec(), {Vector3(0.2, -0.1, 0.15), Vector3(0.1, 0.0, 0.0), 0}};
+  const Samples samples = moving_samples(machine, tilted, count, lap_s);
+  const PoseTable poses = forward_table(Model(machine), samples);
+  const auto leg = [&](Eigen::Index row, int k) {
+    const Pose pose = poses.at(row);
+    return Vector3((pose.position + pose.rotation * nominal.platform_joint.col(k) - nominal.vertex.col(k) -
+                    samples.sliders_mm(row, k) * nominal.direction.col(k)) /
+                   machine.leg_length_mm);
+  };
+  for (Eigen::Index row = 5; row + 5 < samples.size(); row += 37) {
+    if (samples.state.circle[row - 5] != samples.state.circle[row + 5]) continue;
+    EXPECT_LT((samples.state.position_mm.row(row).transpose() - poses.at(row).position).norm(), 1e-12);
+    const Vector3 rpy = samples.state.platform_rpy_rad.row(row);
+    EXPECT_LT((rotation_from_rpy(rpy[0], rpy[1], rpy[2]) - poses.at(row).rotation).norm(), 1e-12);
+    for (int k = 0; k < kLegs; ++k) {
+      const Vector3 u = leg(row, k), du_dt = (leg(row + 1, k) - leg(row - 1, k)) / (2.0 * lap_s / count);
+      const Vector3 turning = u.cross(du_dt), d = nominal.direction.col(k), normal = poses.at(row).rotation.col(2);
+      const double slider_rate = turning.dot(d.cross(u).normalized());
+      const double platform_rate = turning.dot(normal.cross(u).normalized());
+      EXPECT_NEAR(samples.state.slider_joint_rate_rad_s(row, k), slider_rate, 2e-5) << "row " << row << " leg " << k;
+      EXPECT_NEAR(samples.state.platform_joint_rate_rad_s(row, k), platform_rate, 2e-5);
+      EXPECT_NEAR(samples.state.platform_joint_angle_rad(row, k), std::acos(u.dot(normal)), 1e-9);
+      const double direction = samples.state.slider_joint_direction(row, k);
+      if (samples.state.slider_joint_since_reversal_rad(row, k) > 1e-3) {
+        EXPECT_EQ(direction, std::copysign(1.0, slider_rate));
+      }
+    }
+  }
+}
+
+TEST(State, AngleIsWrapped) {
+  Samples samples = moving_samples(Machine(), {CircleSpec()}, 20);
+  samples.state.angle_rad = Eigen::VectorXd::LinSpaced(20, -9.0, 13.0);
+  samples.state.angle_rad[0] = -1e-17;
+  derive(NominalGeometry(Machine()), samples);
+  const Eigen::VectorXd& wrapped = samples.state.angle_wrapped_rad;
+  EXPECT_GE(wrapped.minCoeff(), 0.0);
+  EXPECT_LT(wrapped.maxCoeff(), 2.0 * M_PI);
+  EXPECT_LT((wrapped.array().sin() - samples.state.angle_rad.array().sin()).abs().maxCoeff(), 1e-14);
+  EXPECT_LT((wrapped.array().cos() - samples.state.angle_rad.array().cos()).abs().maxCoeff(), 1e-14);
+}
+
+TEST(State, EveryColumnIsDescribed) {
+  const Samples samples = moving_samples(Machine(), {CircleSpec()}, 20);
+  std::vector<std::string> names, filled;
+  for_each_column(samples.state, [&](const ColumnInfo& info, const auto& column) {
+    names.push_back(info.name);
+    if (column.size() > 0) filled.push_back(info.name);
+    EXPECT_FALSE(std::string(info.unit).empty()) << info.name;
+    EXPECT_FALSE(std::string(info.meaning).empty()) << info.name;
+    const int width = static_cast<int>(column.cols());
+    const int expected = info.of == ColumnOf::kSample ? 1 : info.of == ColumnOf::kAxis ? 3 : 6;
+    EXPECT_EQ(width, expected) << info.name;
+  });
+  EXPECT_EQ(names.size(), 28U);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  const std::vector<std::string> given_by_a_record = {"row",      "lap", "direction", "angle_rad", "angle_wrapped_rad",
+                                                      "feed_mm_s"};
+  EXPECT_EQ(filled.size() + given_by_a_record.size(), names.size());
 }
 
 TEST(State, ColumnOfAnotherLengthIsNamed) {

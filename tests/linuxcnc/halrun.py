@@ -1,4 +1,4 @@
-"""The module alone in HAL's own shell, `halrun`: what loads, what is refused and how it is said."""
+"""The module alone in HAL's own shell, `halrun`: which parameters load, which are refused with which message."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ TIMEOUT_S = 60.0
 
 
 def halrun(work: Path, module: Path, commands: str) -> subprocess.CompletedProcess[str]:
-    """Run HAL commands in a work folder, made where there is none."""
+    """Run HAL commands in a work folder, which is created if it does not exist."""
     work.mkdir(exist_ok=True)
     prepare(work, module)
     (work / "commands.hal").write_text(commands)

@@ -1,8 +1,8 @@
-"""The machine behind the controller, and the compensation a user would make for it: measured, diagnosed, written.
+"""The machine behind the controller, and its compensation, made as a user would: measured, diagnosed, written.
 
-The truth has errors of geometry (50 um, 0.2 mrad), play in every screw, uneven pitch in three and legs that give way
-under the platform's weight; its sizes are drawn, none is chosen but the sag's. The model is fitted to what a ball bar
-with its noise reads on the seven standard circles; it never sees the truth.
+The truth has geometric errors (50 µm, 0.2 mrad), backlash in every screw, periodic pitch errors in three and compliant
+legs under the platform's weight. All values are random but the compliance. The model is fitted to noisy ball-bar
+readings of the seven standard circles and never has access to the truth.
 """
 
 from __future__ import annotations
@@ -13,19 +13,20 @@ import numpy as np
 from tests.truth.plans import PACE, discovery_plan
 from tests.truth.simulate import simulate
 
-from hexdbb.compensation import make_compensation, write_text
+from hexdbb import compensation
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.model import default_effects, new_model
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import Samples
 
 SEED = 5
 EFFECTS = ("backlash", "pitch_cyclic", "gravity_sag")
-"""What the diagnosis has beside the thesis' errors of geometry."""
+"""Effects of the diagnosis in addition to the geometric errors of the thesis."""
 
 
 def true_machine(seed: int = SEED) -> TruthFile:
-    """Draw a machine."""
+    """Return a random machine."""
     draw = np.random.default_rng([seed, 2])
 
     def table(kind: str, **values: float) -> MechanismTable:
@@ -48,9 +49,9 @@ def true_machine(seed: int = SEED) -> TruthFile:
 
 
 def write_compensation(truth: TruthFile, path: Path) -> Diagnosis:
-    """Measure the standard circles on a machine, diagnose it, write its compensation file."""
+    """Measure the standard circles on a machine, diagnose it and write its compensation file; return the diagnosis."""
     record = simulate(truth, discovery_plan(), pace=PACE)
     geometry = [effect for effect, is_free in default_effects(record.machine).items() if is_free]
-    found = diagnose([record], new_model(record.machine, [*geometry, *EFFECTS]))
-    write_text(make_compensation(found.model).text(), path)
+    found = diagnose(Samples.of([record]), new_model(record.machine, [*geometry, *EFFECTS]))
+    compensation.write_compensation(compensation.make_compensation(found.model), path)
     return found

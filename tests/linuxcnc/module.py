@@ -1,4 +1,4 @@
-"""The kinematics module, compiled: in the build folder of the C++ tests where there is one, else alone."""
+"""Build of the kinematics module: in the build folder of the C++ tests if it exists, otherwise on its own."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ PRESETS = ("ci", "release", "linuxcnc")
 
 
 def built_module() -> Path:
-    """Compile what is not up to date; give the module's path.
+    """Compile the module if it is out of date; return its path.
 
     Raises
     ------
     RuntimeError
-        With the compiler's output.
+        The build failed; carries the output of the compiler.
     """
     preset = next((each for each in PRESETS if (ROOT / "build" / each / "CMakeCache.txt").is_file()), PRESETS[-1])
     for command in (["--preset", preset], ["--build", "--preset", preset, "--target", "hexdbb_kins"]):

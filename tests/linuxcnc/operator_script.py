@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Stand in for LinuxCNC's user interface: switch on, home, run a program, look where the platform stands, end.
+"""Replace LinuxCNC's user interface: switch on, home, run a program, read the pose of the platform, end.
 
 LinuxCNC starts it as [DISPLAY]DISPLAY with `-ini FILE`; the program is [DISPLAY]OPEN_FILE. It writes `operator.json`.
 Runs under the distribution's Python, which has the module `linuxcnc`.
@@ -16,7 +16,7 @@ PATIENCE_S = 300.0
 
 
 def reported(errors):
-    """Give the errors that LinuxCNC has reported since; one comes seldom alone."""
+    """Return the errors that LinuxCNC has reported; several often follow each other."""
     found = []
     report = errors.poll()
     while report is not None:
@@ -28,7 +28,7 @@ def reported(errors):
 
 
 def wait_until(is_so, status, errors, what):
-    """Poll LinuxCNC; what it reports as an error ends the run."""
+    """Poll LinuxCNC until a condition holds; an error it reports ends the run."""
     deadline = time.monotonic() + PATIENCE_S
     while True:
         status.poll()

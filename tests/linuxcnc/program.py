@@ -1,11 +1,11 @@
 """Circular tests as G-code: LinuxCNC's own arcs, in both directions, with the compensation off and then on.
 
-Model: the ball stands at position + R ball_offset, so that a circle of the ball about the cup is a circle of the
-position about cup - R ball_offset in the same plane. An arc takes one turn and a half from angle pi: a quarter turn
-before the turn that is evaluated and one after it, as a test's overshoot.
-Last come short moves with a stop before each: LinuxCNC then asks for the joints of an end point that is near the place
-it stands at, which must not be taken for motion.
-Tags: analogue output 0 has the number of the arc while it is driven, 0 between.
+Model: the ball is at position + R ball_offset, so that a circle of the ball about the cup is a circle of the position
+about cup - R ball_offset in the same plane. An arc covers one and a half turns from angle pi: the evaluated turn with a
+quarter turn of overshoot before and after it.
+The program ends with short moves, each after a stop: LinuxCNC then requests the joints of an end point near the present
+one, which must not be mistaken for motion.
+Tags: analogue output 0 holds the number of the arc while it is driven, otherwise 0.
 Units: mm, deg; feed mm/min.
 """
 
@@ -25,7 +25,7 @@ SHORT_MOVES_TAG = 100
 SHORT_MOVE_MM = 0.5
 SHORT_MOVES_FEED_MM_MIN = 60.0
 SETTLE_S = 0.8
-"""Compensation fades in over 500 servo periods of 1 ms."""
+"""Pause for the compensation to fade in, s: 500 servo periods of 1 ms and a margin."""
 
 
 @dataclass(frozen=True)
@@ -39,18 +39,18 @@ class Circle:
 
     @property
     def rotation(self) -> NDArray[np.float64]:
-        """Of the platform, shape (3, 3)."""
+        """Rotation of the platform, shape (3, 3)."""
         return rotation_rpy(*np.radians(self.platform_rpy_deg))
 
     @property
     def centre_mm(self) -> NDArray[np.float64]:
-        """Centre of the circle of the platform's position, shape (3,)."""
+        """Centre of the circle of the platform position, mm, shape (3,)."""
         return np.array(self.cup_mm) - self.rotation @ np.array(BALL_OFFSET_MM)
 
 
 @dataclass(frozen=True)
 class Arc:
-    """One arc of the program. `tag`: see above; `direction`: +1 counter-clockwise."""
+    """One arc of the program; `tag` is its number, `direction` +1 counter-clockwise."""
 
     tag: int
     circle: Circle
@@ -64,13 +64,13 @@ CIRCLES = (STANDARD, UNSEEN)
 
 
 def arcs() -> list[Arc]:
-    """Give the arcs in the order in which they are driven."""
+    """Return the arcs in the order in which they are driven."""
     kinds = [(circle, way, on) for on in (False, True) for circle in CIRCLES for way in (1, -1)]
     return [Arc(tag, *kind) for tag, kind in enumerate(kinds, start=1)]
 
 
 def program() -> str:
-    """Give the whole program, ended with compensation in force and the platform on the last circle."""
+    """Return the whole program; it ends with the compensation on and the platform on the last circle."""
     lines = ["G21 G90 G17 G94 G61 G40 G49 G80", "M65 P0", "M68 E0 Q0", f"F{FEED_MM_MIN:g}"]
     is_on = False
     for arc in arcs():
@@ -89,7 +89,7 @@ def _arc_lines(arc: Arc) -> Iterator[str]:
     yield f"G0 X{x - radius:.9f} Y{y:.9f} Z{z:.9f} A{a:g} B{b:g} C{c:g}"
     yield "G4 P0.2"
     yield f"M68 E0 Q{arc.tag}"
-    # P2: the second crossing of the end point, half a turn and one.
+    # P2: end at the second crossing of the end point, after one and a half turns.
     yield f"{'G3' if arc.direction > 0 else 'G2'} X{x + radius:.9f} Y{y:.9f} I{radius:.9f} J0 P2"
     yield "M68 E0 Q0"
 

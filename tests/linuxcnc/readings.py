@@ -1,10 +1,10 @@
-"""From LinuxCNC's joints to what a ball bar on the true machine would read, and how far its circles are from round.
+"""From LinuxCNC's joints to ball-bar readings on the true machine, and the circular deviations of its circles.
 
-Model: the true machine of `hexdbb.rig` (its own geometry, pose solver and mechanisms, nothing of the engine) is taken
-through every servo period of the session, so that play and friction have the history that the controller gave them; the
-gauge reads in the evaluated turn of each arc. The bar's nominal length is the circle's radius.
-Quantities: the centre offset of the set-up is removed by a least squares circle through both directions (nobody knows
-where the cup stands); what is left holds radius errors too.
+Model: the true machine of `hexdbb.rig` (its own geometry, pose solver and mechanisms, nothing of the engine) is driven
+through every servo period of the session, so that play and friction have the history of the controller's motion; the
+gauge is read in the evaluated turn of each arc. The nominal bar length is the circle's radius.
+Quantities: the centre offset of the set-up, which is unknown on a machine, is removed by a least-squares circle through
+both directions; radius errors remain.
 Units: mm, s, rad.
 """
 
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from tests.linuxcnc.program import BALL_OFFSET_MM, Arc, Circle
 from tests.linuxcnc.session import PERIOD_S, Session
 
-from hexdbb.iso230 import (
+from hexdbb.comparison.iso230 import (
     Path,
     bidirectional_circular_deviation_mm,
     circular_hysteresis_mm,
@@ -32,22 +32,22 @@ from hexdbb.rig.pose_solver import Poses
 from hexdbb.rig.truth import TruthFile
 
 EVERY = 8
-"""One reading in so many servo periods."""
+"""Servo periods between two readings."""
 MOUNT = 0
 
 
 @dataclass(frozen=True)
 class Roundness:
-    """Of one circle, both directions; mm.
+    """Circular deviations of one circle in both directions, mm.
 
     Attributes
     ----------
     rms : float
-        Of the radial deviation about the set-up's centre.
+        RMS of the radial deviation about the centre of the set-up.
     peak_to_valley : float
         Bi-directional circular deviation G(b), ISO 230-4.
     hysteresis : float
-        H, ISO 230-4.
+        Circular hysteresis H, ISO 230-4.
     """
 
     rms: float
@@ -56,7 +56,7 @@ class Roundness:
 
 
 def measured_paths(session: Session, arcs: Sequence[Arc], truth: TruthFile, machine: MachineFile) -> dict[int, Path]:
-    """Give the path of each arc by its tag: one turn, deviations as a gauge without noise reads them."""
+    """Return the path of each arc by its tag: one turn with the deviations that a gauge without noise reads."""
     true_machine = truth.true_machine(machine)
     sliders = session.sliders_mm
     moved = Motion(PERIOD_S * np.arange(len(sliders)), PERIOD_S, sliders, MOUNT)
@@ -74,7 +74,7 @@ def measured_paths(session: Session, arcs: Sequence[Arc], truth: TruthFile, mach
 
 
 def roundness(ccw: Path, cw: Path) -> Roundness:
-    """Evaluate a circle that was driven in both directions."""
+    """Compute the circular deviations of a circle driven in both directions."""
     centre = set_up_centre_mm(ccw, cw)
     about = [path.about(centre) for path in (ccw, cw)]
     deviation = np.concatenate([path.deviation_mm for path in about])
@@ -86,7 +86,7 @@ def roundness(ccw: Path, cw: Path) -> Roundness:
 
 
 def _evaluated(session: Session, arc: Arc) -> NDArray[np.intp]:
-    """The servo periods of the one turn in the middle of the arc that is evaluated."""
+    """Return the servo periods of the evaluated turn in the middle of an arc."""
     during = np.flatnonzero(session.columns["tag"] == arc.tag)
     angle = np.unwrap(_angle(_commanded_mm(session)[during], arc.circle)) * arc.direction
     turned = angle - angle[0]
@@ -99,6 +99,6 @@ def _commanded_mm(session: Session) -> NDArray[np.float64]:
 
 
 def _angle(position_mm: NDArray[np.float64], circle: Circle) -> NDArray[np.float64]:
-    """Polar angle of the position about the circle's centre, rad."""
+    """Return the polar angle of the position about the circle's centre, rad."""
     x, y, _ = (position_mm - circle.centre_mm).T
     return np.arctan2(y, x)

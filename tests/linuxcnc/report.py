@@ -16,7 +16,7 @@ from tests.linuxcnc.program import CIRCLES, arcs, program
 from tests.linuxcnc.readings import measured_paths, roundness
 from tests.linuxcnc.session import PERIOD_S, Session, run_linuxcnc
 
-from hexdbb import iso230
+from hexdbb.comparison import iso230
 from hexdbb.machine import shipped_machine
 
 Paths = dict[tuple[str, bool, int], iso230.Path]
@@ -37,7 +37,7 @@ def main(image: Path) -> None:
 
 
 def _error_table(paths: Paths) -> Iterator[str]:
-    yield "| circle | quantity | compensation off | on | times less |"
+    yield "| circle | quantity | compensation off | on | reduction factor |"
     yield "|---|---|---|---|---|"
     for circle in CIRCLES:
         off, on = (roundness(paths[circle.name, on, 1], paths[circle.name, on, -1]) for on in (False, True))
@@ -51,14 +51,14 @@ def _error_table(paths: Paths) -> Iterator[str]:
 
 
 def _servo_table(session: Session) -> Iterator[str]:
-    yield "| while driving | inverse kinematics, median | 99.9 % within | slider acceleration, at most |"
+    yield "| compensation | inverse kinematics, median | 99.9 % within | largest slider acceleration |"
     yield "|---|---|---|---|"
     tag, spent_ns = session.columns["tag"], session.columns["inverse_ns"]
     acceleration = np.abs(np.diff(session.sliders_mm, n=2, axis=0)).max(axis=1) / PERIOD_S**2
-    for name, is_on in (("compensation off", False), ("on", True)):
+    for name, is_on in (("off", False), ("on", True)):
         tags = [arc.tag for arc in arcs() if arc.is_compensated == is_on]
         rows = np.flatnonzero(np.isin(tag, tags))
-        # A second at each end of an arc is getting up to speed.
+        # The first and last second of an arc are acceleration and braking.
         steady = np.concatenate([np.flatnonzero(tag == each)[1000:-1000] for each in tags])
         median, tail = np.percentile(spent_ns[rows], [50.0, 99.9])
         yield f"| {name} | {median:.0f} ns | {tail:.0f} ns | {acceleration[steady].max():.0f} mm/s² |"

@@ -1,9 +1,9 @@
-"""LinuxCNC in namespaces of its own: as an ordinary user, beside any other LinuxCNC, and gone when its time is over.
+"""LinuxCNC in separate namespaces: as an ordinary user, beside any other LinuxCNC, ended at a time limit.
 
 LinuxCNC refuses root, loads modules from one folder of the system only, and keeps its state in System V shared memory,
-in `/tmp` and in processes that outlive their parent. `unshare` (util-linux) gives it a mount, an IPC and a PID
-namespace: the folder of modules shows a copy with ours added, `/tmp` is empty but for the work folder, and when
-`unshare` ends or is killed the kernel ends every process within.
+in `/tmp` and in processes that outlive their parent. `unshare` (util-linux) creates a mount, an IPC and a PID
+namespace: the folder of modules is a copy with ours added, `/tmp` holds the work folder only, and when `unshare` ends
+or is killed the kernel ends every process inside.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 MODULES = Path("/usr/lib/linuxcnc/modules")
 HEADER = Path("/usr/include/linuxcnc/kinematics.h")
 INSIDE = "/tmp/session"
-"""Where the work folder is, seen from within."""
+"""Path of the work folder inside the namespace."""
 
 NOBODY = "65534"
 ENTER = f"""
@@ -35,13 +35,13 @@ ENVIRONMENT = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": INSIDE, "LANG": 
 
 
 def is_installed() -> bool:
-    """Whether there are LinuxCNC and its headers."""
+    """Return whether LinuxCNC and its headers are installed."""
     return shutil.which("linuxcnc") is not None and HEADER.exists()
 
 
 @cache
 def why_not() -> str | None:
-    """Say why LinuxCNC cannot be run here; None where it can."""
+    """Return the reason why LinuxCNC cannot run here; None if it can."""
     if not is_installed():
         return "LinuxCNC is not installed (Debian: linuxcnc-uspace, linuxcnc-uspace-dev)"
     mount = ["mount", "-t", "tmpfs", "tmpfs", "/tmp"]
@@ -52,20 +52,20 @@ def why_not() -> str | None:
 
 
 def prepare(work: Path, module: Path) -> None:
-    """Make the folder of realtime modules that LinuxCNC will see: the distribution's, and `module`."""
+    """Create the folder of realtime modules for LinuxCNC: those of the distribution, and `module`."""
     shutil.copytree(MODULES, work / "modules")
     shutil.copy2(module, work / "modules")
 
 
 def run(work: Path, *command: str, timeout_s: float) -> subprocess.CompletedProcess[str]:
-    """Run a command in the work folder, as an ordinary user, until it ends or its time is over.
+    """Run a command in the work folder as an ordinary user, with a time limit.
 
     Raises
     ------
     subprocess.TimeoutExpired
-        With it ends everything that it started.
+        The time limit was reached; everything that the command started has ended.
     """
-    # Who is no root is one in the namespace, to mount; a namespace within that one makes an ordinary user again.
+    # An ordinary user becomes root in the namespace, to mount; a second namespace inside restores the ordinary user.
     as_user = ["unshare", "--user", f"--map-user={NOBODY}", f"--map-group={NOBODY}"]
     if os.geteuid() == 0:
         as_user = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]

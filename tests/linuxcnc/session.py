@@ -1,7 +1,7 @@
-"""One run of LinuxCNC: the sample configuration, a program, and every servo period's joints.
+"""One run of LinuxCNC: the sample configuration, a program, and the joints of every servo period.
 
-The configuration is that of `firmware_interfaces/linuxcnc`, but for the user interface, the program and a sampler.
-Units: mm, deg, ns, as in the columns' names.
+The configuration is that of `firmware_interfaces/linuxcnc` except for the user interface, the program and a sampler.
+Units: mm, deg, ns, as in the column names.
 """
 
 from __future__ import annotations
@@ -30,21 +30,21 @@ PINS = {
     "inverse_ns": ("hexdbb-kins.time", "s"),
     "iterations": ("hexdbb-kins.iterations", "s"),
 }
-"""What is sampled: column, pin and type of each. Joints in their own coordinates, not from where the motors were."""
+"""Sampled quantities: column, pin and type. Joints in absolute slider coordinates, not relative to the start."""
 
 
 @dataclass(frozen=True)
 class Session:
-    """What LinuxCNC did.
+    """Result of a LinuxCNC session.
 
     Attributes
     ----------
     columns : dict
-        By the names of `PINS`, shape (n,), a row a servo period without gaps.
+        Sampled values by the names of `PINS`, shape (n,), one per servo period without gaps.
     commanded, actual : (6,) arrays
-        Pose at the end, mm and deg: as the program has it, as the module finds it from the joints.
+        Pose at the end, mm and degrees: of the program, and of the forward kinematics of the module.
     log : str
-        What LinuxCNC and its modules had to say.
+        Output of LinuxCNC and its modules.
     """
 
     columns: dict[str, NDArray[np.float64]]
@@ -67,12 +67,12 @@ def run_linuxcnc(work: Path, module: Path, compensation: Path, program: str, lef
     program : str
         G-code.
     left_out : str, optional
-        Lines of the sample's HAL file that have this in them are left out.
+        Lines of the sample HAL file that contain this text are left out.
 
     Raises
     ------
     RuntimeError
-        LinuxCNC did not get to the program's end, or the sampler lost periods; with what was printed.
+        LinuxCNC ended before the program, or the sampler lost servo periods; carries the output.
     """
     shutil.copytree(SOURCES, work, ignore=shutil.ignore_patterns("*.c", "*.h", "*.md", "CMakeLists.txt"))
     prepare(work, module)
@@ -94,7 +94,7 @@ def run_linuxcnc(work: Path, module: Path, compensation: Path, program: str, lef
 
 
 def read_samples(samples: Path) -> dict[str, NDArray[np.float64]]:
-    """Read what halsampler wrote; give `PINS`' columns.
+    """Parse the output of halsampler; return the columns of `PINS`.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def read_samples(samples: Path) -> dict[str, NDArray[np.float64]]:
     text = samples.read_text()
     if "overrun" in text:
         raise RuntimeError("the sampler lost servo periods (overrun)")
-    # LinuxCNC ends while the last line is written.
+    # LinuxCNC may end while the last line is being written.
     lines = text[: text.rindex("\n")].splitlines()
     table = np.loadtxt(lines)
     if np.any(np.diff(table[:, 0]) != 1):
@@ -113,7 +113,7 @@ def read_samples(samples: Path) -> dict[str, NDArray[np.float64]]:
 
 
 def _ini(sample: str) -> str:
-    """Give the sample with a user interface, a program and the sampler in it."""
+    """Return the sample configuration with the user interface, the program and the sampler added."""
     replaced = {
         "DISPLAY = axis\n": f"DISPLAY = {INSIDE}/{OPERATOR.name}\nOPEN_FILE = {INSIDE}/program.ngc\n",
         "HALFILE = hexglider.hal\n": "HALFILE = hexglider.hal\nHALFILE = record.hal\n",

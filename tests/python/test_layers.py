@@ -14,110 +14,111 @@ from pathlib import Path
 
 import pytest
 
+from hexdbb import _core
+
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / "python" / "hexdbb"
 
-# Each part of the package (a module, or a package with all that is in it) and the parts it may import. What is imported
-# through others counts where it is written: `rig` may use `machine` and thereby, not itself, `can_setup`.
+# Each part of the package (a package with all that is in it) and the parts it may import.
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
     "units": set(),
     "_core": set(),
-    "atomic_file": {"errors"},
-    "validation": {"errors"},
-    "circle_fit": {"errors"},
-    "frames": {"errors"},
-    "json_schemas": {"errors", "machine"},
-    "can_setup": {"errors", "validation"},
-    "circle": {"errors", "validation", "kinematics"},
-    "machine": {"errors", "validation", "can_setup"},
-    "plan": {"errors", "validation", "machine", "circle"},
-    "record": {"errors", "validation", "atomic_file", "machine", "circle", "plan"},
-    # the machine's line
+    "files": {"errors"},
+    # what is measured on, and what is asked of it
+    "machine": {"errors", "files"},
     "kinematics": {"errors", "machine", "_core"},
-    "model": {"errors", "validation", "atomic_file", "units", "machine", "kinematics", "_core"},
-    "effects": {"errors", "units", "machine", "plan", "kinematics", "model", "state", "_core"},
-    "structure": {"model"},
-    "redundancy": {"model", "structure"},
-    "thermometer": set(),
-    "state": {"plan", "record", "thermometer"},
-    "prediction": {"errors", "record", "kinematics", "model", "state", "_core"},
-    "measured": {"record", "model", "prediction", "_core"},
+    "plan": {"errors", "files", "machine", "kinematics"},
+    "record": {"errors", "files", "machine", "plan"},
+    # the machine's line
+    "model": {"errors", "files", "units", "machine", "kinematics", "_core"},
+    "samples": {"errors", "files", "machine", "plan", "record", "kinematics", "model", "_core"},
+    "effects": {"errors", "units", "machine", "plan", "kinematics", "model", "samples", "_core"},
+    "identifiability": {"errors", "plan", "record", "kinematics", "model", "samples", "_core"},
     "diagnosis": {
         "errors",
-        "frames",
+        "files",
         "units",
-        "circle",
-        "record",
-        "model",
-        "prediction",
-        "measured",
-        "redundancy",
-        "_core",
-    },
-    "ledger": {"errors", "frames", "units", "record", "model", "prediction", "diagnosis", "_core"},
-    "place_uncertainty": {"circle", "kinematics", "model", "diagnosis", "_core"},
-    # which variable of the samples carries a residual
-    "variables": {"record", "model", "effects", "_core"},
-    "discovery": {
-        "errors",
-        "units",
-        "circle",
+        "plan",
         "record",
         "kinematics",
         "model",
+        "samples",
+        "identifiability",
+        "_core",
+    },
+    "ledger": {"errors", "files", "units", "record", "model", "samples", "diagnosis", "_core"},
+    # which variables of the samples predict a residual
+    "predictors": {"record", "model", "samples", "effects", "_core"},
+    # where the model fails; readings come in as arrays, predicted or measured
+    "comparison": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
+    "plots": {"errors", "files", "plan", "comparison", "predictors"},
+    "discovery": {
+        "errors",
+        "files",
+        "units",
+        "plan",
+        "record",
+        "kinematics",
+        "model",
+        "samples",
         "effects",
-        "prediction",
-        "measured",
         "diagnosis",
         "ledger",
-        "variables",
+        "predictors",
         "_core",
     },
     # what a controller does about it
-    "compensation": {"errors", "atomic_file", "machine", "record", "kinematics", "model", "_core"},
-    "compensated_targets": {"can_setup", "kinematics", "trajectory", "_core"},
-    "sensitivity": {"errors", "kinematics", "model", "plan", "prediction", "state", "record", "_core"},
-    "identifiability": {"model", "redundancy", "sensitivity", "_core"},
-    # which circles tell most
+    "trajectory": {"errors", "machine", "plan", "kinematics"},
+    "compensation": {"errors", "files", "machine", "record", "kinematics", "model", "trajectory", "_core"},
+    # which circles determine most
     "planning": {
         "errors",
         "units",
         "machine",
-        "circle",
         "plan",
         "kinematics",
-        "identifiability",
         "model",
-        "redundancy",
-        "sensitivity",
+        "identifiability",
         "trajectory",
         "_core",
     },
-    # where the model fails; readings come in as arrays, predicted or measured
-    "iso230": {"errors", "circle_fit"},
-    "compare": {"errors", "frames", "record", "circle", "iso230", "variables"},
-    "plots": {"errors", "atomic_file", "circle", "iso230", "compare", "variables"},
-    # the thesis' own way, to hold beside it
-    "thesis": {
+    # the thesis' own way, beside ours
+    "studies": {
         "errors",
+        "files",
         "units",
-        "atomic_file",
         "machine",
-        "circle",
         "plan",
         "record",
         "kinematics",
         "model",
-        "prediction",
-        "redundancy",
+        "samples",
+        "identifiability",
         "plots",
         "_core",
     },
+    # the public face, beside the commands
+    "api": {
+        "errors",
+        "files",
+        "machine",
+        "plan",
+        "record",
+        "model",
+        "samples",
+        "diagnosis",
+        "ledger",
+        "comparison",
+        "discovery",
+        "compensation",
+        "planning",
+        "capture",
+        "_core",
+    },
     # the rig's line
-    "rig": {"errors", "validation", "machine"},
-    "trajectory": {"errors", "machine", "can_setup", "circle", "plan", "kinematics"},
-    "capture": {"errors", "machine", "can_setup", "circle", "plan", "record", "trajectory"},
+    "rig": {"errors", "files", "machine"},
+    "capture": {"errors", "files", "machine", "plan", "record", "trajectory"},
 }
 COMMANDS = "cli"
 """The part that may import all others; none may import it."""
@@ -190,6 +191,11 @@ def test_python_imports_follow_the_table(path: Path) -> None:
     assert python_violations(module, path.read_text(encoding="utf-8"), package) == []
 
 
+def test_only_errors_and_units_lie_loose_in_the_package() -> None:
+    loose = {path.stem for path in PACKAGE.glob("*.py")}
+    assert loose == {"__init__", "errors", "units"}
+
+
 def test_the_engine_includes_neither_python_nor_ceres_outside_diagnosis() -> None:
     assert CPP_FILES, "no C++ sources found"
     sources = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8") for path in CPP_FILES}
@@ -207,13 +213,13 @@ def test_the_table_has_no_cycle_and_no_part_that_is_gone() -> None:
     [
         ("hexdbb.rig.plant", "from hexdbb import _core"),
         ("hexdbb.rig.plant", "from hexdbb.kinematics import inverse"),
-        ("hexdbb.rig.plant", "def f():\n    import hexdbb.prediction"),
+        ("hexdbb.rig.plant", "def f():\n    import hexdbb.samples"),
         ("hexdbb.rig.plant", "from ..diagnosis import diagnose"),
         ("hexdbb.rig.plant", "from .. import model"),
         ("hexdbb.model.file", "from hexdbb.rig.truth import TruthFile"),
         ("hexdbb.diagnosis", "import hexdbb.capture.session as session"),
         ("hexdbb.capture.session", "from hexdbb.rig.bus import Rig"),
-        ("hexdbb.compare.tables", "from hexdbb.cli.exits import reports_errors"),
+        ("hexdbb.comparison.tables", "from hexdbb.cli.exits import reports_errors"),
         ("hexdbb", "from hexdbb.machine import load_machine"),
         ("hexdbb.new_module", ""),
     ],
@@ -233,3 +239,59 @@ def test_a_forbidden_import_is_caught(module: str, source: str) -> None:
 )
 def test_a_forbidden_include_is_caught(place: str, source: str) -> None:
     assert len(cpp_violations(place, source)) == 1
+
+
+def strings_of(source: str) -> set[str]:
+    """String constants of a source that are not docstrings or comments of fields."""
+    tree = ast.parse(source)
+    free_standing = {
+        id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    return {
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in free_standing
+    }
+
+
+NAME_BLIND = (
+    "model",
+    "samples",
+    "identifiability",
+    "diagnosis",
+    "ledger",
+    "predictors",
+    "compare",
+    "plots",
+    "discovery",
+)
+"""Parts that work on any list of effects and know none by name."""
+STILL_NAMING = {"hexdbb.identifiability.structure", "hexdbb.model.catalogue"}
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in PYTHON_FILES if part_of(module_name(path)) in NAME_BLIND], ids=module_name
+)
+def test_no_effect_is_known_by_name_above_effects(path: Path) -> None:
+    named = strings_of(path.read_text(encoding="utf-8")) & set(_core.effect_names())
+    assert bool(named) == (module_name(path) in STILL_NAMING), named
+
+
+def test_only_the_ledger_makes_its_steps() -> None:
+    makers = {
+        module_name(path)
+        for path in PYTHON_FILES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "LedgerStep"
+    }
+    assert makers == {"hexdbb.ledger.step", "hexdbb.model.file"}  # made; read from a file
+
+
+def test_samples_alone_give_the_engine_its_form_of_a_record() -> None:
+    """A record is prepared once: nothing above the table of samples makes another."""
+    makers = {
+        module_name(path) for path in PYTHON_FILES if re.search(r"\b_core\.Samples\(", path.read_text(encoding="utf-8"))
+    }
+    # Poses without a state: bare kinematics, the ball's position read by far cups, the thesis' nominal circle.
+    bare = {"hexdbb.kinematics.poses", "hexdbb.diagnosis.place_uncertainty", "hexdbb.studies.thesis.circular_test"}
+    assert makers == {"hexdbb.samples.whole", *bare}

@@ -16,13 +16,13 @@ from tests.truth.timeline import Arc, Timeline
 from tests.truth.write import main
 
 from hexdbb.errors import InputError
+from hexdbb.files.validation import load_toml
 from hexdbb.plan import Plan, load_plan
 from hexdbb.record import SLIDER_COLUMNS, read_record
 from hexdbb.rig.geometry import true_geometry
 from hexdbb.rig.mechanisms import CATALOGUED, MECHANISMS, OUTSIDE
 from hexdbb.rig.plant import Plant
 from hexdbb.rig.truth import TruthFile, random_truth
-from hexdbb.validation import load_toml
 
 TRUTH = Path(__file__).parents[1] / "truth"
 ESTIMATOR_FREE = {"errors", "validation", "machine", "plan", "record", "rig"}

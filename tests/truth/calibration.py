@@ -29,7 +29,7 @@ from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import Verdict, judge
 from hexdbb.model import new_model
-from hexdbb.prediction import knowing
+from hexdbb.samples import Samples
 
 MOST_PROCESSES = 2
 PLACES = {"lateral": "guideway", "vertical": "guideway"}
@@ -79,10 +79,11 @@ def judged(name: str, withheld: Sequence[str]) -> dict[str, Any]:
     except UnreachableSizeError as error:
         return {"case": name, "withheld": list(withheld), "unreachable": str(error)}
     record = case.record()
-    model = knowing(new_model(record.machine), [record])
+    samples = Samples.of([record])
+    model = new_model(record.machine).with_mounts(samples.mounts)
     effects = [each for each in _core.effect_names("catalogue") if each not in withheld]
     began = time.process_time()
-    search = Search(Engine([record], model, judging_noise([record]).noise), effects, DEFAULT)
+    search = Search(Engine(samples, model, judging_noise(samples).noise), effects, DEFAULT)
     verdict = judge(search)
     return {
         "case": name,

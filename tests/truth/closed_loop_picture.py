@@ -1,4 +1,4 @@
-"""One unseen circle before and after compensation, as a polar plot: the deviation magnified, then magnified more."""
+"""One held-out circle before and after compensation, as polar plots at two magnifications of the deviation."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from tests.truth.closing import CircleError
 
 BEFORE_COLOUR, AFTER_COLOUR, NOMINAL_COLOUR = "#E69F00", "#004B76", "0.35"
 FINER = 10
-"""How much finer the second plot is divided."""
+"""Ratio of the divisions of the two plots."""
 
 
 def draw(before: CircleError, after: CircleError, title: str, path: Path) -> None:
-    """Draw a circle before and after at one scale, and beside it after alone at a finer one; write a PNG."""
+    """Write a PNG: a circle before and after at one scale, and beside it after alone at a finer one."""
     with mpl.rc_context({"svg.hashsalt": "hexdbb", "font.size": 9}):
         figure = Figure(figsize=(9.6, 5.0), layout="constrained")
         figure.suptitle(title, fontsize=10)
@@ -34,7 +34,7 @@ def draw(before: CircleError, after: CircleError, title: str, path: Path) -> Non
 
 
 def _round(value: float) -> float:
-    """The next 1, 2 or 5 times a power of ten."""
+    """Return the next 1, 2 or 5 times a power of ten."""
     power = 10.0 ** np.floor(np.log10(value))
     return float(next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value))
 
@@ -55,5 +55,5 @@ def _grid(axes: PolarAxes, division_um: float) -> None:
 
 
 def _curve(axes: PolarAxes, error: CircleError, colour: str, label: str) -> None:
-    """Counter-clockwise samples, then clockwise: two turns."""
+    """Draw counter-clockwise samples, then clockwise ones: two turns."""
     axes.plot(error.angle_rad, error.radial_um, color=colour, linewidth=0.9, label=label)

@@ -1,12 +1,12 @@
-"""A loop closed on a machine whose truth is known: measured, diagnosed, discovered, compensated, measured elsewhere.
+"""A loop closed on a machine of known truth: measured, diagnosed, discovered, compensated, measured on other circles.
 
-The machine: errors of geometry of 50 um and 0.2 mrad, play and a pitch error in every drive, legs that give way. The
-record of the fit and the records of unseen circles come from the truth simulator, which shares no code with the engine;
-what is between them is what a user does with the commands, in the same order.
-Error: the radial error of each circle as `hexdbb compare` has it: what every sample reads beyond a perfect circle of
-the commanded radius, the cup's offset in the circle's plane removed by least squares, before and after alike, because
-the cup of an unseen mount stands nobody knows where (ISO 230-4 removes a centre for the same reason); the radius is
-not.
+The machine: errors of geometry of 50 µm and 0.2 mrad, play and a pitch error in every drive, compliant legs. The record
+of the fit and those of held-out circles come from the truth simulator, which shares no code with the engine; the steps
+between them are a user's commands, in the same order.
+Error: the radial error of each circle as `hexdbb compare` defines it: the deviation of every sample from a perfect
+circle of the commanded radius, the cup's offset in the circle's plane removed by least squares, before and after alike,
+because the position of the cup of a held-out mount is unknown (ISO 230-4 removes a centre for the same reason); the
+radius is not removed.
 """
 
 from __future__ import annotations
@@ -16,13 +16,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from tests.truth.held_out import held_out_plans
 from tests.truth.simulate import Pace, simulate
 from tests.truth.timeline import Drive
-from tests.truth.unseen import unseen_plans
 
-from hexdbb.compare.circles import compare_circles
-from hexdbb.compensated_targets import CompensatedTargets
-from hexdbb.compensation import make_compensation
+from hexdbb.comparison.circles import compare_circles
+from hexdbb.compensation import CompensatedTargets, make_compensation
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import AutoStep, discover_all
 from hexdbb.errors import InputError
@@ -32,23 +31,25 @@ from hexdbb.plan import Plan
 from hexdbb.record import Record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import GaugeTruth, TruthFile, random_truth
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
-Said = Callable[[str], None]
+ReportStep = Callable[[str], None]
 
 PACE = Pace(rate_hz=24.0, instants_per_sample=10)
-"""An instant each 4 ms, as the rig's cycle."""
+"""One instant every 4 ms, the cycle of the rig."""
 PLAY_UM, PITCH_UM, PITCH_TWICE_UM = (5.0, 20.0), (2.0, 6.0), (0.5, 2.0)
 COMPLIANCE_UM_N = 0.4
-"""10 um under the weight of the platform."""
+"""Leg compliance: 10 µm under the weight of the platform."""
 GAUGE = GaugeTruth(noise_um=0.5, resolution_um=0.1, range_um=2000.0)
 MAX_CORRECTION_MM = 2.0
-"""Where a leg stands steeply on its guideway, an error of 0.1 mm takes a correction of more than a millimetre."""
+"""Limit of the correction of one slider: where a leg stands steeply on its guideway, an error of 0.1 mm needs more than
+a millimetre."""
 
 
 @dataclass(frozen=True)
 class CircleError:
-    """Radial error of one circle, both directions, um."""
+    """Radial error of one circle, both directions, µm."""
 
     rms_um: float
     peak_to_valley_um: float
@@ -59,7 +60,7 @@ class CircleError:
 
 @dataclass(frozen=True)
 class Found:
-    """What was done to a model: effects added by `discover --auto`, and whether nothing is missing now."""
+    """A fitted model: effects added by `discover --auto`, and whether its last verdict was that nothing is missing."""
 
     model: Model
     added: tuple[str, ...]
@@ -68,7 +69,7 @@ class Found:
 
 
 def machine_of(seed: int) -> TruthFile:
-    """Make up a machine; the same seed gives the same machine."""
+    """Return a random machine; the same seed gives the same machine."""
     draw, truth = np.random.default_rng([seed, 5]), random_truth(seed)
 
     def phase_deg() -> float:
@@ -93,21 +94,22 @@ def machine_of(seed: int) -> TruthFile:
 
 
 def silent(truth: TruthFile) -> TruthFile:
-    """Give the same machine in a perfect set-up: a gauge that neither errs nor rounds, cups where they should be.
+    """Return the same machine in a perfect set-up: a gauge without noise and rounding, cups in their nominal positions.
 
-    Of a cup's error the part in the circle's plane is removed anyhow; a cup that is out of that plane by z makes the
-    radius larger by z^2 / 2 R, which no reading of one circle tells from the machine.
+    The part of a cup's error in the circle's plane is removed in any case; a cup out of that plane by z enlarges the
+    radius by z^2 / 2 R, which the readings of one circle cannot separate from the machine.
     """
     gauge = GAUGE.model_copy(update={"noise_um": 0.0, "resolution_um": 0.0})
     return truth.model_copy(update={"gauge": gauge, "setup": truth.setup.model_copy(update={"cup_error_um": ()})})
 
 
-def found_in(records: Sequence[Record], model: Model, say: Said) -> Found:
-    """Diagnose, and discover until nothing is missing, as `hexdbb discover --auto` does."""
-    say("diagnosing")
-    diagnosis = diagnose(records, model, check_held_out=False)
+def found_in(records: Sequence[Record], model: Model, report_step: ReportStep) -> Found:
+    """Return the model diagnosed and extended until nothing is missing, as `hexdbb discover --auto` does."""
+    report_step("diagnosing")
+    samples = Samples.of(records)
+    diagnosis = diagnose(samples, model, check_held_out=False)
     added: list[str] = []
-    for step in discover_all(records, diagnosis.model, progress=say):
+    for step in discover_all(samples, diagnosis.model, progress=report_step):
         if not isinstance(step, AutoStep):
             return Found(diagnosis.model, tuple(added), step.verdict == "none", diagnosis.rms_after_um)
         diagnosis = step.diagnosis
@@ -115,11 +117,11 @@ def found_in(records: Sequence[Record], model: Model, say: Said) -> Found:
             added.append(step.choice)
         else:
             added.remove(step.choice)
-    raise AssertionError("the last look is always there")
+    raise AssertionError("discover_all ends with a verdict")
 
 
 def drive_of(model: Model, machine: MachineFile) -> Drive:
-    """Give the slider targets of a controller that compensates by a model."""
+    """Return the slider targets of a controller that compensates by a model."""
     data = make_compensation(model, max_correction_mm=MAX_CORRECTION_MM)
     targets = CompensatedTargets(data, machine.can_setup.limits, "compensation")
 
@@ -133,8 +135,8 @@ def drive_of(model: Model, machine: MachineFile) -> Drive:
 
 
 def circle_errors(record: Record) -> Iterator[CircleError]:
-    """Give the radial error of every circle of a record."""
-    for circle in compare_circles(record, record.name, np.zeros(len(record))):
+    """Yield the radial error of every circle of a record."""
+    for circle in compare_circles(Samples.of([record]), np.zeros(len(record))):
         radial_mm = circle.radial_mm
         if radial_mm is None:
             raise InputError(f"circle {circle.circle.id}: not a full circle (expected one)")
@@ -143,26 +145,26 @@ def circle_errors(record: Record) -> Iterator[CircleError]:
         yield CircleError(float(np.sqrt(np.mean(um**2))), float(np.ptp(um)), len(um), um, angle_rad)
 
 
-def unseen_errors(truth: TruthFile, seed: int, drive: Drive | None = None) -> tuple[CircleError, ...]:
-    """Measure every unseen circle on a machine, compensated by `drive` or not."""
-    records = (simulate(truth, plan, seed + number, PACE, drive=drive) for number, plan in enumerate(unseen_plans()))
+def held_out_errors(truth: TruthFile, seed: int, drive: Drive | None = None) -> tuple[CircleError, ...]:
+    """Return the errors of every held-out circle measured on a machine, compensated by `drive` or not."""
+    records = (simulate(truth, plan, seed + number, PACE, drive=drive) for number, plan in enumerate(held_out_plans()))
     return tuple(error for record in records for error in circle_errors(record))
 
 
 @dataclass(frozen=True)
 class Round:
-    """One time round: the model, and the unseen circles compensated by it, with the gauge and with a perfect one."""
+    """One round: the model, and the held-out circles compensated by it, with the gauge and with a perfect set-up."""
 
     found: Found
     after: tuple[CircleError, ...]
-    truly_after: tuple[CircleError, ...]
+    machine_alone: tuple[CircleError, ...]
 
 
 @dataclass(frozen=True)
 class Loop:
-    """One machine: unseen circles before, and after each round; `noise` is what the gauge alone makes of them.
+    """One machine: held-out circles before and after each round; `noise` is their error from the gauge alone.
 
-    `refused` says why the controller would not drive them compensated; then there are no more rounds.
+    `refused` is the reason why the controller refused to drive them compensated; then there are no more rounds.
     """
 
     seed: int
@@ -174,46 +176,46 @@ class Loop:
 
 
 def refined(records: Sequence[Record], before: Found) -> Found:
-    """Fit what is known to all records together: the second time round.
+    """Return the model of the first round fitted to all records together: the second round.
 
-    Discovery is not asked again: while a drive crosses its play at a turn, in some hundredths of a second, a record of
-    few samples a second cannot tell from which side its slider comes, and that looks like a spike at the reversal.
-    For the same reason readings far off count less (`diagnose --robust`).
+    Discovery is not repeated: while a drive crosses its play at a reversal, within some hundredths of a second, a
+    record of few samples per second does not determine the direction of travel, which resembles a spike at the
+    reversal. For the same reason outliers are weighted down (`diagnose --robust`).
     """
-    diagnosis = diagnose(records, before.model, robust=True, check_held_out=False)
+    diagnosis = diagnose(Samples.of(records), before.model, robust=True, check_held_out=False)
     return replace(before, model=diagnosis.model, rms_um=diagnosis.rms_after_um)
 
 
-def close(seed: int, plan: Plan, rounds: int, say: Said) -> Loop:
-    """Close the loop on one machine; every round measures `plan` anew, compensated by what the last one found."""
+def close(seed: int, plan: Plan, rounds: int, report_step: ReportStep) -> Loop:
+    """Return the loop closed on one machine; every round measures `plan`, compensated by the last round's model."""
     truth, machine = machine_of(seed), plan.machine_file()
     drive: Drive | None = None
     records: list[Record] = []
     done: list[Round] = []
     refused = None
-    say("measuring unseen circles")
-    before = unseen_errors(truth, 100 * seed + 50)
+    report_step("measuring held-out circles")
+    before = held_out_errors(truth, 100 * seed + 50)
     for number in range(rounds):
-        say(f"round {number + 1}: measuring")
+        report_step(f"round {number + 1}: measuring")
         records.append(simulate(truth, plan, 100 * seed + number, PACE, drive=drive))
         if done:
-            say(f"round {number + 1}: diagnosing")
+            report_step(f"round {number + 1}: diagnosing")
             found = refined(records, done[-1].found)
         else:
-            found = found_in(records, new_model(machine), lambda what: say(f"round 1: {what}"))
+            found = found_in(records, new_model(machine), lambda step: report_step(f"round 1: {step}"))
         drive = drive_of(found.model, machine)
-        say(f"round {number + 1}: measuring unseen circles, compensated")
+        report_step(f"round {number + 1}: measuring held-out circles, compensated")
         try:
-            after = unseen_errors(truth, 100 * seed + 60 + 10 * number, drive)
+            after = held_out_errors(truth, 100 * seed + 60 + 10 * number, drive)
         except InputError as error:
             refused = str(error)
             break
-        done.append(Round(found, after, unseen_errors(silent(truth), 0, drive)))
+        done.append(Round(found, after, held_out_errors(silent(truth), 0, drive)))
     return Loop(seed, before, tuple(map(noise_of, before)), tuple(done), found, refused)
 
 
 def noise_of(error: CircleError) -> CircleError:
-    """What the gauge's noise alone would make of a perfect circle with as many samples."""
+    """Return the error of a perfect circle with as many samples from the gauge noise alone."""
     draw = np.random.default_rng(error.samples)
     um = np.round(draw.normal(0.0, GAUGE.noise_um, error.samples) / GAUGE.resolution_um) * GAUGE.resolution_um
     return replace(error, rms_um=float(np.sqrt(np.mean(um**2))), peak_to_valley_um=float(np.ptp(um)), radial_um=um)

@@ -27,6 +27,7 @@ from tests.truth.cases import Case, alone, case, clean, outside, pairs
 from hexdbb.discovery import AutoStep, Discovery, discover, discover_all
 from hexdbb.errors import HexdbbError
 from hexdbb.model import new_model
+from hexdbb.samples import Samples
 
 CLEAN_PER_SEED = 10
 PAIRS_PER_SEED = 3
@@ -60,7 +61,7 @@ def tried(one: Case) -> Outcome:
     """Measure a case and judge the verdict."""
     record = one.record()
     begin = time.perf_counter()
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     seconds = time.perf_counter() - begin
     best = found.best
     named = best.effect if best is not None else ""
@@ -83,7 +84,9 @@ def tried_to_the_end(one: Case) -> Outcome:
     """Measure a case of several faults, judge the first verdict, and see what was found in the end."""
     first = tried(one)
     record = one.record()
-    steps = [step for step in discover_all([record], new_model(record.machine)) if isinstance(step, AutoStep)]
+    steps = [
+        step for step in discover_all(Samples.of([record]), new_model(record.machine)) if isinstance(step, AutoStep)
+    ]
     found = {choice.split(":")[0] for choice in (step.choice for step in steps if step.what == "add")}
     found -= {step.choice.split(":")[0] for step in steps if step.what == "remove"}
     held = steps[-1].diagnosis.held_out if steps else None

@@ -1,8 +1,8 @@
-"""Are the stated uncertainties true? Many machines, each measured once, each diagnosed, each compared with its truth.
+"""Do the stated uncertainties cover the truth? Many machines are measured, diagnosed and compared with their truth.
 
-Of every machine: the share of values known on their own whose 95 % interval holds the truth; the residual over the
-noise; and the error of the ball's place at poses that were not measured, before and after, with the rigid shift of
-the base taken out (no ball bar can see it while nobody knows where the cup stands).
+For every machine: the share of identifiable values whose 95 % interval contains the truth; the residual over the
+noise; and the error of the ball position at held-out poses, before and after, with the rigid motion of the base
+removed (a ball bar cannot measure it while the position of the cup is unknown).
 
     python -m tests.truth.coverage --seeds 200 -o docs/uncertainty.md
 """
@@ -26,33 +26,35 @@ from hexdbb.plan import Plan, load_plan
 from hexdbb.rig.geometry import true_geometry
 from hexdbb.rig.pose_solver import Hexapod, Poses, solve_poses
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 
 PACE = Pace(rate_hz=40.0)
-UNSEEN_POSES = 200
+HELD_OUT_POSES = 200
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One machine's outcome."""
+    """Result for one machine."""
 
     inside: Floats
-    """Whether each known value's 95 % interval holds the truth (1 or 0)."""
+    """Whether each identifiable value's 95 % interval contains the truth (1 or 0)."""
     worst_sigmas: float
+    """Largest error over stated standard deviation."""
     rank: int
     residual_over_noise: float
-    place_before_um: float
-    place_after_um: float
+    position_before_um: float
+    position_after_um: float
 
 
 def study_plan() -> Plan:
-    """Give the seven circles of the standard plan at 3000 mm/min, one lap each way."""
+    """Return the seven circles of the standard plan at 3000 mm/min, one lap each way."""
     return load_plan("standard").model_copy(update={"feeds_mm_min": (3000.0,), "laps": 1})
 
 
 def true_values(truth: TruthFile, model: Model) -> Floats:
-    """Lay a truth file's errors out as a model's values, mm and rad."""
+    """Return a truth file's errors as values of a model, mm and rad."""
     by_effect = {
         name.rpartition("_")[0]: np.ravel(value) * 1e-3 if name.endswith("_um") else np.ravel(value) * 1e-6
         for name, value in truth.geometry.model_dump().items()
@@ -64,31 +66,33 @@ def true_values(truth: TruthFile, model: Model) -> Floats:
 
 
 def trial(seed: int, plan: Plan) -> Trial:
-    """Measure and diagnose one machine."""
+    """Return the result of measuring and diagnosing one machine."""
     truth = random_truth(seed)
-    found = diagnose([simulate(truth, plan, seed, PACE)], new_model(plan.machine_file()), check_held_out=False)
+    found = diagnose(
+        Samples.of([simulate(truth, plan, seed, PACE)]), new_model(plan.machine_file()), check_held_out=False
+    )
     model = found.model
     known = ~np.isnan(model.sigma)
     sigmas = np.abs(model.values - true_values(truth, model))[known] / model.sigma[known]
-    before, after = place_errors_um(truth, plan, found)
+    before, after = position_errors_um(truth, plan, found)
     return Trial(
         inside=(sigmas < 1.96).astype(float),
         worst_sigmas=float(sigmas.max()),
         rank=found.rank,
         residual_over_noise=found.rms_after_um / (found.noise.sigma_mm * 1e3),
-        place_before_um=before,
-        place_after_um=after,
+        position_before_um=before,
+        position_after_um=after,
     )
 
 
-def place_errors_um(truth: TruthFile, plan: Plan, found: Diagnosis) -> tuple[float, float]:
-    """RMS error of the ball's place over unseen poses: nominal against true machine, diagnosed against true machine."""
+def position_errors_um(truth: TruthFile, plan: Plan, found: Diagnosis) -> tuple[float, float]:
+    """Return the RMS error of the ball position at held-out poses, µm, of the nominal and of the diagnosed machine."""
     machine = plan.machine_file()
     random = np.random.default_rng(truth.seed)
-    position = random.uniform([-90.0, -90.0, 265.0], [90.0, 90.0, 290.0], (4 * UNSEEN_POSES, 3))
+    position = random.uniform([-90.0, -90.0, 265.0], [90.0, 90.0, 290.0], (4 * HELD_OUT_POSES, 3))
     rpy = random.uniform(-0.15, 0.15, position.shape)
     sliders, status = inverse(machine, position, rpy)
-    position, rpy, sliders = (each[status == 0][:UNSEEN_POSES] for each in (position, rpy, sliders))
+    position, rpy, sliders = (each[status == 0][:HELD_OUT_POSES] for each in (position, rpy, sliders))
     rotation = np.array([_core.rotation_from_rpy(*each) for each in rpy])
     ball = np.array(plan.circles[0].ball_offset_mm)
     true_ball = ball + np.array(truth.setup.ball_offset_error_um) * 1e-3
@@ -117,7 +121,7 @@ def _model_places(model: Model, sliders: Floats, ball: Floats) -> Floats:
 
 
 def _rms_um(errors: Floats, places: Floats) -> float:
-    """RMS length of errors after the best rigid shift and turn of the base."""
+    """Return the RMS length of errors after removal of the best rigid motion of the base, µm."""
     columns = [np.tile(axis, (len(places), 1)) for axis in np.eye(3)]
     columns += [np.cross(axis, places) for axis in np.eye(3)]
     design = np.stack([each.ravel() for each in columns], axis=1)
@@ -126,38 +130,38 @@ def _rms_um(errors: Floats, places: Floats) -> float:
 
 
 PAGE = """\
-# Are the stated uncertainties true?
+# Do the stated uncertainties cover the truth?
 
-Random machines (errors of 50 µm and 0.2 mrad, platform sides 30 µm, cup off by 0.1 mm, ball by 0.03 mm, one standard
-deviation each; gauge noise 0.5 µm), measured on the seven standard circles at 3000 mm/min, one lap each way, and
-diagnosed with all 33 errors, cup and ball unknown. The truth shares no code with the engine.
+Random machines (errors of 50 µm and 0.2 mrad, platform sides 30 µm, cup misplaced by 0.1 mm, ball by 0.03 mm,
+one standard deviation each; gauge noise 0.5 µm), measured on the seven standard circles at 3000 mm/min, one lap each
+way, and diagnosed with all 33 errors, cup and ball unknown. The truth shares no code with the engine.
 
 | | |
 |---|---|
 {rows}
 
-Places are compared with the rigid shift and turn of the base taken out, which no ball bar sees while the cup's place
-is unknown. Horizontal circles see the cup's height to second order only, so that its sign is often open; it then does
-not count as known.
+Positions are compared after removal of a rigid motion of the base, which a ball bar cannot measure while the position
+of the cup is unknown. The readings of horizontal circles depend on the cup's height to second order only, so that its
+sign is often not determined; it then does not count as identifiable.
 
 Made by `{command}`.
 """
 
 
 def page(trials: list[Trial], command: str) -> str:
-    """Lay out the page."""
+    """Return the page as Markdown."""
     inside = np.concatenate([each.inside for each in trials])
-    before, after = np.array([(each.place_before_um, each.place_after_um) for each in trials]).T
+    before, after = np.array([(each.position_before_um, each.position_after_um) for each in trials]).T
     rows = [
         ("machines (seeds)", f"{len(trials)}"),
         ("rank", ", ".join(str(each) for each in sorted({each.rank for each in trials}))),
-        ("values known on their own, per machine", f"{len(inside) / len(trials):.1f}"),
-        ("95 % intervals that hold the truth", f"{inside.mean():.1%}"),
-        ("largest miss, in stated sigmas", f"{max(each.worst_sigmas for each in trials):.1f}"),
+        ("identifiable values per machine", f"{len(inside) / len(trials):.1f}"),
+        ("95 % intervals that contain the truth", f"{inside.mean():.1%}"),
+        ("largest error, in stated standard deviations", f"{max(each.worst_sigmas for each in trials):.1f}"),
         ("residual over gauge noise, median", f"{np.median([each.residual_over_noise for each in trials]):.3f}"),
-        ("error of the ball's place at unseen poses, nominal, median", f"{np.median(before):.1f} µm"),
+        ("error of the ball position at held-out poses, nominal, median", f"{np.median(before):.1f} µm"),
         ("the same, diagnosed, median", f"{np.median(after):.2f} µm"),
-        ("improvement, median / least", f"{np.median(before / after):.0f} / {(before / after).min():.0f} times"),
+        ("improvement factor, median / smallest", f"{np.median(before / after):.0f} / {(before / after).min():.0f}"),
     ]
     return PAGE.format(rows="\n".join(f"| {name} | {value} |" for name, value in rows), command=command)
 

@@ -12,8 +12,8 @@ import click
 from tests.truth.cases import Case, case, every
 
 from hexdbb.errors import InputError
+from hexdbb.files.validation import dump_toml
 from hexdbb.record import write_record
-from hexdbb.validation import dump_toml
 
 
 @click.command(help=__doc__)

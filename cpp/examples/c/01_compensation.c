@@ -1,5 +1,4 @@
-/* A controller in C: load a compensation file for the machine it believes to drive, ask for slider targets, look back.
- */
+/* A controller in C: load a compensation file for its machine, compute slider targets, compute the pose from them. */
 #include <hexdbb/hexdbb.h>
 #include <stdio.h>
 
@@ -11,7 +10,7 @@ int main(int argc, char** argv) {
 
   if (argc != 2 || hexdbb_abi_version() != HEXDBB_ABI_VERSION) return 2;
   status = hexdbb_create_from_file(argv[1], &machine, &compensator, message, sizeof message);
-  if (status != HEXDBB_OK) { /* run without compensation only if told so: hexdbb_create_nominal */
+  if (status != HEXDBB_OK) { /* run without compensation only if configured to: hexdbb_create_nominal */
     fprintf(stderr, "%s: %s\n", hexdbb_status_name(status), message);
     return 1;
   }
@@ -21,7 +20,7 @@ int main(int argc, char** argv) {
     hexdbb_target target = HEXDBB_TARGET_INIT;
     hexdbb_estimate estimate = HEXDBB_ESTIMATE_INIT;
     status = hexdbb_sliders_from_pose(compensator, &pose, NULL, &target);
-    if (status != HEXDBB_OK) break; /* target.sliders_mm holds the last good ones */
+    if (status != HEXDBB_OK) break; /* target.sliders_mm holds those of the last successful call */
     status = hexdbb_pose_from_sliders(compensator, target.sliders_mm, NULL, &estimate);
     if (step % 33 == 0) {
       printf("slider 1 at %.4f mm, corrected by %.1f um; platform at x = %.6f mm\n", target.sliders_mm[0],

@@ -1,9 +1,8 @@
-// Compensation data: what a motion controller loads, as data in memory, as a text file, and as a C header of constants.
+// Compensation data of a motion controller: in memory, as a text file, and as a C header of constants.
 //
-// A file is a small part of TOML, written and read here alone: sections, numbers, strings, comments. It ends with the
-// CRC-32 (IEEE 802.3) of every byte above its [check] section, so that a file that was cut short or changed by hand is
-// told apart from a good one. Numbers are in the engine's units (mm, rad, s, N, K) and written so that reading gives
-// the same bits again.
+// A file is a subset of TOML: sections, numbers, strings, comments. It ends with the CRC-32 (IEEE 802.3) of every byte
+// above its [check] section, by which a truncated or edited file is detected. Numbers are in the engine's units (mm,
+// rad, s, N, K) and are written with as many digits as restore the same bits.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +15,10 @@
 
 namespace hexdbb {
 
-/// What a compensator may do.
+/// Limits of a compensator.
 struct CompensationLimits {
   double max_correction_mm = 1.0;    // of one slider; a pose that needs more is refused
-  double reversal_travel_mm = 0.01;  // over which what depends on direction goes from one side to the other
+  double reversal_travel_mm = 0.01;  // over which a correction changes with the direction of travel
 };
 
 struct CompensationValue {
@@ -48,7 +47,7 @@ struct CompensationData {
   std::vector<LeftOut> left_out;
 };
 
-/// Why compensation data are refused; the numbers of hexdbb.h.
+/// Reason for which compensation data are refused; the numbers of hexdbb.h.
 enum class CompensationFault : int {
   kNone = 0,
   kCannotRead = 20,
@@ -60,7 +59,7 @@ enum class CompensationFault : int {
   kUnknownEffect = 26,
 };
 
-/// One line: the source's name, what is wrong, what was expected.
+/// Its message is one line: the source's name, what is wrong, what was expected.
 class CompensationError : public std::runtime_error {
  public:
   CompensationError(CompensationFault fault, const std::string& message) : std::runtime_error(message), fault_(fault) {}
@@ -70,38 +69,39 @@ class CompensationError : public std::runtime_error {
   CompensationFault fault_;
 };
 
-/// What of a model can be compensated, and why the rest cannot: an effect that pushes sliders, legs or joints and
-/// depends on pose, slider position, direction, velocity, load or measured temperature (the latter only where
-/// `reference_temperature_c`, that of the record's first sample, is a number).
+/// Select the effects of a model that can be compensated, with a reason for each that cannot. An effect can be
+/// compensated where it pushes sliders, legs or joints and depends on pose, slider position, direction of travel,
+/// velocity, load or measured temperature (the latter only where `reference_temperature_c`, that of the record's first
+/// sample, is a number).
 CompensationData compensation_of(const Model& model, const std::string& name, const std::string& model_sha256,
                                  const CompensationLimits& limits, double reference_temperature_c);
 
-/// The text of a file.
+/// Return the text of a compensation file.
 std::string compensation_text(const CompensationData& data);
 
-/// A C header that holds the data as a hexdbb_constants called hexdbb_compensation.
+/// Return a C header that holds the data as a hexdbb_constants named hexdbb_compensation.
 std::string compensation_header(const CompensationData& data);
 
-/// Throws CompensationError; `source` is how messages name the text.
+/// Parse the text of a compensation file; messages name it by `source`. Throws CompensationError.
 CompensationData parse_compensation(const std::string& text, const std::string& source);
 
-/// Throws CompensationError.
+/// Read a compensation file. Throws CompensationError.
 CompensationData read_compensation(const std::string& path);
 
-/// Whether such a machine can stand at all.
+/// Return whether a machine of these dimensions can be assembled.
 bool is_possible(const Machine& machine) noexcept;
 
-/// Whether no dimension differs by more than 1e-9 of its size.
+/// Return whether no dimension differs by more than 1e-9 of its size.
 bool is_same_machine(const Machine& one, const Machine& other) noexcept;
 
-/// Throws CompensationError (kOtherMachine) naming the first dimension that differs.
+/// Throw CompensationError (kOtherMachine), naming the first dimension that differs, unless the machines are the same.
 void require_machine(const Machine& of_data, const Machine& of_controller, const std::string& source);
 
-/// Model of the data: the machine and its effects with their values. Throws CompensationError (kUnknownEffect,
-/// kMalformed).
+/// Return the model of the data: the machine and its effects with their values. Throws CompensationError
+/// (kUnknownEffect, kMalformed).
 Model compensation_model(const CompensationData& data, const std::string& source);
 
-/// CRC-32 (IEEE 802.3, as in zlib).
+/// Compute the CRC-32 (IEEE 802.3, as in zlib).
 std::uint32_t crc32(const std::string& bytes) noexcept;
 
 }  // namespace hexdbb

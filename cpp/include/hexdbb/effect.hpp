@@ -14,49 +14,58 @@
 namespace hexdbb {
 
 struct ParameterInfo {
-  std::string name;
-  std::string unit;       // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
-  double prior_sigma;     // size to expect before any measurement, the scale of the fit
-  double limit;           // values beyond +-limit make no physical sense
-  bool is_shape = false;  // pushes nothing by itself: it shapes what the effect's other parameters push
+  std::string name = {};
+  std::string unit = {};     // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
+  double prior_sigma = 0.0;  // prior standard deviation: the expected size before any measurement, and the fit's scale
+  double limit = 0.0;        // largest magnitude with a physical meaning
+  bool is_shape = false;     // pushes nothing by itself: it shapes what the effect's other parameters push
+  bool is_nonnegative = false;  // physics admits no value below 0 (play, delay, compliance)
+
+  /// Physical domain [lower, upper]. Description only: a fit is bounded by +-limit.
+  double lower() const { return is_nonnegative ? 0.0 : -limit; }
+  double upper() const { return limit; }
 };
 
-/// Lists that an effect may belong to.
+/// Lists to which an effect may belong.
 namespace group {
-inline const std::string kGeometry = "geometry";    // the thesis' 33 errors
-inline const std::string kSetUp = "set-up";         // where cup and ball are, how long the bar is
+inline const std::string kGeometry = "geometry";    // the 33 geometric errors of the thesis
+inline const std::string kSetUp = "set-up";         // positions of cup and ball, length of the bar
 inline const std::string kCatalogue = "catalogue";  // physical causes beyond these
-inline const std::string kUser = "user";            // a user's own
+inline const std::string kUser = "user";            // defined by a user
 }  // namespace group
 
 struct EffectInfo {
-  std::string name;
-  std::string physics;  // one sentence
-  std::string source;
-  std::string element_kind;               // "leg", "slider", "guideway", "side", "mount", "machine"
-  std::vector<std::string> elements;      // label of each element: "1", "2", or "12"
-  std::vector<ParameterInfo> parameters;  // of one element
-  std::vector<std::string> ports;         // names of ports.hpp
-  bool is_set_up = false;                 // belongs to the measurement, not to the machine: not to be compensated
-  std::string group = hexdbb::group::kGeometry;
-  std::vector<std::string> needs = {};  // columns of the samples' state (state.hpp)
+  std::string name = {};
+  std::string group = {};
+  std::string physics = {};                    // one sentence
+  std::string formula = {};                    // what is pushed, as plain text
+  std::string source = {};                     // thesis section, standard, paper
+  std::string element_kind = {};               // "leg", "slider", "guideway", "side", "mount", "machine"
+  std::vector<std::string> elements = {};      // label of each element: "1", "2", or "12"
+  std::vector<ParameterInfo> parameters = {};  // of one element
+  std::vector<std::string> ports = {};         // names of ports.hpp
+  std::vector<std::string> needs = {};         // columns of the samples' state (state.hpp)
+  bool is_set_up = false;                      // belongs to the measurement, not to the machine: never compensated
+  bool is_free_at_first = true;  // whether a new model fits its values; false: fixed until freed by the user
 
   int size() const { return static_cast<int>(elements.size() * parameters.size()); }
 };
 
-/// Pushes, or sensitivities, of a block of samples: one row a sample, one column a port.
+/// Pushes, or sensitivities, of a block of samples: one row per sample, one column per port.
 using PortBlock = Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>>;
 using ConstPortBlock = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>>;
-/// Derivatives of a block's readings, one column a value of the effect.
+/// Derivatives of a block's readings, one column per value of the effect.
 using JacobianBlock = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 using Values = Eigen::Ref<const Eigen::VectorXd>;
 
 class Effect {
  public:
+  explicit Effect(EffectInfo info) : info_(std::move(info)) {}
   virtual ~Effect() = default;
-  virtual const EffectInfo& info() const = 0;
 
-  /// Throws std::invalid_argument where samples lack what the effect needs. Called once before any block.
+  const EffectInfo& info() const { return info_; }
+
+  /// Throw std::invalid_argument where samples lack what the effect needs. Called once before any block.
   virtual void require(const Samples& samples) const;
 
   /// Add what the effect pushes.
@@ -65,23 +74,23 @@ class Effect {
   /// Chain rule: d reading / d value = sensitivity at the ports times d push / d value. Overwrites `jacobian`.
   virtual void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
                      JacobianBlock jacobian) const = 0;
+
+ private:
+  EffectInfo info_;
 };
 
 using EffectPtr = std::shared_ptr<const Effect>;
 
-/// The thesis' 33 geometric errors, one effect a group, in the order of thesis section 3.2.
-std::vector<EffectPtr> geometric_effects(const Machine& machine);
-
-/// Unknowns of the set-up: the cup's position per mount, the ball's offset, the bar's length.
-std::vector<EffectPtr> set_up_effects(int mounts);
-
-/// Physical causes beyond geometry and set-up; `mounts` is the number of fixings of the tool cup a model knows.
-std::vector<EffectPtr> catalogue_effects(const Machine& machine, int mounts);
-
-/// All effects the engine knows, by name; throws std::invalid_argument naming the known ones.
+/// Return the effect of that name; `mounts` is the number of fixings of the tool cup that the model distinguishes.
+/// Throws std::invalid_argument, listing the known names, where there is none.
 EffectPtr find_effect(const Machine& machine, int mounts, const std::string& name);
 
-/// Names of the effects of one group, or of all: geometry, set-up, catalogue.
+bool is_known_effect(const std::string& name);
+
+/// Return the names of the effects of one group (geometry, set-up, catalogue), or of all, in catalogue order.
 std::vector<std::string> effect_names(const std::string& group = "");
+
+/// Compute d push / d value of an effect at given values: a matrix of samples x values for each of the 55 ports.
+std::vector<Eigen::MatrixXd> push_derivatives(const Effect& effect, const Samples& samples, Values values);
 
 }  // namespace hexdbb

@@ -1,22 +1,23 @@
 /* The C interface: kinematics of a HexGlider and the compensation of its measured errors, for motion controllers.
  *
  * Model: pose of the platform <-> coordinates of the six sliders, of the nominal machine or, where a compensation file
- * is loaded, of the machine as diagnosed (hexdbb/compensation.hpp says how).
+ * is loaded, of the machine as diagnosed (see hexdbb/compensation.hpp).
  * Units: mm, rad, s, degrees Celsius. R = Rz(yaw) Ry(pitch) Rx(roll). Sliders are numbered 0 to 5 here.
  *
- * Ownership: a hexdbb_create_... function makes a compensator, hexdbb_destroy ends it; nothing else is ever owned or
- * kept. Strings handed out are constants of the library.
- * Threads: one compensator belongs to one thread. After creation no function allocates, locks, waits or calls the
- * system, so that all but the hexdbb_create_... functions and hexdbb_destroy may be called from a real-time thread.
- * Errors: every function that can fail returns a hexdbb_status, 0 for success, and never throws.
- * Versions: structs that may grow begin with struct_size; set it to sizeof the struct (the HEXDBB_..._INIT macros do).
- * A library never reads or writes beyond the size it is told.
+ * Ownership: a hexdbb_create_... function creates a compensator, hexdbb_destroy frees it; nothing else is owned or
+ * kept. Returned strings are constants of the library. Threads: one compensator belongs to one thread. After creation
+ * no function allocates, locks, waits or calls the system, so that all but the hexdbb_create_... functions and
+ * hexdbb_destroy may be called from a real-time thread. Errors: every function that can fail returns a hexdbb_status, 0
+ * for success, and never throws. Versions: structs that may grow begin with struct_size; set it to sizeof the struct
+ * (the HEXDBB_..._INIT macros do). A library never reads or writes beyond that size.
  */
 #ifndef HEXDBB_HEXDBB_H
 #define HEXDBB_HEXDBB_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include "hexdbb/sp120.h"
 
 #ifdef __cplusplus
 #define HEXDBB_NOEXCEPT noexcept
@@ -40,12 +41,12 @@ enum {
   HEXDBB_GAP = 5,
   /* of a correction */
   HEXDBB_CORRECTION_LIMIT = 6, /* larger than the compensation file allows */
-  HEXDBB_NOT_A_NUMBER = 7,     /* a pose, coordinate or velocity that is no finite number */
+  HEXDBB_NOT_A_NUMBER = 7,     /* a pose, coordinate or velocity that is not finite */
   /* of a compensation file */
   HEXDBB_CANNOT_READ = 20,
   HEXDBB_MALFORMED = 21,
   HEXDBB_TRUNCATED = 22,
-  HEXDBB_ALTERED = 23, /* the checksum does not agree */
+  HEXDBB_ALTERED = 23, /* the checksum does not match */
   HEXDBB_LATER_VERSION = 24,
   HEXDBB_OTHER_MACHINE = 25,
   HEXDBB_UNKNOWN_EFFECT = 26,
@@ -69,9 +70,19 @@ typedef struct hexdbb_dimensions {
   double moved_mass_kg;
 } hexdbb_dimensions;
 
-/* The assumed dimensions of the SP-120 as shipped. */
-#define HEXDBB_DIMENSIONS_INIT \
-  {(uint32_t)sizeof(hexdbb_dimensions), 0u, 250.0, 120.0, 20.0, 400.0, 20.0, 846.0, 60.0, 5.0, 12.0}
+/* The dimensions assumed for the SP-120. */
+#define HEXDBB_DIMENSIONS_INIT            \
+  {(uint32_t)sizeof(hexdbb_dimensions),   \
+   0u,                                    \
+   HEXDBB_SP120_BASE_INRADIUS_MM,         \
+   HEXDBB_SP120_PLATFORM_CIRCUMRADIUS_MM, \
+   HEXDBB_SP120_JOINT_PLANE_HEIGHT_MM,    \
+   HEXDBB_SP120_LEG_LENGTH_MM,            \
+   HEXDBB_SP120_TRAVEL_MIN_MM,            \
+   HEXDBB_SP120_TRAVEL_MAX_MM,            \
+   HEXDBB_SP120_MIN_GAP_MM,               \
+   HEXDBB_SP120_SCREW_LEAD_MM,            \
+   HEXDBB_SP120_MOVED_MASS_KG}
 
 /* Pose of the platform frame in the base frame. */
 typedef struct hexdbb_pose {
@@ -83,16 +94,16 @@ typedef struct hexdbb_pose {
 typedef struct hexdbb_motion {
   uint32_t struct_size;
   uint32_t reserved;
-  double velocity_mm_s[HEXDBB_SLIDERS]; /* commanded; its sign is the direction, 0: see below */
-  double temperature_c;                 /* measured; not a number (NAN) where it is not */
+  double velocity_mm_s[HEXDBB_SLIDERS]; /* commanded; its sign is the direction of travel, 0: see below */
+  double temperature_c;                 /* measured; NAN where it is not */
 } hexdbb_motion;
 
-/* Where the sliders must stand. */
+/* Slider coordinates to command. */
 typedef struct hexdbb_target {
   uint32_t struct_size;
   hexdbb_status status;
-  double sliders_mm[HEXDBB_SLIDERS];    /* to command; where status is not 0, those of the last good call */
-  double correction_mm[HEXDBB_SLIDERS]; /* of them, what compensation adds to the nominal coordinates */
+  double sliders_mm[HEXDBB_SLIDERS];    /* where status is not 0, those of the last successful call */
+  double correction_mm[HEXDBB_SLIDERS]; /* the part of them that compensation adds to the nominal coordinates */
   double largest_correction_mm;         /* magnitude */
   int32_t iterations;                   /* inverse solutions taken, 1 to 4 */
   int32_t slider;                       /* at fault, or -1 */
@@ -100,11 +111,11 @@ typedef struct hexdbb_target {
 
 #define HEXDBB_TARGET_INIT {(uint32_t)sizeof(hexdbb_target), 0, {0.0}, {0.0}, 0.0, 0, -1}
 
-/* Where the platform stands. */
+/* Pose of the platform at given slider coordinates. */
 typedef struct hexdbb_estimate {
   uint32_t struct_size;
   hexdbb_status status;
-  hexdbb_pose pose;   /* where status is not 0, that of the last good call */
+  hexdbb_pose pose;   /* where status is not 0, that of the last successful call */
   double residual_mm; /* of the loop equations */
   int32_t iterations; /* Newton steps taken */
   int32_t reserved;
@@ -112,8 +123,8 @@ typedef struct hexdbb_estimate {
 
 #define HEXDBB_ESTIMATE_INIT {(uint32_t)sizeof(hexdbb_estimate), 0, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, 0, 0}
 
-/* Compensation data as constants of a program, for firmware without a file system: what
- * `hexdbb compensate MODEL --header FILE.h` writes. */
+/* Compensation data as constants of a program, for firmware without a file system, as written by
+ * `hexdbb compensate MODEL --header FILE.h`. */
 typedef struct hexdbb_value {
   const char* effect;
   const char* element;
@@ -127,29 +138,29 @@ typedef struct hexdbb_constants {
   hexdbb_dimensions machine;
   double max_correction_mm;
   double reversal_travel_mm;
-  double reference_temperature_c; /* not a number where none was stated */
+  double reference_temperature_c; /* NAN where none was stated */
   const hexdbb_value* values;
 } hexdbb_constants;
 
 typedef struct hexdbb_compensator hexdbb_compensator;
 
-/* HEXDBB_ABI_VERSION of the library linked: refuse to run where it is not that of the header. */
+/* Return HEXDBB_ABI_VERSION of the linked library; a program should refuse to run where it differs from the header. */
 uint32_t hexdbb_abi_version(void) HEXDBB_NOEXCEPT;
 
-/* Version of the library, as "0.1.0". */
+/* Return the version of the library, as "0.1.0". */
 const char* hexdbb_version(void) HEXDBB_NOEXCEPT;
 
-/* Name of a status, as "other_machine", and what it means in words. Never NULL. */
+/* Return the name of a status, as "other_machine", and its meaning in words. Never NULL. */
 const char* hexdbb_status_name(hexdbb_status status) HEXDBB_NOEXCEPT;
 const char* hexdbb_status_text(hexdbb_status status) HEXDBB_NOEXCEPT;
 
-/* Kinematics of the nominal machine, nothing compensated. *out is NULL where it fails. */
+/* Create the kinematics of the nominal machine, without compensation. *out is NULL where it fails. */
 hexdbb_status hexdbb_create_nominal(const hexdbb_dimensions* machine, hexdbb_compensator** out) HEXDBB_NOEXCEPT;
 
-/* From a compensation file, from the text of one in memory, from constants.
- * machine: what the controller believes to drive; a file of another machine is refused. NULL: not checked.
- * message: takes one line that says what is wrong (empty where nothing is), cut to message_size; may be NULL.
- * *out is NULL where it fails: the controller then runs without compensation only if told so. */
+/* Create a compensator from a compensation file, from the text of one in memory, or from constants.
+ * machine: the machine the controller drives; a file of another machine is refused. NULL: not checked.
+ * message: receives one line stating what is wrong (empty where nothing is), cut to message_size; may be NULL.
+ * *out is NULL where it fails; a controller should then run without compensation only if configured to. */
 hexdbb_status hexdbb_create_from_file(const char* path, const hexdbb_dimensions* machine, hexdbb_compensator** out,
                                       char* message, size_t message_size) HEXDBB_NOEXCEPT;
 hexdbb_status hexdbb_create_from_memory(const char* text, size_t length, const hexdbb_dimensions* machine,
@@ -158,37 +169,37 @@ hexdbb_status hexdbb_create_from_constants(const hexdbb_constants* constants, co
                                            hexdbb_compensator** out, char* message,
                                            size_t message_size) HEXDBB_NOEXCEPT;
 
-/* NULL is allowed. */
+/* Free a compensator; NULL is allowed. */
 void hexdbb_destroy(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
 
-/* HEXDBB_OTHER_MACHINE where a dimension differs by more than 1e-9 of its size. */
+/* Return HEXDBB_OTHER_MACHINE where a dimension differs by more than 1e-9 of its size. */
 hexdbb_status hexdbb_check_machine(const hexdbb_compensator* compensator,
                                    const hexdbb_dimensions* machine) HEXDBB_NOEXCEPT;
 
-/* Dimensions it was made for; machine->struct_size must be set. */
+/* Get the dimensions the compensator was created for; machine->struct_size must be set. */
 hexdbb_status hexdbb_get_machine(const hexdbb_compensator* compensator, hexdbb_dimensions* machine) HEXDBB_NOEXCEPT;
 
-/* Compensation off (0) or on (any other; so after creation). It fades over the next 500 calls of
+/* Switch compensation off (0) or on (any other value; on after creation). It fades over the next 500 calls of
  * hexdbb_sliders_from_pose, so that no slider jumps. */
 hexdbb_status hexdbb_enable(hexdbb_compensator* compensator, int on) HEXDBB_NOEXCEPT;
 
-/* Part of the correction in force, 0 to 1; 0 for the nominal machine. */
+/* Return the part of the correction in force, 0 to 1; 0 for the nominal machine. */
 double hexdbb_enabled_part(const hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
 
-/* Forget how the machine moved before, as after homing: no slider has a direction, all starts are cold. */
+/* Forget the motion so far, as after homing: no slider has a direction of travel, all starts are cold. */
 hexdbb_status hexdbb_reset(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
 
-/* Where the sliders must stand for a pose. Call it with poses in order of motion.
- * motion: NULL where unknown, which is the same as velocities of 0 and no temperature. The direction of a slider whose
- * velocity is 0 follows from the call before; a pose more than 2 mm of slider travel away is then looked at without
- * being followed, unless the next call is near it, so that a controller may try end points in between. out->struct_size
+/* Compute the slider coordinates to command for a pose. Call it with poses in order of motion.
+ * motion: NULL where unknown, equivalent to velocities of 0 and no temperature. The direction of travel of a slider
+ * whose velocity is 0 follows from the call before; a pose more than 2 mm of slider travel away then changes no
+ * direction, unless the next call is near it, so that a controller may check end points in between. out->struct_size
  * must be set. Returns out->status. */
 hexdbb_status hexdbb_sliders_from_pose(hexdbb_compensator* compensator, const hexdbb_pose* pose,
                                        const hexdbb_motion* motion, hexdbb_target* out) HEXDBB_NOEXCEPT;
 
-/* Which pose belongs to slider coordinates, started from the pose of the call before: the inverse of
+/* Compute the pose at slider coordinates, starting from the pose of the call before: the inverse of
  * hexdbb_sliders_from_pose with the part of the correction in force.
- * motion: NULL where unknown: directions are then those of the last hexdbb_sliders_from_pose.
+ * motion: NULL where unknown; directions of travel are then those of the last hexdbb_sliders_from_pose.
  * out->struct_size must be set. Returns out->status. */
 hexdbb_status hexdbb_pose_from_sliders(hexdbb_compensator* compensator, const double sliders_mm[HEXDBB_SLIDERS],
                                        const hexdbb_motion* motion, hexdbb_estimate* out) HEXDBB_NOEXCEPT;

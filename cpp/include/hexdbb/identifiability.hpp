@@ -1,8 +1,8 @@
-// What a set of readings can say about a set of unknowns.
+// Identifiability: which combinations of unknowns a set of readings determines.
 //
-// The Jacobian of the readings, each column scaled by the size its unknown is expected to have, is factored as U S V'.
-// Directions V with a singular value near zero cannot be known: moving along them changes no reading. Columns of the
-// identifiable basis are the others, best known first. Scaled unknowns z = value / scale.
+// The Jacobian of the readings, each column scaled by the prior standard deviation of its unknown, is factored as U S
+// V'. Directions V with a singular value near zero are the null space: moving along them changes no reading. The others
+// are identifiable, best determined first. Scaled unknowns z = value / scale.
 #pragma once
 
 #include "hexdbb/prediction.hpp"
@@ -19,15 +19,16 @@ struct Identifiability {
   Eigen::MatrixXd unidentifiable() const { return directions.rightCols(directions.cols() - rank); }
 };
 
-/// Rank counts singular values above `relative` times the largest and above `absolute`.
+/// Factor a scaled Jacobian. The rank counts singular values above `relative` times the largest and above `absolute`.
 Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double relative, double absolute);
 
-/// The same from J'J alone, for the unknowns `wanted` after all that the unknowns `nuisance` can explain is taken out.
-/// Singular values below about 1e-8 of the largest drown in rounding, so `relative` should stay well above.
+/// Compute the same from J'J alone, for the unknowns `wanted`, what the unknowns `nuisance` can explain projected out.
+/// Singular values below about 1e-8 of the largest are lost in rounding, so `relative` should stay well above.
 Identifiability identifiability_of(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& wanted,
                                    const std::vector<Eigen::Index>& nuisance, double relative, double absolute);
 
-/// The part of `jacobian` that `nuisance` columns (unknowns of no interest, such as the cup's position) cannot explain.
+/// Return the part of `jacobian` that `nuisance` columns (unknowns of no interest, such as the cup's position) cannot
+/// explain. Throws std::invalid_argument where the numbers of rows differ.
 RowMajorMatrix project_out(const RowMajorMatrix& jacobian, const RowMajorMatrix& nuisance);
 
 }  // namespace hexdbb

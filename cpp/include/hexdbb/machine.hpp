@@ -8,32 +8,37 @@
 // Source: thesis sections 2-1 and 2-2, Figure 2.2. (Indices count from 0 here, from 1 in files and reports.)
 #pragma once
 
+#include "hexdbb/sp120.h"
 #include "hexdbb/types.hpp"
 
 namespace hexdbb {
 
+/// Nominal dimensions; by default those assumed for the SP-120 (sp120.h).
 struct Machine {
-  double base_inradius_mm = 250.0;          // BR
-  double platform_circumradius_mm = 120.0;  // UR
-  double joint_plane_height_mm = 20.0;      // IH
-  double leg_length_mm = 400.0;             // l
-  double travel_min_mm = 20.0;
-  double travel_max_mm = 846.0;
-  double min_gap_mm = 60.0;  // smallest distance of the two sliders of a guideway
-  double screw_lead_mm = 5.0;
-  double moved_mass_kg = 12.0;
+  double base_inradius_mm = HEXDBB_SP120_BASE_INRADIUS_MM;                  // BR
+  double platform_circumradius_mm = HEXDBB_SP120_PLATFORM_CIRCUMRADIUS_MM;  // UR
+  double joint_plane_height_mm = HEXDBB_SP120_JOINT_PLANE_HEIGHT_MM;        // IH
+  double leg_length_mm = HEXDBB_SP120_LEG_LENGTH_MM;                        // l
+  double travel_min_mm = HEXDBB_SP120_TRAVEL_MIN_MM;
+  double travel_max_mm = HEXDBB_SP120_TRAVEL_MAX_MM;
+  double min_gap_mm = HEXDBB_SP120_MIN_GAP_MM;  // smallest distance of the two sliders of a guideway
+  double screw_lead_mm = HEXDBB_SP120_SCREW_LEAD_MM;
+  double moved_mass_kg = HEXDBB_SP120_MOVED_MASS_KG;
 };
 
+/// Return V_i, mm, base frame. Here and below, guideways are 0 to 2.
 Vector3 guideway_vertex(const Machine& machine, int guideway);
+
+/// Return d_i, a unit vector, base frame.
 Vector3 guideway_direction(int guideway);
 
-/// The point of the guideway nearest to the base centre: s = sqrt(3) BR.
+/// Return the point of the guideway nearest to the base centre: s = sqrt(3) BR.
 Vector3 guideway_midpoint(const Machine& machine, int guideway);
 
-/// Guideway-local axes as columns: x outward from the base centre, y = -d_i, z up.
+/// Return the guideway's local axes as columns: x outward from the base centre, y = -d_i, z up.
 Matrix3 guideway_axes(int guideway);
 
-/// Nominal ball joint i in the platform frame.
+/// Return the nominal ball joint i in the platform frame.
 Vector3 platform_joint(const Machine& machine, int guideway);
 
 }  // namespace hexdbb

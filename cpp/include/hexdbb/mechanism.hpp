@@ -1,8 +1,8 @@
-// The mechanism as it really stands in one sample: where the joints on the sliders are, how long the legs are, where
-// the ball joints sit on the platform. Made from the nominal machine, six slider coordinates and a push at every port.
+// The actual mechanism in one sample: positions of the joints on the sliders, lengths of the legs, positions of the
+// ball joints on the platform. Assembled from the nominal machine, six slider coordinates and a push at every port.
 //
 // Assumption: pushes add. The joint centre of slider k is V_i + (s_k + slider_k) d_i + slider_joint_k; products of two
-// pushes (50 um on a guideway turned by 0.2 mrad: 0.01 um) are left out here, everything after it is exact.
+// pushes (50 um on a guideway rotated by 0.2 mrad: 0.01 um) are neglected here; everything after it is exact.
 #pragma once
 
 #include "hexdbb/machine.hpp"
@@ -20,7 +20,7 @@ struct NominalGeometry {
   Matrix36 platform_joint;  // ball joint of leg k, platform frame
 };
 
-/// A triangle of ball joints, prepared for the loop equations and for reading the pose off three points.
+/// A triangle of ball joints, prepared for the loop equations and for computing the pose from three points.
 struct PlatformTriangle {
   PlatformTriangle() = default;
   explicit PlatformTriangle(const Matrix3& joints_in);
@@ -37,12 +37,13 @@ struct Mechanism {
   Matrix36 platform_joint;  // platform frame
 };
 
+/// Add slider coordinates and pushes to the nominal machine.
 Mechanism assemble(const NominalGeometry& nominal, const Vector6& sliders_mm, const Ports& push) noexcept;
 
-/// True where both legs of each pair end in one ball joint, which the RSSR solver needs.
+/// Return whether both legs of each pair end in one ball joint, as the RSSR solver requires.
 bool joints_are_shared(const Mechanism& mechanism) noexcept;
 
-/// The three shared ball joints of a mechanism, as columns.
+/// Return the three shared ball joints of a mechanism, as columns.
 Matrix3 shared_joints(const Mechanism& mechanism) noexcept;
 
 }  // namespace hexdbb

@@ -1,5 +1,5 @@
-// Ports: the places where an effect can push on the mechanism, and, in the same layout, the sensitivity of the
-// reading to a push at each of them.
+// Ports: the quantities of the mechanism that an effect can displace ("push"), and, in the same layout, the sensitivity
+// of the reading to a push at each of them.
 //
 //   slider          6      mm, slider k stands further along its guideway than it reports
 //   leg             6      mm, leg k is longer
@@ -9,7 +9,7 @@
 //   cup             3      mm, tool cup is displaced, base frame
 //   reading         1      mm, added to the reading
 //
-// One Ports is 55 numbers side by side, so that a block of samples is a matrix with one column per port.
+// One Ports is 55 consecutive numbers, so that a block of samples is a matrix with one column per port.
 #pragma once
 
 #include <array>

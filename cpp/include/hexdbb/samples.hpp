@@ -1,4 +1,4 @@
-// Samples of a record, one row each: what effects and prediction may depend on.
+// Samples of a record, one row each: all that effects and prediction may depend on.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,6 +9,9 @@
 
 namespace hexdbb {
 
+constexpr ColumnInfo kSlidersColumn = {"sliders_mm", "mm", "slider coordinate as the drive's encoder reports it",
+                                       ColumnOf::kSlider};
+
 struct Samples {
   SliderTable sliders_mm;  // as the drives' encoders report them
   Eigen::VectorXi set_up;  // index into set_ups
@@ -18,13 +21,13 @@ struct Samples {
 
   Eigen::Index size() const { return sliders_mm.rows(); }
 
-  /// Every `stride`-th row, beginning with the first.
+  /// Return every `stride`-th row, beginning with the first.
   Samples every(Eigen::Index stride) const;
 
-  /// Some rows; the state remembers which, so that what was tabulated for the whole stays right for the part.
+  /// Return some rows; the state remembers which, so that an effect tabulated for the whole remains valid for the part.
   Samples rows(const std::vector<Eigen::Index>& which) const;
 
-  /// Throws std::invalid_argument naming the column and row where lengths differ or an index is out of range.
+  /// Throw std::invalid_argument, naming the column and row, where lengths differ or an index is out of range.
   void validate() const;
 };
 
@@ -37,7 +40,7 @@ struct SampleBlock {
   auto slider_mm(int k) const { return samples.sliders_mm.col(k).segment(first, count); }
   int mount(Eigen::Index row) const { return samples.mount[first + row]; }
 
-  /// This block's rows of a column of the state; of slider k's column of a table.
+  /// Return this block's rows of a column of the state, or of slider k's column of a table.
   auto of(const Eigen::VectorXd& column) const { return column.segment(first, count); }
   auto of(const SliderTable& table, int k) const { return table.col(k).segment(first, count); }
 };

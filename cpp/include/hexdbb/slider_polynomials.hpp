@@ -1,10 +1,10 @@
 // Effects that push every port by a polynomial of its own slider's coordinate, folded into one polynomial a port.
 //
 // Model: push_p = sum over x of x (c0 + c1 u + c2 u^2), u the coordinate of slider k(p) from mid-travel per half
-// travel, k(p) the slider or leg to which port p belongs, x one of: 1, the slider's velocity, its side, its leg's
-// force, the warming. All of the thesis' geometric errors, and all of the catalogue's that a controller can correct but
-// the screws' pitch errors, are of this kind. Whether an effect is, is found by asking it: some places and states give
-// the coefficients, others are compared with them.
+// travel, k(p) the slider or leg to which port p belongs, x one of: 1, the slider's velocity, its direction of travel,
+// its leg's force, the warming. All geometric errors of the thesis, and all effects of the catalogue that a controller
+// can correct except the pitch error of the screws, have this form. Whether an effect has it is determined by
+// evaluating it: some positions and states determine the coefficients, others verify them.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace hexdbb {
 
-/// What pushes may be proportional to, in one instant.
+/// The factors to which pushes may be proportional, at one instant.
 struct InstantState {
   Vector6 velocity_mm_s = Vector6::Zero();
-  Vector6 side = Vector6::Zero();
+  Vector6 travel_direction = Vector6::Zero();  // -1 to 1
   Vector6 leg_force = Vector6::Zero();
   double warming_k = 0.0;  // 0 where not measured
 };
@@ -27,20 +27,20 @@ class SliderPolynomials {
 
   explicit SliderPolynomials(const Machine& machine);
 
-  /// Add an effect; false, and nothing added, where it is no such polynomial.
+  /// Add an effect. Return false, and add nothing, where it does not have this form.
   bool fold(const Term& term);
 
-  /// Fix the state for the calls of evaluate() that follow.
+  /// Set the state for the following calls of evaluate().
   void settle(const InstantState& state) noexcept;
 
-  /// Push at the first kPorts ports; the others become zero.
+  /// Compute the push at the first kPorts ports; the others become zero.
   void evaluate(const Vector6& sliders_mm, Ports& push) const noexcept;
 
  private:
-  static constexpr int kFactors = 5;  // 1, velocity, side, leg force, warming
+  static constexpr int kFactors = 5;  // 1, velocity, direction of travel, leg force, warming
   using Coefficients = Eigen::Matrix<double, kPorts, 3>;
 
-  Coefficients asked(const Term& term, int factor) const;
+  Coefficients coefficients_of(const Term& term, int factor) const;
 
   Machine machine_;
   double middle_mm_, half_mm_;

@@ -1,5 +1,5 @@
-// An effect given as numbers: what it pushes per unit of each value, for every sample of one table. A user's own effect
-// comes to the engine this way, and is then fitted, ranked and reported like any other.
+// An effect given as numbers: its push per unit of each value, for every sample of one table. A user's own effect
+// enters the engine this way, and is then fitted, ranked and reported like any other.
 #pragma once
 
 #include "hexdbb/effect.hpp"
@@ -13,21 +13,19 @@ struct TabulatedLink {
   Eigen::VectorXd per_unit;
 };
 
-/// Samples taken from the table by Samples::rows() or every() find their own rows again.
+/// Samples taken from the table by Samples::rows() or every() use their own rows of it.
 class TabulatedEffect : public Effect {
  public:
-  /// Throws std::invalid_argument where a link names a value or port that is not there, columns differ in length, or a
+  /// Throw std::invalid_argument where a link names a value or port that does not exist, columns differ in length, or a
   /// number is not finite.
   TabulatedEffect(EffectInfo info, std::vector<TabulatedLink> links);
 
-  const EffectInfo& info() const override { return info_; }
   void require(const Samples& samples) const override;
   void push(const SampleBlock& block, Values values, PortBlock ports) const override;
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
              JacobianBlock jacobian) const override;
 
  private:
-  EffectInfo info_;
   std::vector<TabulatedLink> links_;
   Eigen::Index count_ = 0;
 };

@@ -13,21 +13,21 @@ using Matrix3 = Eigen::Matrix3d;
 using Vector6 = Eigen::Matrix<double, kLegs, 1>;
 using Matrix36 = Eigen::Matrix<double, 3, kLegs>;
 
-/// Guideway (0..2) on which slider or leg k (0..5) rides.
+/// Return the guideway (0..2) of slider or leg k (0..5).
 constexpr int guideway_of(int leg) { return leg / 2; }
 
-/// Position and orientation of the platform frame in the base frame: a point x of the platform stands at
+/// Position and orientation of the platform frame in the base frame: a point x of the platform is at
 /// `position + rotation * x`.
 struct Pose {
   Vector3 position = Vector3::Zero();
   Matrix3 rotation = Matrix3::Identity();
 };
 
-/// R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
+/// Compute R = Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
 Matrix3 rotation_from_rpy(double roll_rad, double pitch_rad, double yaw_rad);
 
-/// Inverse of rotation_from_rpy: (roll, pitch, yaw) in rad, thesis (2.31)-(2.33) for any orientation with |pitch| < 90
-/// deg.
+/// Compute (roll, pitch, yaw) in rad, the inverse of rotation_from_rpy: thesis (2.31)-(2.33), for any orientation with
+/// |pitch| below 90 deg.
 Vector3 rpy_from_rotation(const Matrix3& rotation);
 
 }  // namespace hexdbb

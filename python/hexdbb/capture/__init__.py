@@ -1,12 +1,15 @@
-"""`hexdbb-run`: the CANopen controller that drives a plan's circles and records them.
+"""`hexdbb-run`: the CANopen controller that drives the circles of a plan and records them.
 
-From the bus up: `transport` opens it, `link` shares it, `sdo`, `settings` and `boot` make the nodes ready, `exchange`
-and `loop` run cycles, `motion` moves axes with them under the eyes of `checks`, `samples` keeps what was captured, and
-`session` is one measurement.
+Modules from the bus upwards: `transport` opens the bus and `link` shares it between threads; `sdo`, `settings` and
+`boot` configure the nodes; `exchange` and `loop` run the communication cycles; `motion` moves the axes while `checks`
+examines every answer; `sample_buffer` turns answers into rows of the record; `session` is one measurement.
+
+Source: CiA 301 (application layer), CiA 402-2 (drives), CiA 404 (measuring devices).
 """
 
+from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.clock import Clock, Deadlines, Lockstep
-from hexdbb.capture.request import Progress, Request, prepare
+from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.simulated import simulated_rig
 from hexdbb.capture.transport import open_bus
@@ -15,10 +18,13 @@ __all__ = [
     "Clock",
     "Deadlines",
     "Lockstep",
-    "Progress",
     "Request",
+    "RunProgress",
+    "SimulatedRig",
     "measure",
     "open_bus",
+    "opened_bus",
     "prepare",
+    "running_clock",
     "simulated_rig",
 ]

@@ -1,6 +1,7 @@
-"""Before motion: find the seven nodes, see that they are what the machine file says, configure them, read back.
+"""Configuration before motion: identify the seven nodes, write their settings, read every setting back.
 
-Nothing moves here. Source: CiA 301 (NMT, 1000h, 1018h), CiA 402 and CiA 404 (device types, 6502h).
+Nothing moves here.
+Source: CiA 301 (NMT commands, device type 1000h, identity 1018h), CiA 402 (supported modes 6502h), CiA 404.
 """
 
 from __future__ import annotations
@@ -16,16 +17,25 @@ from hexdbb.capture.settings import configure_drive, configure_gauge
 from hexdbb.errors import RunError
 from hexdbb.machine import MachineFile
 
-ALL_NODES = 0
 NMT_START, NMT_PRE_OPERATIONAL = 0x01, 0x80
+"""NMT command specifiers (CiA 301)."""
 DRIVE_PROFILE, GAUGE_PROFILE = 402, 404
+"""Device profile numbers in the low word of object 1000h."""
 IDENTITY = {1: "vendor", 2: "product"}
-"""Sub-indices of 1018h compared with the EDS; 0 in the EDS stands for any."""
+"""Sub-indices of 1018h that are compared with the EDS; 0 in the EDS matches any device (CiA 306)."""
 
 
 @dataclass(frozen=True)
 class Devices:
-    """The nodes of the rig."""
+    """The nodes of the rig.
+
+    Attributes
+    ----------
+    drives : tuple of RemoteDevice
+        Drives of sliders 1 to 6.
+    gauge : RemoteDevice
+        The ball bar's length gauge.
+    """
 
     drives: tuple[RemoteDevice, ...]
     gauge: RemoteDevice
@@ -35,12 +45,23 @@ class Devices:
 
 
 def add_devices(network: canopen.Network, machine: MachineFile) -> Devices:
-    """Enter the nodes of a machine file into a network.
+    """Add the nodes of a machine file to a network.
+
+    Parameters
+    ----------
+    network : canopen.Network
+        The network of the bus; nothing is sent.
+    machine : MachineFile
+        Its ``[can]`` section names node ids and EDS files.
+
+    Returns
+    -------
+    Devices
 
     Raises
     ------
     InputError
-        An EDS is not there or cannot be read.
+        An EDS does not exist or cannot be parsed.
     """
     can = machine.can_setup
     drives = tuple(
@@ -51,17 +72,28 @@ def add_devices(network: canopen.Network, machine: MachineFile) -> Devices:
 
 
 def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float) -> list[str]:
-    """Identify and configure every node and start it.
+    """Identify, configure and start every node.
+
+    Parameters
+    ----------
+    network : canopen.Network
+        The network the devices are on, with a thread that receives.
+    devices : Devices
+        From `add_devices`.
+    machine : MachineFile
+        Travel, limits and supervision times to be written.
+    cycle_s : float
+        SYNC period, s.
 
     Returns
     -------
     list of str
-        What devices lack, and what that means.
+        One line for each object a device lacks, with the consequence.
 
     Raises
     ------
     RunError
-        A node is missing, is another than expected, or does not take a setting: nothing has moved.
+        A node does not answer, is not the expected device, or refuses a setting. Nothing has moved.
     """
     for device in devices:
         identify(device, DRIVE_PROFILE if device in devices.drives else GAUGE_PROFILE)
@@ -76,7 +108,19 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
 
 
 def identify(device: RemoteDevice, profile: int) -> None:
-    """Compare device type and identity with profile and EDS; raises `RunError` where they differ."""
+    """Check device type (1000h) and identity (1018h) of a node against its profile and EDS.
+
+    Parameters
+    ----------
+    device : RemoteDevice
+    profile : int
+        Expected device profile: 402 or 404.
+
+    Raises
+    ------
+    RunError
+        They differ; names object, value and expectation.
+    """
     found = int(device.read(0x1000)) & 0xFFFF
     if found != profile:
         raise RunError(f"{device.label}: device type {found} in object 1000:00 (expected a CiA {profile} device)")
@@ -91,7 +135,13 @@ def identify(device: RemoteDevice, profile: int) -> None:
 
 
 def check_mode_offered(drive: RemoteDevice) -> None:
-    """Refuse a drive that says it has no cyclic synchronous position mode; one without 6502h is tried."""
+    """Check that a drive offers cyclic synchronous position mode (bit 7 of 6502h); a drive without 6502h passes.
+
+    Raises
+    ------
+    RunError
+        The mode is not offered.
+    """
     if drive.has(0x6502, 0):
         modes = int(drive.read(0x6502))
         if not modes >> (CYCLIC_SYNCHRONOUS_POSITION - 1) & 1:
@@ -101,6 +151,6 @@ def check_mode_offered(drive: RemoteDevice) -> None:
 
 
 def release(network: canopen.Network, devices: Sequence[RemoteDevice]) -> None:
-    """Put nodes back to pre-operational; their settings stay."""
+    """Return nodes to pre-operational; their settings remain."""
     for device in devices:
         network.send_message(0x000, bytes([NMT_PRE_OPERATIONAL, device.node_id]))

@@ -1,8 +1,10 @@
-"""What is checked after every SYNC: a table of checks, each of which may find a fault.
+"""Checks made after every SYNC: a table of functions, each of which may find a fault.
 
-A fault has one outcome: all six axes stop together (`stop`), what was captured is kept, the cause is named. A new
-check is a new entry of `CHECKS`; they run in order, the first fault found is the cause reported, so causes stand
-before consequences.
+A fault has one outcome: all six axes stop together (`AxisGroup.stop`), the captured samples are kept, the cause is
+named. A new check is a new entry of `CHECKS`. They run in order and the first fault found is reported, so causes stand
+before their consequences.
+Source: CiA 402 (statusword 6041h, mode display 6061h, position 6064h), CiA 404 (process value 6130h, status 6150h), CiA
+301 (EMCY, heartbeat).
 """
 
 from __future__ import annotations
@@ -10,24 +12,30 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION, FOLLOWING_ERROR, INTERNAL_LIMIT, State, state_of
+from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION, FOLLOWING_ERROR, INTERNAL_LIMIT, DriveState, state_of
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
-from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 
-NMT_OPERATIONAL = 0x05
 GAUGE_STATUS_BITS = {0: "not valid", 1: "positive overload", 2: "negative overload"}
+"""Meaning of the bits of object 6150h (CiA 404)."""
 
-ENABLED_MASK, ENABLED_VALUE = State.OPERATION_ENABLED.value
+ENABLED_MASK, ENABLED_VALUE = DriveState.OPERATION_ENABLED.value
 
 
 @dataclass(frozen=True)
 class Fault:
-    """Why all axes stop."""
+    """Reason why all axes stop.
+
+    Attributes
+    ----------
+    where : str
+        The node, as the user knows it: ``node 3 (slider 3)``.
+    what : str
+        Object, value and expectation.
+    """
 
     where: str
-    """Node, in the user's words."""
     what: str
-    """Object, value and what was expected."""
 
     def __str__(self) -> str:
         return f"{self.where}: {self.what}"
@@ -35,22 +43,36 @@ class Fault:
 
 @dataclass
 class Watch:
-    """All a check may look at.
+    """The quantities that checks examine.
 
     Attributes
     ----------
-    feedback : answers to the last SYNC
-    supervision : what is known beside them
-    labels : name of each slot's node
-    expected : targets (counts) the positions of the last SYNC belong to
-    window : largest following error, counts
-    range_um : largest reading to either side
-    gauge_watched : whether the bar is mounted and the ball on its circle
-    stalled : slots missed just before the last SYNC
-    missed : slots missed so far
-    max_stall, max_missed : most of either
-    interrupted : whether the user asked to stop
-    counts_per_mm : scale of the positions
+    feedback : Feedback
+        Answers to the last SYNC.
+    supervision : Supervision
+        EMCY messages, heartbeats and counts of missing answers.
+    labels : tuple of str
+        Name of the node of each slot: drives 1 to 6, gauge.
+    window : int
+        Largest following error, counts.
+    range_um : float
+        Largest absolute reading, µm.
+    counts_per_mm : float
+        Encoder scale.
+    max_stall : int
+        Largest number of cycles that may be missed in one gap.
+    max_missed : int
+        Largest number of cycles that may be missed in one run.
+    expected : list of int
+        Targets (counts) that the positions of the last SYNC belong to, shape (6,).
+    gauge_watched : bool
+        Whether the bar is mounted and the ball on its circle.
+    stalled : int
+        Cycles missed immediately before the last SYNC.
+    missed : int
+        Cycles missed so far.
+    interrupted : bool
+        Whether the user has asked to stop.
     """
 
     feedback: Feedback
@@ -70,14 +92,14 @@ class Watch:
 
 @dataclass(frozen=True)
 class Check:
-    """One thing that is checked every cycle: its name and how a fault is found."""
+    """One check: its name and the function that returns a fault, or None."""
 
     name: str
     find: Callable[[Watch], Fault | None]
 
 
 def find_fault(watch: Watch) -> Fault | None:
-    """Run every check; returns the first fault."""
+    """Run all checks in order and return the first fault, or None."""
     for check in CHECKS:
         fault = check.find(watch)
         if fault is not None:
@@ -91,7 +113,7 @@ def _interrupted(watch: Watch) -> Fault | None:
 
 def _stall(watch: Watch) -> Fault | None:
     if watch.stalled > watch.max_stall:
-        return Fault("controller", f"held up for {watch.stalled} cycles (expected at most {watch.max_stall})")
+        return Fault("controller", f"stalled for {watch.stalled} cycles (expected at most {watch.max_stall})")
     if watch.missed > watch.max_missed:
         return Fault("controller", f"{watch.missed} cycles missed so far (expected at most {watch.max_missed})")
     return None
@@ -100,25 +122,21 @@ def _stall(watch: Watch) -> Fault | None:
 def _answers(watch: Watch) -> Fault | None:
     if not watch.feedback.missing:
         return None
-    gone = watch.supervision.silent()
-    if not gone:
+    silent = watch.supervision.silent()
+    if not silent:
         return None
     limit = watch.supervision.silent_after
-    if len(gone) == len(watch.labels):
-        return Fault("bus", f"no node has answered {limit} SYNCs in a row (expected TPDO1 of every node)")
-    what = f"TPDO1 has stayed out {limit} SYNCs in a row (expected one after every SYNC)"
-    return Fault(watch.labels[gone[0]], what)
+    if len(silent) == len(watch.labels):
+        return Fault("bus", f"no node answered {limit} consecutive SYNCs (expected TPDO1 of every node)")
+    what = f"TPDO1 missing after {limit} consecutive SYNCs (expected one after every SYNC)"
+    return Fault(watch.labels[silent[0]], what)
 
 
 def _drive_states(watch: Watch) -> Fault | None:
     for slot, word in enumerate(watch.feedback.statusword):
         if word & ENABLED_MASK != ENABLED_VALUE:
-            emergency = watch.supervision.emergencies.get(watch.supervision.nodes[slot])
-            reason = f", EMCY {emergency.code:04X}h" if emergency else ""
-            return Fault(
-                watch.labels[slot],
-                f"object 6041:00 is {word:04X}h, {state_of(word).label}{reason} (expected operation enabled)",
-            )
+            what = f"object 6041:00 is {word:04X}h, {state_of(word).label}{watch.supervision.reason(slot)}"
+            return Fault(watch.labels[slot], f"{what} (expected operation enabled)")
     return None
 
 
@@ -133,7 +151,7 @@ def _nmt_states(watch: Watch) -> Fault | None:
     for node, state in watch.supervision.nmt_states.items():
         if state != NMT_OPERATIONAL:
             label = watch.labels[watch.supervision.nodes.index(node)]
-            return Fault(label, f"heartbeat says NMT state {state} (expected {NMT_OPERATIONAL}, operational)")
+            return Fault(label, f"heartbeat reports NMT state {state} (expected {NMT_OPERATIONAL}, operational)")
     return None
 
 

@@ -1,6 +1,8 @@
-"""The state machine of a CiA 402 drive: what a statusword says, which controlword leads on.
+"""The state machine of a CiA 402 drive as the controller sees it: state from the statusword, controlwords to enable.
 
-Source: CiA 402-2 (IEC 61800-7-201), tables of statusword bits 0-6 and of controlword commands.
+The simulated drive has an implementation of its own (`hexdbb.rig.cia402`), so that an error in one of them shows as a
+disagreement.
+Source: CiA 402-2 (IEC 61800-7-201): statusword 6041h bits 0-6, controlword 6040h commands, mode 6060h.
 """
 
 from __future__ import annotations
@@ -8,17 +10,16 @@ from __future__ import annotations
 import enum
 
 CYCLIC_SYNCHRONOUS_POSITION = 8
-"""Mode of operation, objects 6060h and 6061h."""
+"""Mode of operation in objects 6060h and 6061h."""
 
 FOLLOWING_ERROR = 1 << 13
 INTERNAL_LIMIT = 1 << 11
-FOLLOWS_COMMAND = 1 << 12
 HOMED = 1 << 15
-"""Position referenced to home; the profile leaves this bit to the manufacturer."""
+"""Statusword bit: position referenced to home; the profile leaves bit 15 to the manufacturer."""
 
 
-class State(enum.Enum):
-    """States of the drive: (mask, value) of the statusword."""
+class DriveState(enum.Enum):
+    """States of the drive as (mask, value) of the statusword."""
 
     NOT_READY = (0x4F, 0x00)
     SWITCH_ON_DISABLED = (0x4F, 0x40)
@@ -47,17 +48,17 @@ class Command(enum.IntEnum):
 
 
 ENABLE_SEQUENCE = (
-    (Command.SHUTDOWN, State.READY_TO_SWITCH_ON),
-    (Command.SWITCH_ON, State.SWITCHED_ON),
-    (Command.ENABLE_OPERATION, State.OPERATION_ENABLED),
+    (Command.SHUTDOWN, DriveState.READY_TO_SWITCH_ON),
+    (Command.SWITCH_ON, DriveState.SWITCHED_ON),
+    (Command.ENABLE_OPERATION, DriveState.OPERATION_ENABLED),
 )
-"""Commands in order, each with the state that answers it."""
+"""Commands in order, each with the state it leads to (transitions 2, 3 and 4)."""
 
 
-def state_of(statusword: int) -> State:
-    """Return the state a statusword shows; an undefined pattern counts as not ready."""
-    for state in State:
+def state_of(statusword: int) -> DriveState:
+    """Return the state coded in a statusword (6041h); an undefined pattern counts as not ready."""
+    for state in DriveState:
         mask, value = state.value
         if statusword & mask == value:
             return state
-    return State.NOT_READY
+    return DriveState.NOT_READY

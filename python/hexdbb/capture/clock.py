@@ -1,8 +1,8 @@
-"""When the next SYNC is due: as soon as the answers are in (lockstep), or at its deadline (real time).
+"""Pace of the loop: the next SYNC when all answers have arrived (lockstep), or at a deadline (real time).
 
-Real time: deadlines lie one cycle apart on the monotonic clock. `time.sleep` waits on CLOCK_MONOTONIC with nanosecond
-resolution (clock_nanosleep, Python 3.11). Slots that pass while the loop is held up are skipped and counted, never
-made up for by a burst.
+Real time: deadlines are one cycle apart on the monotonic clock. `time.sleep` waits on CLOCK_MONOTONIC with nanosecond
+resolution (clock_nanosleep, Python 3.11). Cycles that pass while the loop is stalled are skipped and counted; SYNCs are
+never sent in a burst to catch up, because the drives would jump.
 """
 
 from __future__ import annotations
@@ -13,26 +13,34 @@ from typing import Protocol
 
 
 class Clock(Protocol):
-    """Paces the loop."""
+    """Pace of the loop.
+
+    Attributes
+    ----------
+    real_time : bool
+        Whether SYNCs are sent at fixed times.
+    """
 
     real_time: bool
 
     def start(self) -> None:
-        """Begin to count; the first SYNC is due at once."""
+        """Start counting; the first SYNC is due immediately."""
 
     def wait(self) -> int:
-        """Wait until the next SYNC is due; returns the number of slots missed before it."""
+        """Wait until the next SYNC is due; return the number of cycles missed before it."""
 
     def answer_timeout_s(self) -> float:
-        """Time the answers to the SYNC just sent may take."""
+        """Return the time (s) allowed for the answers to the SYNC just sent."""
 
 
 class Lockstep:
-    """The next SYNC follows the last answer; results do not depend on timing.
+    """Pace set by the nodes: the next SYNC follows the last answer, and results do not depend on timing.
 
     Parameters
     ----------
-    patience_s : time one missing answer is waited for; well below the time after which drives miss their targets
+    patience_s : float
+        Time to wait for a missing answer, s. 0.25 s outlasts the stalls of a desktop kernel (some 20 ms) and ends
+        before the simulated drives stop for lack of targets (1400h:05, 100 ms, plus 1 s of tolerance).
     """
 
     real_time = False
@@ -41,41 +49,44 @@ class Lockstep:
         self._patience_s = patience_s
 
     def start(self) -> None:
-        """Nothing to do."""
+        """Do nothing: there is no time to count."""
 
     def wait(self) -> int:
-        """Return at once."""
+        """Return 0 immediately: no cycle can be missed."""
         return 0
 
     def answer_timeout_s(self) -> float:
-        """Patience, the same for every cycle."""
+        """Return the patience (s), the same in every cycle."""
         return self._patience_s
 
 
 class Deadlines:
-    """SYNCs at fixed times.
+    """Pace set by the system clock: SYNCs at fixed times.
 
     Parameters
     ----------
-    cycle_s : time between two deadlines
+    cycle_s : float
+        Time between two deadlines, s.
     """
 
     real_time = True
     LATEST = 0.5
-    """Share of the cycle by which a SYNC may be late; later, its slot is left out: the next would follow too close."""
+    """Largest delay of a SYNC, in cycles. A later SYNC is skipped: it would be nearer to the next deadline than to its
+    own, and the drives' interpolation would see two targets within half a cycle."""
     ANSWER_SHARE = 0.75
-    """Share of the cycle the answers may take; the rest is for checks and the next targets."""
+    """Share of the cycle allowed for the answers. SYNC and TPDOs take at most 0.46 of a cycle at the largest bus load
+    allowed (0.8); the last quarter is for checks and the next targets."""
 
     def __init__(self, cycle_s: float) -> None:
         self._cycle_s = cycle_s
         self._due_s = 0.0
 
     def start(self) -> None:
-        """Put the first deadline at now."""
+        """Set the first deadline to now."""
         self._due_s = time.monotonic()
 
     def wait(self) -> int:
-        """Sleep until the next deadline, or skip to the slot that is due."""
+        """Sleep until the next deadline that is not too late; return the number of cycles skipped."""
         now_s = time.monotonic()
         late_cycles = (now_s - self._due_s) / self._cycle_s
         missed = math.ceil(late_cycles) if late_cycles > self.LATEST else 0
@@ -86,5 +97,5 @@ class Deadlines:
         return missed
 
     def answer_timeout_s(self) -> float:
-        """Time left until the answers are due."""
+        """Return the time (s) left until the answers are due, at least 0."""
         return max(0.0, self._due_s - (1.0 - self.ANSWER_SHARE) * self._cycle_s - time.monotonic())

@@ -1,8 +1,9 @@
-"""One cycle on the bus: six targets and a SYNC out, seven answers in.
+"""One communication cycle on the bus: six targets and a SYNC out, seven answers in.
 
-Pairing: a SYNC makes every node sample its values and send them, then act on the targets received before that SYNC.
-So the answers to one SYNC belong together, and positions sampled at SYNC k show where the target of SYNC k-1 has led:
-they are recorded with the table's row k-1.
+Pairing: at a SYNC every node samples its values and sends them, then acts on the target it received before that SYNC.
+The answers to one SYNC therefore belong together, and the positions sampled at SYNC k are the result of the target of
+SYNC k-1: they are recorded with row k-1 of the table of targets.
+Source: CiA 301, synchronous PDOs of transmission type 1.
 """
 
 from __future__ import annotations
@@ -17,19 +18,30 @@ from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID
 
 GAUGE_SLOT = 6
 SLOTS = 7
-"""Answers to one SYNC: drives 0 to 5, the gauge 6."""
+"""Number of answers to one SYNC; slots 0 to 5 are the drives, slot 6 is the gauge."""
 
 
 class Feedback:
-    """What the seven nodes answered to one SYNC; values of a node that did not answer are those of before.
+    """Answers of the seven nodes to one SYNC; a node that did not answer keeps its previous values.
 
     Attributes
     ----------
-    statusword, position, mode : lists of 6; position in counts
-    reading_um, gauge_status : process value and status of the gauge
-    missing : slots that did not answer
-    settled : whether the answers belong to this SYNC for sure: none was missing, now or before, and none came late
-    cycle : number of the SYNC
+    statusword : list of int
+        Object 6041h of the drives, shape (6,).
+    position : list of int
+        Object 6064h of the drives, counts, shape (6,).
+    mode : list of int
+        Object 6061h of the drives, shape (6,).
+    reading_um : float
+        Process value 6130h:01 of the gauge, µm.
+    gauge_status : int
+        Status 6150h:01 of the gauge.
+    missing : tuple of int
+        Slots that did not answer.
+    settled : bool
+        Whether the answers certainly belong to this SYNC: none was missing, now or before, and none arrived late.
+    cycle : int
+        Number of the SYNC, from 0.
     """
 
     __slots__ = ("cycle", "gauge_status", "missing", "mode", "position", "reading_um", "settled", "statusword")
@@ -46,13 +58,25 @@ class Feedback:
 
 
 class Exchange:
-    """Sends and receives the process data of a cycle; allocates nothing that grows.
+    """Sends and receives the process data of a cycle; its memory does not grow.
 
     Parameters
     ----------
-    bus : open bus, read by nobody else
-    drive_nodes, gauge_node : node ids
-    other : called with identifier, data and time of every frame that is not process data
+    bus : can.BusABC
+        An open bus that nothing else reads.
+    drive_nodes : sequence of int
+        Node ids of the drives of sliders 1 to 6.
+    gauge_node : int
+        Node id of the gauge.
+    other : callable
+        Called with identifier, data and timestamp of every frame that is not process data.
+
+    Attributes
+    ----------
+    feedback : Feedback
+        Answers to the last SYNC.
+    late_frames : int
+        Answers that arrived too late to be paired.
     """
 
     def __init__(
@@ -74,26 +98,44 @@ class Exchange:
         self._late_before = 0
 
     def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
-        """Send the six RPDOs; they act at the next SYNC."""
+        """Send the six RPDOs, which take effect at the next SYNC.
+
+        Parameters
+        ----------
+        controlwords : sequence of int
+            Object 6040h of each drive, shape (6,).
+        counts : sequence of int
+            Object 607Ah of each drive, shape (6,).
+
+        Raises
+        ------
+        can.CanError
+            The bus cannot send.
+        """
         pack, send = self._rpdo.pack_into, self._bus.send
         for message, controlword, count in zip(self._targets, controlwords, counts, strict=True):
             pack(message.data, 0, controlword, count)
             send(message)
 
     def send_sync(self) -> None:
-        """Send the SYNC."""
+        """Send the SYNC; raises `can.CanError` if the bus cannot send."""
         self._bus.send(self._sync)
         self.feedback.cycle += 1
         self.feedback.settled = not self.feedback.missing and self.late_frames == self._late_before
         self._late_before = self.late_frames
 
     def collect(self, timeout_s: float) -> Feedback:
-        """Receive the answers to the last SYNC, for at most `timeout_s`.
+        """Receive the answers to the last SYNC.
+
+        Parameters
+        ----------
+        timeout_s : float
+            Longest time to wait, s.
 
         Returns
         -------
         Feedback
-            The same object every time; `missing` names the slots without an answer.
+            The same object in every cycle; `missing` names the slots without an answer.
         """
         end_s = time.monotonic() + timeout_s
         pending = set(range(SLOTS)) - self._given_up
@@ -115,7 +157,7 @@ class Exchange:
         return self.feedback
 
     def drain(self) -> None:
-        """Take the frames that have come since the last answers; process data among them are too late to be paired."""
+        """Receive the frames that arrived since the last answers; process data among them are too late to be paired."""
         while (message := self._bus.recv(0.0)) is not None:
             if message.arbitration_id in self._slots:
                 self.late_frames += 1
@@ -123,11 +165,11 @@ class Exchange:
                 self._other(message.arbitration_id, message.data, message.timestamp)
 
     def give_up(self, slots: Iterable[int]) -> None:
-        """Wait no longer for the answers of some slots; they count as missing."""
+        """Stop waiting for the answers of some slots; they count as missing."""
         self._given_up.update(slots)
 
     def listen(self, timeout_s: float) -> None:
-        """Receive frames that are not process data for `timeout_s`, no SYNC being under way."""
+        """Receive frames that are not process data for `timeout_s` seconds while no SYNC is being answered."""
         end_s = time.monotonic() + timeout_s
         while (left_s := end_s - time.monotonic()) > 0.0:
             message = self._bus.recv(left_s)
@@ -135,7 +177,7 @@ class Exchange:
                 self._other(message.arbitration_id, message.data, message.timestamp)
 
     def _decode(self, slot: int, data: bytearray) -> bool:
-        """Take over one answer; one of another length than configured is as good as none."""
+        """Decode one answer; return False if its length is not the configured one, so that it counts as missing."""
         feedback = self.feedback
         try:
             if slot == GAUGE_SLOT:

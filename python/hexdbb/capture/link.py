@@ -1,8 +1,8 @@
-"""One bus, two ways to use it: a receiving thread while nodes are configured, the loop alone while axes move.
+"""One bus with two readers: a receiving thread while nodes are configured, the cyclic loop alone while axes move.
 
-Assumption users get wrong: callbacks through python-can's Notifier lose frames under load, so during motion no thread
-reads the bus. Frames of other services (SDO, EMCY, heartbeats) that the loop receives are handed to `canopen` from
-the loop, and frames a helper thread wants to send wait in an outbox until the loop sends them.
+Assumption users get wrong: callbacks through python-can's Notifier lose frames under load, so no thread reads the bus
+during motion. The loop passes frames of other services (SDO, EMCY, heartbeats) on to `canopen`, and frames that a
+helper thread sends wait in an outbox until the loop sends them.
 """
 
 from __future__ import annotations
@@ -15,14 +15,16 @@ import can
 import canopen
 
 NOTIFIER_CYCLE_S = 0.02
+"""Longest time the receiving thread blocks in one read: the delay until it ends when the configuration is finished."""
 
 
 class Link(canopen.Network):
-    """A canopen network whose frames go through a thread or through the loop.
+    """A canopen network whose frames are received by a thread or by the loop.
 
     Parameters
     ----------
-    bus : an open python-can bus; closing it is the caller's business
+    bus : can.BusABC
+        An open bus; the caller closes it.
     """
 
     def __init__(self, bus: can.BusABC) -> None:
@@ -31,7 +33,7 @@ class Link(canopen.Network):
 
     @contextmanager
     def threaded(self) -> Iterator[None]:
-        """While inside, a thread receives and hands frames to `canopen`."""
+        """Receive in a thread that passes frames on to `canopen`, for the length of the context."""
         notifier = can.Notifier(self.bus, self.listeners, NOTIFIER_CYCLE_S)
         try:
             yield
@@ -40,7 +42,7 @@ class Link(canopen.Network):
 
     @contextmanager
     def looped(self) -> Iterator[None]:
-        """While inside, the caller receives, and sends what `flush` finds in the outbox."""
+        """Leave receiving to the caller and queue outgoing frames until `flush`, for the length of the context."""
         self._outbox = deque()
         try:
             yield
@@ -49,7 +51,7 @@ class Link(canopen.Network):
             self._outbox = None
 
     def send_message(self, can_id: int, data: bytes, remote: bool = False) -> None:
-        """Send a frame, or leave it to the loop."""
+        """Send a frame now, or queue it for the loop."""
         if self._outbox is None:
             super().send_message(can_id, data, remote)
         else:
@@ -58,6 +60,6 @@ class Link(canopen.Network):
             )
 
     def flush(self) -> None:
-        """Send the frames in the outbox."""
+        """Send the queued frames."""
         while self._outbox:
             self.bus.send(self._outbox.popleft())

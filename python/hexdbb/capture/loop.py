@@ -1,7 +1,7 @@
-"""The cyclic loop: every cycle targets, controller heartbeat, SYNC at its time, answers.
+"""The cyclic loop: targets, heartbeat of the controller, SYNC when it is due, answers.
 
-Enabling, following a table, stopping and disabling are all made of this one cycle, so that from the first to the last
-SYNC no other frame order exists on the bus.
+Enabling, following a table, stopping and disabling all consist of this one cycle, so that the order of frames on the
+bus is the same from the first to the last SYNC.
 """
 
 from __future__ import annotations
@@ -18,30 +18,40 @@ from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
 from hexdbb.capture.link import Link
 from hexdbb.capture.settings import CONTROLLER_NODE
+from hexdbb.capture.supervision import HEARTBEAT_BASE, NMT_OPERATIONAL
 
-HEARTBEAT_BASE = 0x700
-NMT_OPERATIONAL = 0x05
 T = TypeVar("T")
 PAUSE_POLL_S = 0.005
+"""Time between two repetitions of the targets during a pause in lockstep: well below the RPDO timeout (100 ms)."""
 STALL_PATIENCE = 8
-"""Times a rig that does not answer at all is waited for in lockstep: it is held up, or gone."""
+"""Answer timeouts to wait in lockstep while no node at all answers: 8 x 0.25 s. A simulated rig held up by a busy
+desktop answers within that time; one that does not has ended."""
 
 
 class Loop:
-    """Runs cycles on a bus.
+    """Runs communication cycles on a bus.
 
     Parameters
     ----------
-    link : the network, inside `Link.looped`
-    exchange : process data
-    clock : pace
-    heartbeat_s : period of the controller's heartbeat
+    link : Link
+        The network, inside `Link.looped`.
+    exchange : Exchange
+        Process data.
+    clock : Clock
+        Pace.
+    heartbeat_s : float
+        Period of the controller's heartbeat, s.
 
     Attributes
     ----------
-    slot : number of the slot of the last SYNC, missed ones counted, held ones not: time of motion in cycles
-    missed : slots missed so far
-    counts : targets sent last
+    cycle_index : int
+        Time of motion of the last SYNC, in cycles from 0: missed cycles are counted, those of a pause are not.
+    missed : int
+        Cycles missed so far.
+    last_missed : int
+        Cycles missed immediately before the last SYNC.
+    counts : list of int
+        Targets sent last, counts, shape (6,).
     """
 
     def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float) -> None:
@@ -50,7 +60,7 @@ class Loop:
         self._heartbeat = can.Message(
             arbitration_id=HEARTBEAT_BASE + CONTROLLER_NODE, is_extended_id=False, data=bytearray([NMT_OPERATIONAL])
         )
-        self.slot = -1
+        self.cycle_index = -1
         self.missed = 0
         self.last_missed = 0
         self.counts: list[int] = [0] * 6
@@ -64,15 +74,26 @@ class Loop:
     def cycle(self, controlwords: Sequence[int], counts: Sequence[int]) -> Feedback:
         """Send targets and SYNC, receive the answers.
 
+        Parameters
+        ----------
+        controlwords : sequence of int
+            Shape (6,).
+        counts : sequence of int
+            Targets in counts, shape (6,).
+
+        Returns
+        -------
+        Feedback
+
         Raises
         ------
         can.CanError
-            The bus is gone.
+            The bus is lost.
         """
         self._send(controlwords, counts)
         self.last_missed = self.clock.wait()
         self.missed += self.last_missed
-        self.slot += 1 + self.last_missed
+        self.cycle_index += 1 + self.last_missed
         if self.clock.real_time:
             self._exchange.drain()
         self._exchange.send_sync()
@@ -82,16 +103,16 @@ class Loop:
         return feedback
 
     def give_up(self, slots: Collection[int]) -> Collection[int]:
-        """Wait no longer for the answers of some slots; returns them; none in real time: waiting is free."""
+        """Stop waiting for the answers of some slots and return them; empty in real time, where waiting is free."""
         if self.clock.real_time:
             return ()
         self._exchange.give_up(slots)
         return slots
 
     def _wait_for_any(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
-        """Wait longer for a SYNC nobody has answered, targets kept alive.
+        """Wait longer for the answers to a SYNC that no node has answered, repeating the targets.
 
-        Another SYNC would be answered with the answers to this one, and every later sample would be one cycle off.
+        If another SYNC were sent, its answers would be mistaken: every later sample would be one cycle off.
         """
         for _ in range(STALL_PATIENCE):
             self._send(controlwords, counts)
@@ -99,19 +120,32 @@ class Loop:
                 return
 
     def restart_time(self) -> None:
-        """Count time from here on: the next SYNC is in slot 0."""
-        self.slot = -1
+        """Restart the time of motion: the next SYNC has index 0."""
+        self.cycle_index = -1
         self.missed = 0
 
     def hold_while(
         self, work: Callable[[], T], controlwords: Sequence[int], check: Callable[[], None] = lambda: None
     ) -> T:
-        """Hold the present targets while `work` runs in a thread that may use SDO; its result or exception comes back.
+        """Hold the present targets while `work` runs in a thread that may use SDO.
 
-        In lockstep no SYNC is sent meanwhile, so that the number of cycles does not depend on how long it takes.
-        `check` is called all along; what it raises ends the hold at once, and leaves the thread to itself.
+        In lockstep no SYNC is sent meanwhile, so that the number of cycles does not depend on how long `work` takes.
+
+        Parameters
+        ----------
+        work : callable
+            Runs in a thread of its own.
+        controlwords : sequence of int
+            Shape (6,).
+        check : callable
+            Called in every cycle; an exception it raises ends the pause immediately and abandons the thread.
+
+        Returns
+        -------
+        object
+            The result of `work`; its exception is raised again.
         """
-        counts, slot = list(self.counts), self.slot
+        counts, cycle_index = list(self.counts), self.cycle_index
         future: Future[T] = Future()
         threading.Thread(target=_run, args=(work, future), name="hexdbb-pause", daemon=True).start()
         while not future.done():
@@ -122,7 +156,7 @@ class Loop:
                 self._exchange.listen(PAUSE_POLL_S)
             check()
         self._link.flush()
-        self.slot = slot
+        self.cycle_index = cycle_index
         return future.result()
 
     def _send(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
@@ -136,8 +170,8 @@ class Loop:
 
 
 def _run(work: Callable[[], T], future: Future[T]) -> None:
-    """Do the work of a pause, and hand its result or its exception over."""
+    """Run the work of a pause and store its result or its exception."""
     try:
         future.set_result(work())
-    except BaseException as error:  # whatever it is, it is raised again in the loop, which would wait for ever
+    except BaseException as error:  # raised again in the loop, which would otherwise wait for ever
         future.set_exception(error)

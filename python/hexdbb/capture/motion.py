@@ -1,7 +1,8 @@
-"""Enable without a bump, follow a table, stop all axes together, disable.
+"""The six axes together: read positions, enable without a jump, follow a table, stop, disable.
 
-Source: CiA 402 state machine. Assumption users get wrong: a drive is believed only when its statusword, mode display
-and position say so; a command that was sent is not a command that was obeyed.
+Assumption users get wrong: a command that was sent is not a command that was obeyed. A drive counts as enabled, stopped
+or in a mode only when its statusword, mode display and position show it.
+Source: CiA 402-2, state machine (controlword 6040h, statusword 6041h) and cyclic synchronous position mode.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from hexdbb.capture.cia402 import (
     ENABLE_SEQUENCE,
     HOMED,
     Command,
-    State,
+    DriveState,
     state_of,
 )
 from hexdbb.capture.exchange import Feedback
@@ -28,53 +29,77 @@ from hexdbb.capture.transport import one_line
 from hexdbb.errors import RunError
 
 STEP_TIMEOUT_S = 2.0
-"""Time every drive has for one step of its state machine, in cycles' time."""
+"""Longest time for one transition of all drives, s, counted in cycles. Switching power on and releasing a brake takes
+some tenths of a second; a drive that needs more than 2 s has failed."""
 STOP_TIMEOUT_S = 2.0
-"""Time axes have to come to a stand."""
-STAND_CYCLES = 10
-"""Cycles a position must stay for an axis to count as standing."""
-STAND_COUNTS = 2
-"""Change of position between cycles that is encoder noise."""
+"""Longest time from quick stop to standstill, s, counted in cycles: from the shipped velocity limit (250 mm/s) a ramp
+of 125 mm/s² would suffice, a twentieth of the acceleration limit. Wall-clock time may be twice as long."""
+STANDSTILL_CYCLES = 10
+"""Consecutive cycles without motion after which an axis counts as stopped: 40 ms at 250 Hz, long compared with the
+instant in which an overshooting position loop reverses."""
+STANDSTILL_COUNTS = 2
+"""Largest change of position between two cycles of an axis at standstill, counts: the encoder's rounding by one count
+to either side."""
 
-STANDING_STATES = (State.QUICK_STOP_ACTIVE, State.SWITCH_ON_DISABLED, State.FAULT, State.READY_TO_SWITCH_ON)
+STOPPED_STATES = (
+    DriveState.QUICK_STOP_ACTIVE,
+    DriveState.SWITCH_ON_DISABLED,
+    DriveState.FAULT,
+    DriveState.READY_TO_SWITCH_ON,
+)
 
-Kept = Callable[[int, Feedback], None]
-"""Takes the answers that belong to a row of the table."""
+KeepRow = Callable[[int, Feedback], None]
+"""Called with the number of a row of the table and the answers that belong to it."""
 
 
 class MotionFaultError(RunError):
-    """A fault was found while axes were enabled."""
+    """A fault was found while axes were enabled.
+
+    Attributes
+    ----------
+    fault : Fault
+        The cause.
+    """
 
     def __init__(self, fault: Fault) -> None:
         super().__init__(str(fault))
         self.fault = fault
 
 
-class Motion:
-    """Moves the six axes.
+class AxisGroup:
+    """The six axes, commanded together.
 
     Parameters
     ----------
-    loop : runs the cycles
-    watch : what the checks look at
-    labels : name of each drive and of the gauge
-    cycle_s : time between two SYNCs
+    loop : Loop
+        Runs the cycles.
+    watch : Watch
+        Quantities that the checks examine.
+    labels : sequence of str
+        Names of the drives and the gauge in messages.
+    cycle_s : float
+        SYNC period, s.
     """
 
     def __init__(self, loop: Loop, watch: Watch, labels: Sequence[str], cycle_s: float) -> None:
         self._loop, self._watch, self._labels, self._cycle_s = loop, watch, labels, cycle_s
 
-    def stand(self) -> list[int]:
-        """Ask where the axes stand, disabled; returns six positions in counts.
+    def read_positions(self) -> list[int]:
+        """Read the positions of the axes with the drives disabled, after a fault reset.
+
+        Returns
+        -------
+        list of int
+            Object 6064h of each drive, counts, shape (6,).
 
         Raises
         ------
         RunError
-            A node does not answer, shows another mode, is not homed, or has a fault that a reset does not clear.
+            A node does not answer, shows another mode, or has a fault that the reset does not clear.
         """
         for command in (Command.DISABLE_VOLTAGE, Command.FAULT_RESET, Command.DISABLE_VOLTAGE):
             feedback = self._until(command, lambda feedback: not feedback.missing, "an answer to SYNC")
-        self._until(Command.DISABLE_VOLTAGE, self._all_in(State.SWITCH_ON_DISABLED), "switch on disabled")
+        self._until(Command.DISABLE_VOLTAGE, self._all_in(DriveState.SWITCH_ON_DISABLED), "switch on disabled")
         in_mode = [mode == CYCLIC_SYNCHRONOUS_POSITION for mode in feedback.mode]
         if not all(in_mode):
             slot = in_mode.index(False)
@@ -85,59 +110,68 @@ class Motion:
         return list(feedback.position)
 
     def check_homed(self) -> None:
-        """Raise `RunError` where a drive does not say that its position is referenced."""
+        """Check that every drive reports a homed position (statusword bit 15); raises `RunError` otherwise."""
         for label, word in zip(self._labels, self._loop.feedback.statusword, strict=False):
             if not word & HOMED:
                 raise RunError(f"{label}: object 6041:00 is {word:04X}h, not homed (expected bit 15)")
 
     def enable(self) -> list[int]:
-        """Enable operation with each target where its axis stands; returns the targets.
+        """Enable operation without a jump: each target is the present position of its axis.
+
+        Returns
+        -------
+        list of int
+            The targets, counts, shape (6,).
 
         Raises
         ------
         RunError
-            A drive does not go along; stopping all of them is the caller's business.
+            A drive does not reach the next state; the caller must stop all axes.
         """
         for command, state in ENABLE_SEQUENCE:
-            if state is State.OPERATION_ENABLED:
-                # Held from here on: a target that went on following the position would let the axis drift.
+            if state is DriveState.OPERATION_ENABLED:
+                # Constant from here on: a target that kept following the position would let the axis drift.
                 self._loop.counts = list(self._loop.feedback.position)
-            self._until(command, self._all_in(state), state.label, follow=state is not State.OPERATION_ENABLED)
+            self._until(command, self._all_in(state), state.label, follow=state is not DriveState.OPERATION_ENABLED)
         return list(self._loop.counts)
 
     def follow(
         self,
         counts: NDArray[np.int32],
         gauge_watched: NDArray[np.bool_],
-        keep: Kept,
+        keep: KeepRow,
         pauses: Mapping[int, Callable[[], None]],
     ) -> None:
-        """Send a table's rows, one per cycle, check every answer, and hand over those that belong to a row.
+        """Send a table of targets, one row per cycle, and check every answer.
 
         Parameters
         ----------
-        counts : (n, 6) targets
-        gauge_watched : (n,) rows in which the reading must be good
-        keep : called with a row's number and the answers that belong to it
-        pauses : what to do before a row is sent, targets held meanwhile
+        counts : numpy.ndarray
+            Targets in counts, shape (n, 6).
+        gauge_watched : numpy.ndarray
+            Rows in which the reading must be valid and within range, shape (n,).
+        keep : callable
+            Called with the number of a row and the answers that belong to it.
+        pauses : mapping of int to callable
+            Work to be done before a row is sent, while the targets are held.
 
         Raises
         ------
         MotionFaultError
-            A check found a fault; the targets stay where they were.
+            A check found a fault; the targets remain those sent last.
         can.CanError
-            The bus is gone.
+            The bus is lost.
         """
         enabled = [Command.ENABLE_OPERATION] * 6
         watch, loop = self._watch, self._loop
-        # A heartbeat sent before the nodes were started may have been on its way until now.
+        # A heartbeat sent before the nodes were started may have arrived only now.
         watch.supervision.nmt_states.clear()
         rows = len(counts)
         for row in range(rows + 1):
             if row in pauses:
                 watch.expected = loop.counts
                 loop.hold_while(pauses[row], enabled, self._check)
-            # The answers to this SYNC show where the targets sent before it have led.
+            # The answers to this SYNC belong to the targets sent before it.
             watch.expected = loop.counts
             watch.gauge_watched = row > 0 and bool(gauge_watched[row - 1])
             feedback = loop.cycle(enabled, counts[min(row, rows - 1)].tolist())
@@ -146,7 +180,7 @@ class Motion:
                 keep(row - 1, feedback)
 
     def _check(self) -> None:
-        """Look at the answers to the last SYNC; raises `MotionFaultError` where a check finds a fault."""
+        """Check the answers to the last SYNC; raises `MotionFaultError` if a check finds a fault."""
         watch, loop = self._watch, self._loop
         watch.supervision.count_missing(loop.feedback)
         watch.stalled, watch.missed = loop.last_missed, loop.missed
@@ -155,12 +189,12 @@ class Motion:
             raise MotionFaultError(fault)
 
     def stop(self) -> list[str]:
-        """Quick stop on all axes together, targets frozen, until every one is seen to stand.
+        """Quick stop all axes together with frozen targets until the standstill of each is confirmed.
 
         Returns
         -------
         list of str
-            One line for each axis that could not be seen to have stopped; empty when all have.
+            One line for each axis whose standstill could not be confirmed; empty if all have stopped.
         """
         loop, frozen = self._loop, list(self._loop.counts)
         supervision = self._watch.supervision
@@ -173,42 +207,44 @@ class Motion:
                 feedback = loop.cycle([Command.QUICK_STOP] * 6, frozen)
                 supervision.count_missing(feedback)
                 for slot, position in enumerate(feedback.position):
-                    rests = slot not in feedback.missing and abs(position - before[slot]) <= STAND_COUNTS
+                    rests = slot not in feedback.missing and abs(position - before[slot]) <= STANDSTILL_COUNTS
                     still[slot] = still[slot] + 1 if rests else 0
                 before = list(feedback.position)
                 done = all(self._stopped(slot, still) or slot in given_up for slot in range(6))
                 if done or time.monotonic() > end_s:
                     break
         except (can.CanError, OSError) as error:
-            gone = f"the bus is gone ({one_line(error)})"
-            return [f"{gone}: the drives stop by themselves when targets and heartbeat stay out"]
+            lost = f"bus lost ({one_line(error)})"
+            return [f"{lost}: the drives stop on their own when targets and heartbeat are missing"]
         return [self._unstopped(slot) for slot in range(6) if not self._stopped(slot, still)]
 
     def disable(self) -> None:
-        """Take the drives out of operation, axes standing; raises `RunError` where one does not go along."""
+        """Disable the drives, axes at standstill; raises `RunError` if one does not reach the next state."""
         self._until(
             Command.SHUTDOWN, lambda feedback: not self._still_enabled(feedback), "ready to switch on", follow=False
         )
-        self._until(Command.DISABLE_VOLTAGE, self._all_in(State.SWITCH_ON_DISABLED), "switch on disabled", follow=False)
+        self._until(
+            Command.DISABLE_VOLTAGE, self._all_in(DriveState.SWITCH_ON_DISABLED), "switch on disabled", follow=False
+        )
 
     def _stopped(self, slot: int, still: Sequence[int]) -> bool:
-        """Whether an axis is seen to stand in a state in which it does not follow targets."""
+        """Whether the standstill of an axis is confirmed, in a state in which it does not follow targets."""
         feedback = self._loop.feedback
         state = state_of(feedback.statusword[slot])
-        return slot not in feedback.missing and state in STANDING_STATES and still[slot] >= STAND_CYCLES
+        return slot not in feedback.missing and state in STOPPED_STATES and still[slot] >= STANDSTILL_CYCLES
 
     def _unstopped(self, slot: int) -> str:
-        """Say what an axis that is not seen to stand does."""
+        """Return the message about an axis whose standstill is not confirmed."""
         feedback = self._loop.feedback
         if slot in feedback.missing:
-            return f"{self._labels[slot]}: does not answer, not seen to have stopped"
+            return f"{self._labels[slot]}: does not answer, standstill not confirmed"
         state = state_of(feedback.statusword[slot])
-        if state not in STANDING_STATES:
-            return f"{self._labels[slot]}: object 6041:00 still says {state.label}"
-        return f"{self._labels[slot]}: object 6064:00 still moves"
+        if state not in STOPPED_STATES:
+            return f"{self._labels[slot]}: object 6041:00 still reports {state.label}"
+        return f"{self._labels[slot]}: object 6064:00 still changes"
 
     def _until(self, command: Command, reached: Callable[[Feedback], bool], what: str, follow: bool = True) -> Feedback:
-        """Cycle with one command until `reached`; targets follow the positions, or stay."""
+        """Repeat one command until `reached`; targets follow the positions, or remain constant."""
         for _ in range(round(STEP_TIMEOUT_S / self._cycle_s)):
             counts = list(self._loop.feedback.position) if follow else self._loop.counts
             feedback = self._loop.cycle([command] * 6, counts)
@@ -220,23 +256,22 @@ class Motion:
         raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s)")
 
     def _culprit(self, reached: Callable[[Feedback], bool]) -> str:
-        """Name the first node that did not go along."""
+        """Return the message about the first node that did not reach the state."""
         feedback = self._loop.feedback
         if feedback.missing:
-            return f"{self._labels[feedback.missing[0]]}: TPDO1 stays out"
+            return f"{self._labels[feedback.missing[0]]}: TPDO1 missing"
         for slot, word in enumerate(feedback.statusword):
             alone = Feedback()
             alone.statusword = [word] * 6
             if not reached(alone):
-                emergency = self._watch.supervision.emergencies.get(self._watch.supervision.nodes[slot])
-                reason = f", EMCY {emergency.code:04X}h" if emergency else ""
+                reason = self._watch.supervision.reason(slot)
                 return f"{self._labels[slot]}: object 6041:00 is {word:04X}h, {state_of(word).label}{reason}"
         return "drives: no common state"
 
     @staticmethod
-    def _all_in(state: State) -> Callable[[Feedback], bool]:
+    def _all_in(state: DriveState) -> Callable[[Feedback], bool]:
         return lambda feedback: all(state_of(word) is state for word in feedback.statusword)
 
     @staticmethod
     def _still_enabled(feedback: Feedback) -> bool:
-        return any(state_of(word) is State.OPERATION_ENABLED for word in feedback.statusword)
+        return any(state_of(word) is DriveState.OPERATION_ENABLED for word in feedback.statusword)

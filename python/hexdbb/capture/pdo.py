@@ -1,7 +1,8 @@
-"""The process data of the rig: which objects travel in which PDO, and their bytes.
+"""Process data of the rig: the objects in each PDO and their bytes.
 
-One table serves the bus configuration (mapping), the bus-load arithmetic and the cyclic loop (packing), so that they
-cannot disagree. Values are little-endian, CiA 301.
+One table serves the bus configuration (mapping), the bus-load calculation and the cyclic loop (packing), so that they
+cannot disagree. Values are little-endian.
+Source: CiA 301 (PDO parameters 1400h, 1600h, 1800h, 1A00h; predefined connection set), CiA 402, CiA 404.
 """
 
 from __future__ import annotations
@@ -10,15 +11,24 @@ import struct
 from dataclasses import dataclass
 
 SYNC_ID = 0x080
+"""CAN identifier of SYNC (CiA 301, predefined connection set)."""
 SYNCHRONOUS = 1
 """Transmission type: taken over, or sampled and sent, at every SYNC."""
 NOT_VALID = 1 << 31
-"""Bit 31 of a PDO's COB-ID: switched off."""
+"""Bit 31 of a PDO's COB-ID (1400h:01, 1800h:01): the PDO is disabled."""
 
 
 @dataclass(frozen=True)
 class Mapped:
-    """One object in a PDO: index, sub-index and its struct code."""
+    """One object in a PDO.
+
+    Attributes
+    ----------
+    index, subindex : int
+        Its place in the object dictionary.
+    code : str
+        Its `struct` code.
+    """
 
     index: int
     subindex: int
@@ -29,17 +39,21 @@ class Mapped:
         """The object as a mapping entry (1600h, 1A00h): index, sub-index, length in bits."""
         return self.index << 16 | self.subindex << 8 | 8 * struct.calcsize("<" + self.code)
 
-    @property
-    def name(self) -> str:
-        """Index and sub-index as CiA writes them."""
-        return f"{self.index:04X}:{self.subindex:02X}"
-
 
 @dataclass(frozen=True)
 class PdoLayout:
-    """One PDO: identifier base, communication and mapping objects, what it carries."""
+    """One PDO.
 
-    name: str
+    Attributes
+    ----------
+    base_id : int
+        CAN identifier of node 0 (predefined connection set).
+    communication, mapping : int
+        Indices of its communication and mapping parameters.
+    objects : tuple of Mapped
+        Its contents in the order of the frame.
+    """
+
     base_id: int
     communication: int
     mapping: int
@@ -52,11 +66,11 @@ class PdoLayout:
 
     @property
     def bytes(self) -> int:
-        """Length of its data."""
+        """Number of data bytes."""
         return self.struct.size
 
     def cob_id(self, node: int) -> int:
-        """Identifier of this PDO of a node (predefined connection set)."""
+        """Return the CAN identifier of this PDO of a node (predefined connection set)."""
         return self.base_id + node
 
 
@@ -68,6 +82,6 @@ MODE_DISPLAY = Mapped(0x6061, 0, "b")
 READING = Mapped(0x6130, 1, "f")
 GAUGE_STATUS = Mapped(0x6150, 1, "B")
 
-DRIVE_RPDO = PdoLayout("RPDO1", 0x200, 0x1400, 0x1600, (CONTROLWORD, TARGET_POSITION))
-DRIVE_TPDO = PdoLayout("TPDO1", 0x180, 0x1800, 0x1A00, (STATUSWORD, POSITION, MODE_DISPLAY))
-GAUGE_TPDO = PdoLayout("TPDO1", 0x180, 0x1800, 0x1A00, (READING, GAUGE_STATUS))
+DRIVE_RPDO = PdoLayout(0x200, 0x1400, 0x1600, (CONTROLWORD, TARGET_POSITION))
+DRIVE_TPDO = PdoLayout(0x180, 0x1800, 0x1A00, (STATUSWORD, POSITION, MODE_DISPLAY))
+GAUGE_TPDO = PdoLayout(0x180, 0x1800, 0x1A00, (READING, GAUGE_STATUS))

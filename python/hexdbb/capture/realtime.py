@@ -1,6 +1,6 @@
-"""Ask the system for what a real-time loop needs, and say what it did not grant.
+"""Real-time scheduling and locked memory for the loop, as far as the system permits.
 
-Source: sched(7), mlockall(2). Each request stands alone; none is needed for the loop to run.
+Source: sched(7), mlockall(2). The requests are independent of each other, and the loop runs without any of them.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 FIFO_PRIORITY = 50
+"""Priority of SCHED_FIFO (1 to 99): above ordinary processes, not above the interrupt threads of a PREEMPT_RT kernel
+(50 by default), which the CAN driver needs."""
 MCL_CURRENT, MCL_FUTURE = 1, 2
 
 
@@ -33,7 +35,13 @@ REQUESTS: dict[str, Callable[[], None]] = {
 
 @contextmanager
 def real_time_process() -> Iterator[list[str]]:
-    """Make this process as real-time as the system permits; yields what was not granted, one line each."""
+    """Request real-time scheduling and locked memory and switch garbage collection off, for the length of the context.
+
+    Yields
+    ------
+    list of str
+        One line for each request that the system did not grant.
+    """
     refused = []
     for what, request in REQUESTS.items():
         try:

@@ -1,4 +1,4 @@
-"""What is to be measured, what can be checked of it without a bus, and how far the measurement has come."""
+"""The request for a measurement, its checks that need no bus, and the progress of the run."""
 
 from __future__ import annotations
 
@@ -15,22 +15,35 @@ from hexdbb.trajectory import Programme, Targets, plan_programme
 
 
 @dataclass
-class Progress:
-    """What a display may show; written by the loop, read by others.
+class RunProgress:
+    """Progress of a run; written by the loop, read by a display.
 
     Attributes
     ----------
-    stage : what is being done, in words
-    row, rows : place in the table of targets
-    slot, samples, missed, reading_um : as the loop has them
-    paused : whether the operator is being asked something
-    notes : what devices or the system lack, and what that means
+    stage : str
+        Present phase of the run: ``reading axis positions``, ``enabling``, ``moving`` ...
+    row, rows : int
+        Present row and number of rows of the table of targets.
+    cycle_index : int
+        Time of motion in cycles.
+    paused : bool
+        Whether the operator is being asked to do something.
+    samples : int
+        Samples captured so far.
+    missed : int
+        Cycles missed so far.
+    reading_um : float
+        Last reading, µm; nan before the first one.
+    programme : Programme or None
+        The table that is being followed, approach included.
+    notes : list of str
+        Objects that devices lack and requests that the system refused, with the consequences.
     """
 
     stage: str = "starting"
     row: int = 0
     rows: int = 0
-    slot: int = 0
+    cycle_index: int = 0
     paused: bool = False
     samples: int = 0
     missed: int = 0
@@ -41,18 +54,30 @@ class Progress:
 
 @dataclass(frozen=True)
 class Request:
-    """What to measure and where to keep it.
+    """A plan to be measured and the record to be written.
 
     Attributes
     ----------
-    plan, machine : the plan and the machine it names
-    origin : names the plan in errors
-    record : path of the record to be made
-    overwrite : whether an existing record may be replaced
-    confirm : asks the operator to mount the bar; None where nobody has to
-    silent_after : SYNCs in a row a node may leave unanswered before all axes stop
-    metadata : what else to keep in the record
-    targets : what gives the sliders' targets; the nominal machine's where None
+    plan : Plan
+        Circles, feeds and set-ups.
+    machine : MachineFile
+        The machine that the plan names.
+    origin : str
+        Name of the plan in errors.
+    cycle_s : float
+        SYNC period, s.
+    record : Path
+        The Parquet record to be written.
+    overwrite : bool
+        Whether an existing record may be replaced.
+    confirm : callable or None
+        Asks the operator to mount the bar and returns when it is done; None if nobody is to be asked.
+    silent_after : int
+        Consecutive unanswered SYNCs of a node after which all axes stop.
+    metadata : dict
+        Further metadata of the record.
+    targets : Targets or None
+        Source of the sliders' targets; None for the nominal machine.
     """
 
     plan: Plan
@@ -68,12 +93,21 @@ class Request:
 
 
 def prepare(request: Request) -> Programme:
-    """Do all that can be done without a bus: reach and limits of the plan, bus load.
+    """Compute the table of targets and check everything that needs no bus: reach, limits, bus load, cycle time.
+
+    Parameters
+    ----------
+    request : Request
+
+    Returns
+    -------
+    Programme
+        Targets of every cycle, without the approach from the present position.
 
     Raises
     ------
     InputError
-        The plan or the cycle rate cannot be run.
+        The plan cannot be driven or the cycle rate cannot be used; names place or value and limit.
     """
     can_setup = request.machine.can_setup
     check_load(1.0 / request.cycle_s, can_setup.bitrate_bit_s, len(can_setup.drive_nodes))

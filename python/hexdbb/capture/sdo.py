@@ -1,7 +1,8 @@
-"""Service data: read and write objects of a node, every write read back.
+"""Service data (SDO): read and write objects of a node; every written value is read back.
 
-`canopen` carries the transfers. Two of its defaults are changed: it would give a node 0.3 s once, and its setters go on
-when a device did not obey.
+`canopen` carries the transfers. Two of its defaults are replaced: it waits 0.3 s and tries once, and its setters return
+normally if a device did not accept a value.
+Source: CiA 301, SDO protocol and abort codes; CiA 306, EDS files.
 """
 
 from __future__ import annotations
@@ -15,45 +16,57 @@ from canopen.sdo.exceptions import SdoAbortedError, SdoCommunicationError
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import InputError, RunError
 
-RESPONSE_TIMEOUT_S = 0.5
-TRIES = 3
+SDO_TIMEOUT_S = 0.5
+"""Longest time to wait for the answer to one SDO request, s.
+
+CiA 301 states none. Drives answer within some 10 ms, but slower where they store a value, and a node simulated on a
+desktop may be stalled for some tenths of a second (`canopen`'s 0.3 s is too close to that). It is not a key of the
+machine file's ``[can]`` section: it only decides how soon a node that does not answer is reported.
+"""
+SDO_TRIES = 3
+"""Number of times a request is sent before the node counts as not answering, so that one lost frame does not refuse a
+run; a node that is switched off is reported after 3 x 0.5 s = 1.5 s."""
 
 Value = int | float
 
 
 class RemoteDevice:
-    """One node as the controller sees it: its name for messages, its EDS, its objects.
+    """One node as the controller sees it: its name in messages, its EDS, its objects.
 
     Parameters
     ----------
-    network : canopen network the node is on
-    node_id : 1 to 127
-    role : what the node is to the user, for example ``slider 3``
-    eds : its EDS file
+    network : canopen.Network
+        The network the node is on.
+    node_id : int
+        1 to 127.
+    role : str
+        Function of the node, for example ``slider 3``.
+    eds : Path
+        Its EDS or DCF.
 
     Raises
     ------
     InputError
-        The EDS is not there or cannot be read.
+        The EDS does not exist or cannot be parsed.
     """
 
     def __init__(self, network: canopen.Network, node_id: int, role: str, eds: Path) -> None:
         self.node_id, self.role, self.eds = node_id, role, eds
         self._node = network.add_node(node_id, _dictionary(eds, node_id))
-        self._node.sdo.RESPONSE_TIMEOUT = RESPONSE_TIMEOUT_S
-        self._node.sdo.MAX_RETRIES = TRIES
+        self._node.sdo.RESPONSE_TIMEOUT = SDO_TIMEOUT_S
+        self._node.sdo.MAX_RETRIES = SDO_TRIES
 
     @property
     def label(self) -> str:
-        """Name of the node in messages."""
+        """Name of the node in messages: ``node 3 (slider 3)``."""
         return f"node {self.node_id} ({self.role})"
 
     def has(self, index: int, subindex: int) -> bool:
-        """Whether the EDS describes the object."""
+        """Return whether the EDS describes an object."""
         return self._node.object_dictionary.get_variable(index, subindex) is not None
 
     def default(self, index: int, subindex: int) -> Value | None:
-        """Value the EDS (or the DCF's ParameterValue) gives the object."""
+        """Return the value of an object in the EDS (DefaultValue) or DCF (ParameterValue); None if it has none."""
         variable = self._node.object_dictionary.get_variable(index, subindex)
         if variable is None:
             return None
@@ -63,10 +76,15 @@ class RemoteDevice:
     def read(self, index: int, subindex: int = 0) -> Value:
         """Read an object.
 
+        Returns
+        -------
+        int or float
+            Its value.
+
         Raises
         ------
         RunError
-            The node does not answer or refuses: names node and object.
+            The node does not answer within `SDO_TRIES` times `SDO_TIMEOUT_S`, or refuses; names node and object.
         """
         try:
             value: Value = self._variable(index, subindex).raw
@@ -84,7 +102,7 @@ class RemoteDevice:
         Raises
         ------
         RunError
-            The node does not answer, refuses, or reads back another value: names node, object and values.
+            The node does not answer, refuses, or reads back another value; names node, object and values.
         """
         self.send(index, subindex, value)
         found = self.read(index, subindex)
@@ -94,7 +112,7 @@ class RemoteDevice:
             )
 
     def send(self, index: int, subindex: int, value: Value) -> None:
-        """Write an object that cannot be read back as written, such as a PDO's COB-ID on its way to another state.
+        """Write an object that does not read back as written, such as the COB-ID of a PDO while it is disabled.
 
         Raises
         ------
@@ -114,12 +132,12 @@ class RemoteDevice:
 
 
 def name(index: int, subindex: int) -> str:
-    """Index and sub-index as CiA writes them: 6065:00."""
+    """Return index and sub-index as CiA writes them: 6065:00."""
     return f"{index:04X}:{subindex:02X}"
 
 
 def _dictionary(eds: Path, node_id: int) -> canopen.ObjectDictionary:
-    """Parse an EDS or DCF; cp1252 files of some vendors are read as such."""
+    """Parse an EDS or DCF, in the cp1252 encoding that some manufacturers use."""
     try:
         with eds.open(encoding="cp1252", errors="replace") as file:
             return canopen.import_od(file, node_id)

@@ -1,7 +1,9 @@
-"""One measurement from plan to record: plan, boot, enable, approach, run, retract, disable.
+"""One measurement, from a plan to its record.
 
-Nothing moves before the plan is known to be within reach, the bus load within budget, and every node configured and
-read back. Whatever happens after that, all six axes stop together and what was captured becomes a record.
+Phases: configuring nodes, reading axis positions, homing check, enabling, approach, capture of each run, return,
+disabling. Nothing moves before the plan is known to be within reach, the bus load within its limit, and every node
+configured and read back. Whatever fails after that, all six axes stop together and the captured samples become a
+record.
 """
 
 from __future__ import annotations
@@ -22,9 +24,9 @@ from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange, Feedback
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
-from hexdbb.capture.motion import Motion
-from hexdbb.capture.request import Progress, Request
-from hexdbb.capture.samples import Samples
+from hexdbb.capture.motion import AxisGroup
+from hexdbb.capture.request import Request, RunProgress
+from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
 from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
@@ -33,30 +35,44 @@ from hexdbb.record import Journal, Record
 from hexdbb.trajectory import Phase, Programme, approach
 
 MAX_MISSED = 250
-"""Cycles that may be missed in one run."""
+"""Largest number of cycles missed in one run: one second at 250 Hz. A computer that stalls more often is not fit for a
+real-time run, and each stall leaves a gap in the samples."""
 LOCKSTEP_TOLERANCE_S = 1.0
-"""What heartbeats may be later in lockstep, where nothing else depends on timing either."""
+"""Added to the heartbeat limit in lockstep, s. Nothing else depends on time there, and a busy desktop may stall the
+process that sends the heartbeats."""
 
 
-def measure(request: Request, programme: Programme, bus: can.BusABC, clock: Clock, progress: Progress) -> Record:
-    """Run a programme on a bus and make its record.
+def measure(
+    request: Request, programme: Programme, bus: can.BusABC, clock: Clock, progress: RunProgress | None = None
+) -> Record:
+    """Drive a programme on a bus and write its record.
 
     Parameters
     ----------
-    request, programme : from `prepare`
-    bus : an open bus; it stays open
-    clock : pace of the loop
-    progress : kept up to date for a display
+    request : Request
+        The plan and the record to be written.
+    programme : Programme
+        Its targets, from `prepare`.
+    bus : can.BusABC
+        An open bus; it stays open.
+    clock : Clock
+        Pace of the loop: `Lockstep` or `Deadlines`.
+    progress : RunProgress, optional
+        Updated during the run for a display.
 
     Returns
     -------
     Record
+        The record as written: complete, with the path `request.record`.
 
     Raises
     ------
+    InputError
+        An EDS cannot be read, the approach is out of reach, or the record exists.
     RunError
-        The rig was refused, or a fault stopped the run; says what was kept.
+        The rig was refused before motion, or a fault stopped the run; names the cause and what was kept.
     """
+    progress = RunProgress() if progress is None else progress
     progress.stage = "configuring nodes"
     link = Link(bus)
     devices = add_devices(link, request.machine)
@@ -66,13 +82,13 @@ def measure(request: Request, programme: Programme, bus: can.BusABC, clock: Cloc
         with link.looped():
             return _Run(request, programme, link, devices, clock, progress).record()
     except (can.CanError, OSError) as error:
-        raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing had moved") from error
+        raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing has moved") from error
     finally:
         _release(link, devices)
 
 
 def _release(link: Link, devices: Devices) -> None:
-    """Leave the nodes pre-operational, if the bus is still there."""
+    """Return the nodes to pre-operational, if the bus still works."""
     try:
         release(link, tuple(devices))
     except (can.CanError, OSError):
@@ -83,7 +99,7 @@ class _Run:
     """The part of a measurement in which axes move."""
 
     def __init__(
-        self, request: Request, programme: Programme, link: Link, devices: Devices, clock: Clock, progress: Progress
+        self, request: Request, programme: Programme, link: Link, devices: Devices, clock: Clock, progress: RunProgress
     ) -> None:
         machine, cycle_s = request.machine, request.cycle_s
         can_setup = machine.can_setup
@@ -91,9 +107,7 @@ class _Run:
         self.counts_per_mm = can_setup.counts_per_mm
         labels = tuple(device.label for device in devices)
         limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
-        supervision = Supervision(
-            labels, [device.node_id for device in devices], link.notify, limit_s, request.silent_after
-        )
+        supervision = Supervision([device.node_id for device in devices], link.notify, limit_s, request.silent_after)
         exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
         self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0)
         self.watch = Watch(
@@ -107,16 +121,18 @@ class _Run:
             max_missed=MAX_MISSED,
             expected=self.loop.counts,
         )
-        self.motion = Motion(self.loop, self.watch, labels, cycle_s)
+        self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
 
     def record(self) -> Record:
-        """Approach, run and keep; whatever goes wrong, stop all axes and keep what there is."""
-        self.progress.stage = "asking where the axes stand"
-        stand_mm = np.array(self.motion.stand()) / self.counts_per_mm
-        self.motion.check_homed()
-        programme, journal = self.loop.hold_while(lambda: self._made_ready(stand_mm), [Command.DISABLE_VOLTAGE] * 6)
+        """Drive and record; whatever fails, stop all axes and keep the captured samples."""
+        self.progress.stage = "reading axis positions"
+        present_mm = np.array(self.axes.read_positions()) / self.counts_per_mm
+        self.axes.check_homed()
+        programme, journal = self.loop.hold_while(
+            lambda: self._with_approach(present_mm), [Command.DISABLE_VOLTAGE] * 6
+        )
         with journal:
-            samples = Samples(programme, journal, self.counts_per_mm)
+            samples = SampleBuffer(programme, journal, self.counts_per_mm)
             cause = self._move(programme, samples)
             try:
                 samples.flush()
@@ -128,10 +144,10 @@ class _Run:
             raise RunError(f"{cause}; {samples.count} samples kept in {record.path}, marked incomplete")
         return record
 
-    def _made_ready(self, stand_mm: NDArray[np.float64]) -> tuple[Programme, Journal]:
-        """Compute the way from where the axes stand, and open the journal."""
+    def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, Journal]:
+        """Compute the approach from the present positions, and open the journal."""
         request, plan = self.request, self.request.plan
-        way = approach(stand_mm, self.programme, request.machine, request.origin)
+        way = approach(present_mm, self.programme, request.machine, request.origin)
         journal = Journal(
             request.record,
             machine=request.machine,
@@ -143,37 +159,37 @@ class _Run:
         )
         return self.programme.after(way), journal
 
-    def _move(self, programme: Programme, samples: Samples) -> str | None:
-        """Enable, follow, disable; returns the cause where a fault stopped it."""
+    def _move(self, programme: Programme, samples: SampleBuffer) -> str | None:
+        """Enable, follow the table, disable; return the cause if a fault stopped the run."""
         with _watching_interrupts(self.watch):
             try:
                 self.progress.stage = "enabling"
-                self.motion.enable()
+                self.axes.enable()
                 self._follow(programme, samples)
                 self.progress.stage = "disabling"
-                self.motion.disable()
+                self.axes.disable()
             except (HexdbbError, can.CanError, OSError) as error:
                 return self._stopped(error)
             except BaseException:
-                # A mistake in the program must not leave axes enabled either.
-                self.motion.stop()
+                # An error in this program must not leave axes enabled either.
+                self.axes.stop()
                 raise
         return None
 
-    def _follow(self, programme: Programme, samples: Samples) -> None:
+    def _follow(self, programme: Programme, samples: SampleBuffer) -> None:
         table, progress = programme.table, self.progress
         progress.programme, progress.rows, progress.stage = programme, len(table), "moving"
         capture = table.capture.tolist()
         self.loop.restart_time()
 
         def keep(row: int, feedback: Feedback) -> None:
-            progress.row, progress.slot, progress.reading_um = row, self.loop.slot, feedback.reading_um
+            progress.row, progress.cycle_index, progress.reading_um = row, self.loop.cycle_index, feedback.reading_um
             progress.missed = self.loop.missed
             if capture[row]:
-                samples.keep(row, self.loop.slot, self.loop.last_missed, feedback)
+                samples.keep(row, self.loop.cycle_index, self.loop.last_missed, feedback)
                 progress.samples = samples.count
 
-        self.motion.follow(
+        self.axes.follow(
             np.rint(table.sliders_mm * self.counts_per_mm).astype(np.int32),
             table.phase == Phase.ARC,
             keep,
@@ -181,26 +197,26 @@ class _Run:
         )
 
     def _stopped(self, error: Exception) -> str:
-        """Stop all axes and say why, when, and whether they all stand."""
-        time_s = self.loop.slot * self.request.cycle_s
+        """Stop all axes; return cause, time and whether all of them stopped."""
+        time_s = self.loop.cycle_index * self.request.cycle_s
         self.progress.stage = "stopping all axes"
         if isinstance(error, HexdbbError):
             cause = str(error)
         else:
             cause = str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
-        unstopped = self.motion.stop()
+        unstopped = self.axes.stop()
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"
         return f"{cause} at t = {time_s:.3f} s; {outcome}"
 
 
 @contextmanager
 def _watching_interrupts(watch: Watch) -> Iterator[None]:
-    """Turn SIGINT and SIGTERM into a fault the next check finds, so that axes are stopped before the program ends."""
+    """Turn SIGINT and SIGTERM into a fault that the next check finds, so that the axes stop before the program ends."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
 
-    def note(number: int, frame: object) -> None:
+    def note(_number: int, _frame: object) -> None:
         watch.interrupted = True
 
     before: dict[signal.Signals, Callable[..., object] | int | None] = {

@@ -1,7 +1,7 @@
-"""What every node is told before motion: a table of objects, values, and what follows where a device lacks one.
+"""Settings written to every node before motion: objects, values, and the consequence if a device lacks an object.
 
 Source: CiA 301 (1006h, 1016h, 1017h, 1400h:05), CiA 402 (6007h, 605Ah, 6060h, 6065h, 6066h, 607Dh, 60C2h), CiA 404
-(6131h).
+(6131h), CiA 303-2 (unit codes).
 """
 
 from __future__ import annotations
@@ -16,19 +16,35 @@ from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
 
 CONTROLLER_NODE = 127
+"""Node id in the heartbeat of the controller: the highest, so that it collides with no device."""
 QUICK_STOP_AND_STAY = 6
-"""605Ah: slow down on the quick stop ramp and stay in quick stop active, position held."""
+"""Value of 605Ah: slow down on the quick stop ramp and stay in quick stop active, position held."""
 ABORT_CONNECTION_QUICK_STOP = 3
-"""6007h: quick stop when the connection is lost."""
+"""Value of 6007h: quick stop when the connection is lost."""
 FOLLOWING_ERROR_TIME_MS = 10
+"""Value of 6066h: time outside the window 6065h before the drive trips, ms; two to three cycles at 250 Hz, so that one
+late target does not trip it."""
 MAX_COUNTS = 2**31 - 1
+"""Largest INTEGER32, the type of 607Ah and 6064h."""
 MICROMETRE = 0xFA010000
-"""Unit of CiA 303-2: prefix 10^-6, metre."""
+"""Value of 6131h:01: unit code of CiA 303-2, prefix 10^-6 (FAh), metre (01h)."""
 
 
 @dataclass(frozen=True)
 class Setting:
-    """One value a node must hold: where, what, and what it means where the device has no such object."""
+    """One value that is written to a node.
+
+    Attributes
+    ----------
+    index, subindex : int
+        The object.
+    value : int
+        Its value.
+    without : str
+        Consequence if the device has no such object.
+    required : bool
+        Whether a device without the object is refused.
+    """
 
     index: int
     subindex: int
@@ -39,7 +55,17 @@ class Setting:
 
 @dataclass(frozen=True)
 class Expected:
-    """One value a node must already hold, not written."""
+    """One value that a node must already have, and that is not written.
+
+    Attributes
+    ----------
+    index, subindex : int
+        The object.
+    value : int
+        Its value.
+    meaning : str
+        The value in words.
+    """
 
     index: int
     subindex: int
@@ -51,43 +77,66 @@ GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre")
 
 
 def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
-    """Settings of a drive, for this machine's travel and limits and this cycle time."""
+    """Return the settings of a drive.
+
+    Parameters
+    ----------
+    machine : MachineFile
+        Travel (mm), encoder scale, limits and supervision times.
+    cycle_s : float
+        SYNC period, s.
+
+    Raises
+    ------
+    InputError
+        The cycle time does not fit object 60C2h.
+    """
     can, scale = machine.can_setup, machine.can_setup.counts_per_mm
     low, high = sorted(round(s * scale) for s in machine.sliders.travel_mm)
     period, exponent = interpolation_period(cycle_s)
     window = round(can.limits.following_error_mm * abs(scale))
     return [
         *communication_settings(machine, cycle_s),
-        Setting(0x6007, 0, ABORT_CONNECTION_QUICK_STOP, "it does what its maker chose when the connection is lost"),
-        Setting(0x605A, 0, QUICK_STOP_AND_STAY, "it stops as its maker chose"),
-        Setting(0x6065, 0, window, "following error is watched by the controller alone"),
-        Setting(0x6066, 0, FOLLOWING_ERROR_TIME_MS, "it reports a following error after a time of its own"),
-        Setting(0x607D, 1, low, "the lower end of travel is watched by the controller alone"),
-        Setting(0x607D, 2, high, "the upper end of travel is watched by the controller alone"),
-        Setting(0x60C2, 1, period, "it interpolates over a time of its own"),
-        Setting(0x60C2, 2, exponent, "it interpolates over a time of its own"),
-        Setting(0x6060, 0, CYCLIC_SYNCHRONOUS_POSITION, "it cannot be driven by cyclic targets", required=True),
+        Setting(0x6007, 0, ABORT_CONNECTION_QUICK_STOP, "it reacts to a lost connection by its factory setting"),
+        Setting(0x605A, 0, QUICK_STOP_AND_STAY, "its quick stop follows its factory setting"),
+        Setting(0x6065, 0, window, "only the controller supervises the following error"),
+        Setting(0x6066, 0, FOLLOWING_ERROR_TIME_MS, "it reports a following error after its factory-set time"),
+        Setting(0x607D, 1, low, "only the controller enforces the lower end of travel"),
+        Setting(0x607D, 2, high, "only the controller enforces the upper end of travel"),
+        Setting(0x60C2, 1, period, "it interpolates over its factory-set time"),
+        Setting(0x60C2, 2, exponent, "it interpolates over its factory-set time"),
+        Setting(0x6060, 0, CYCLIC_SYNCHRONOUS_POSITION, "it cannot follow cyclic targets", required=True),
     ]
 
 
 def communication_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
-    """Settings of every node: SYNC period, heartbeats both ways."""
+    """Return the settings of every node: SYNC period (1006h), heartbeat consumer (1016h) and producer (1017h)."""
     can = machine.can_setup
     watched = CONTROLLER_NODE << 16 | can.heartbeat_consumer_ms
     return [
         Setting(0x1006, 0, round(cycle_s * 1e6), "it does not know the SYNC period"),
-        Setting(0x1016, 1, watched, "it does not notice when the controller is gone"),
-        Setting(0x1017, 0, can.heartbeat_producer_ms, "its loss is noticed by missing process data alone"),
+        Setting(0x1016, 1, watched, "it does not detect the loss of the controller"),
+        Setting(0x1017, 0, can.heartbeat_producer_ms, "its loss is detected by missing process data only"),
     ]
 
 
 def interpolation_period(cycle_s: float) -> tuple[int, int]:
-    """Express a cycle time as object 60C2h holds it: units of 10^exponent s, at most 255 of them.
+    """Return a cycle time as object 60C2h holds it.
+
+    Parameters
+    ----------
+    cycle_s : float
+        SYNC period, s.
+
+    Returns
+    -------
+    units, exponent : int
+        Period of `units` (1 to 255) times 10^`exponent` s.
 
     Raises
     ------
     InputError
-        No such pair gives the cycle time.
+        No such pair equals the cycle time.
     """
     for exponent in (-3, -4, -5, -6):
         units = cycle_s * 10.0**-exponent
@@ -100,7 +149,7 @@ def interpolation_period(cycle_s: float) -> tuple[int, int]:
 
 
 def check_counts(machine: MachineFile) -> None:
-    """Raise `InputError` where the travel, in counts, does not fit the 32 bits of object 607Ah."""
+    """Check that the travel in counts fits the 32 bits of object 607Ah; raises `InputError` otherwise."""
     scale = machine.can_setup.counts_per_mm
     for end_mm in machine.sliders.travel_mm:
         if abs(end_mm * scale) > MAX_COUNTS:
@@ -111,12 +160,17 @@ def check_counts(machine: MachineFile) -> None:
 
 
 def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:
-    """Write settings, read each back, and yield what a missing object means.
+    """Write settings and read each back.
+
+    Yields
+    ------
+    str
+        One line for each object that the EDS lacks, with the consequence.
 
     Raises
     ------
     RunError
-        A required object is missing, or a node does not take a value.
+        A required object is missing, or the node refuses a value or reads back another.
     """
     for setting in settings:
         if device.has(setting.index, setting.subindex):
@@ -131,12 +185,12 @@ def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:
 
 
 def expect(device: RemoteDevice, expected: Expected) -> None:
-    """Read a value that must be there already.
+    """Check a value that a node must already have.
 
     Raises
     ------
     RunError
-        It is another.
+        The value differs.
     """
     found = int(device.read(expected.index, expected.subindex))
     if found != expected.value:
@@ -147,12 +201,24 @@ def expect(device: RemoteDevice, expected: Expected) -> None:
 
 
 def map_pdo(device: RemoteDevice, layout: PdoLayout, deadline_ms: int | None = None) -> Iterator[str]:
-    """Set one PDO up in the order CiA 301 asks for, and read everything back; `deadline_ms` goes to sub-index 5.
+    """Configure one PDO in the order that CiA 301 prescribes, and read every value back.
+
+    Parameters
+    ----------
+    device : RemoteDevice
+    layout : PdoLayout
+    deadline_ms : int, optional
+        Event timer of an RPDO (1400h:05): time without the PDO after which the device reacts, ms.
+
+    Yields
+    ------
+    str
+        The consequence if the device has no event timer.
 
     Raises
     ------
     RunError
-        The node refuses or reads back another value.
+        The node refuses a value or reads back another.
     """
     cob_id = layout.cob_id(device.node_id)
     device.send(layout.communication, 1, cob_id | NOT_VALID)
@@ -162,20 +228,20 @@ def map_pdo(device: RemoteDevice, layout: PdoLayout, deadline_ms: int | None = N
         device.write(layout.mapping, subindex, mapped.entry)
     device.write(layout.mapping, 0, len(layout.objects))
     if deadline_ms is not None:
-        without = "it does not notice when targets stay out"
+        without = "it does not detect missing targets"
         yield from apply(device, [Setting(layout.communication, 5, deadline_ms, without)])
     device.write(layout.communication, 1, cob_id)
 
 
 def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:
-    """Tell a drive everything; yields notes on what it lacks."""
+    """Write all settings and PDO mappings of a drive; yield one line for each object it lacks."""
     yield from apply(device, drive_settings(machine, cycle_s))
     yield from map_pdo(device, DRIVE_RPDO, machine.can_setup.rpdo_timeout_ms)
     yield from map_pdo(device, DRIVE_TPDO)
 
 
 def configure_gauge(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:
-    """Tell the gauge everything, and check that it speaks micrometres; yields notes on what it lacks."""
+    """Check the unit of the gauge and write its settings and PDO mapping; yield one line for each object it lacks."""
     expect(device, GAUGE_UNIT)
     yield from apply(device, communication_settings(machine, cycle_s))
     yield from map_pdo(device, GAUGE_TPDO)

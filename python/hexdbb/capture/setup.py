@@ -1,7 +1,8 @@
-"""The set-up an operator makes between runs: cup and bar mounted, and the gauge told of it.
+"""Set-up changes between runs: the operator mounts cup and bar, and the set-up is written to the gauge.
 
-Object 2100h of the gauge is manufacturer-specific: cup position, ball offset, bar length, then the set-up's number,
-which makes them valid. A simulated gauge reads nothing without it; a real one may lack it.
+Object 2100h of the gauge is manufacturer-specific: cup position, ball offset, bar length, then the number of the
+set-up, which makes them valid. The simulated gauge gives no reading without it; a real gauge may lack it.
+Source: firmware_interfaces/README.md, section Gauge.
 """
 
 from __future__ import annotations
@@ -15,15 +16,16 @@ from hexdbb.trajectory import Phase, Programme
 
 SETUP = 0x2100
 FIRST_VALUE, NUMBER = 2, 1
+"""Sub-indices of 2100h: the seven values begin at 2; writing the number of the set-up to 1 makes them valid."""
 
 Confirm = Callable[[str], None]
-"""Asks the operator to do something, and returns when it is done."""
+"""Asks the operator to do something and returns when it is done."""
 
 
 def setup_changes(programme: Programme) -> dict[int, CircleRun]:
-    """Rows of the table before which another set-up must be made, with the first run that needs it.
+    """Return the rows before which the set-up must be changed, each with the first run that needs the new set-up.
 
-    The row is the first of a run's feed-in: the platform stands where the bar is mounted.
+    Such a row is the first of a run's feed-in, where the platform is at the mounting position of the bar.
     """
     changes: dict[int, CircleRun] = {}
     known = None
@@ -40,7 +42,7 @@ def setup_changes(programme: Programme) -> dict[int, CircleRun]:
 def pauses(
     changes: Mapping[int, CircleRun], gauge: Gauge, device: RemoteDevice, confirm: Confirm | None
 ) -> dict[int, Callable[[], None]]:
-    """Turn set-up changes into what is to be done at their rows: ask the operator, tell the gauge."""
+    """Return the work to be done at each set-up change: ask the operator, then write the set-up to the gauge."""
 
     def change(run: CircleRun) -> Callable[[], None]:
         def work() -> None:
@@ -57,7 +59,7 @@ def pauses(
 
 
 def announce(device: RemoteDevice, run: CircleRun, gauge: Gauge) -> None:
-    """Tell the gauge which set-up is mounted; raises `RunError` where it has the object and refuses."""
+    """Write the mounted set-up to the gauge, if it has object 2100h; raises `RunError` if it refuses."""
     if not device.has(SETUP, NUMBER):
         return
     values = (*run.mount.cup_mm, *run.circle.ball_offset_mm, gauge.bar_length_mm)
@@ -67,6 +69,6 @@ def announce(device: RemoteDevice, run: CircleRun, gauge: Gauge) -> None:
 
 
 def as_real32(value: float) -> float:
-    """Round to what a REAL32 object holds, so that it reads back equal."""
+    """Round a value to REAL32, so that it reads back equal."""
     (rounded,) = struct.unpack("<f", struct.pack("<f", value))
     return float(rounded)

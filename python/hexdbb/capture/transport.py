@@ -1,7 +1,7 @@
-"""Open the CAN bus a user names: ``interface:channel``, any interface of python-can.
+"""Open the CAN bus that a user names as ``interface:channel``, with any interface of python-can.
 
-A network bus is probed first: python-can would try a socketcand address that refuses connections for ten seconds,
-silently.
+The address of a socketcand server is probed first: python-can would retry a refused connection for ten seconds without
+a message.
 """
 
 from __future__ import annotations
@@ -17,9 +17,11 @@ from hexdbb.errors import InputError
 
 EXAMPLES = "socketcan:can0, pcan:PCAN_USBBUS1, kvaser:0, socketcand:127.0.0.1:29536"
 CONNECT_TIMEOUT_S = 3.0
+"""Longest time to connect to a socketcand server, s: one lost SYN is repeated after 1 s, a second one after 3 s."""
 DRIVER_ERRORS = (can.CanError, OSError, OverflowError, ImportError, ValueError, TypeError, NameError)
-"""What python-can's interfaces raise where bus, channel or the maker's library is not there (kvaser: NameError)."""
+"""Exceptions of python-can's interfaces if bus, channel or a driver library is missing (kvaser: NameError)."""
 SOCKETCAND_CHANNEL = "can0"
+"""Channel requested from a socketcand server if the user names none."""
 
 
 def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
@@ -27,43 +29,50 @@ def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
 
     Parameters
     ----------
-    spec : ``interface:channel[@bitrate]``; for socketcand ``[channel@]host:port``
-    bitrate_bit_s : bit rate of the machine file, where `spec` names none
+    spec : str
+        ``interface:channel[@bitrate]``; for socketcand ``socketcand:[channel@]host:port``.
+    bitrate_bit_s : int
+        Bit rate of the machine file, used if `spec` names none.
+
+    Returns
+    -------
+    can.BusABC
+        The open bus; the caller closes it.
 
     Raises
     ------
     InputError
-        The text is not understood, or the bus is not there.
+        `spec` cannot be parsed, or the bus cannot be opened.
     """
     interface, separator, channel = spec.partition(":")
     if not separator or not channel or interface not in can.VALID_INTERFACES:
-        raise InputError(f"--bus {spec}: not understood (expected interface:channel, for example {EXAMPLES})")
+        raise InputError(f"--bus {spec}: cannot be parsed (expected interface:channel, for example {EXAMPLES})")
     with ExitStack() as until_open:
         try:
             arguments = ARGUMENTS.get(interface, _with_bitrate)(channel, bitrate_bit_s, until_open)
             return can.Bus(interface=interface, **arguments)
         except DRIVER_ERRORS as error:
             raise InputError(
-                f"--bus {spec}: not there: {one_line(error)} (expected a bus, for example {EXAMPLES})"
+                f"--bus {spec}: cannot be opened: {one_line(error)} (expected a bus, for example {EXAMPLES})"
             ) from error
 
 
 def one_line(error: Exception) -> str:
-    """Give the first line of what a library says; some of python-can's drivers put a traceback behind it."""
-    said = str(error).strip()
-    return said.splitlines()[0] if said else type(error).__name__
+    """Return the first line of an exception's message; some of python-can's drivers append a traceback."""
+    text = str(error).strip()
+    return text.splitlines()[0] if text else type(error).__name__
 
 
 def _with_bitrate(channel: str, bitrate_bit_s: int, until_open: ExitStack) -> dict[str, Any]:
-    """Read ``channel[@bitrate]``."""
+    """Parse ``channel[@bitrate]``."""
     name, _, bitrate = channel.partition("@")
     return {"channel": name, "bitrate": int(bitrate or bitrate_bit_s)}
 
 
 def _socketcand(channel: str, bitrate_bit_s: int, until_open: ExitStack) -> dict[str, Any]:
-    """Read ``[channel@]host:port`` of a socketcand server, and see that it answers.
+    """Parse ``[channel@]host:port`` of a socketcand server, and check that it accepts connections.
 
-    The probe stays connected until the bus is open: a server may end when its last client leaves.
+    The probe stays connected until the bus is open, because a server may end when its last client leaves.
     """
     remote, _, address = channel.rpartition("@")
     host, _, port = address.rpartition(":")
@@ -74,4 +83,4 @@ def _socketcand(channel: str, bitrate_bit_s: int, until_open: ExitStack) -> dict
 
 
 ARGUMENTS: dict[str, Callable[[str, int, ExitStack], dict[str, Any]]] = {"socketcand": _socketcand}
-"""How an interface's channel text becomes its arguments, where it is not ``channel[@bitrate]``."""
+"""Parser of the channel, for interfaces whose channel is not ``channel[@bitrate]``."""

@@ -1,4 +1,4 @@
-"""The command `hexdbb`: one module per subcommand, imported when it is called, so that `--help` stays fast."""
+"""The command `hexdbb`: one module per subcommand, imported when called, so that `--help` stays fast."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from hexdbb import __version__
 from hexdbb.cli.exits import reports_errors
 
 COMMANDS = {
-    "rig": "the simulated rig as a process of its own",
-    "model": "make model files",
+    "rig": "run the simulated rig as a process of its own",
+    "model": "create model files",
     "diagnose": "fit the model's effects to records",
-    "effects": "effects a model can have; the handbook of them",
-    "discover": "which effect is missing from a model",
-    "compare": "prediction against measurement, ISO 230-4 quantities, where the model fails",
-    "add": "one effect more in a model, and how the error falls",
-    "undo": "take back what was last done to a model",
-    "history": "what was done to a model, step by step",
-    "compensate": "compensation data for motion controllers, or a path corrected",
-    "plan": "check a plan: reach, limits",
-    "thesis": "the thesis' own way: reference contours, its linear estimator, its tables",
-    "convert": "between record (.parquet) and text form (.csv)",
-    "recover": "make a record from an interrupted capture",
+    "effects": "list the effects a model can have; write their handbook",
+    "discover": "find the effect that a model lacks",
+    "compare": "compare prediction and measurement: ISO 230-4 quantities, where the model fails",
+    "add": "add an effect to a model and fit it",
+    "undo": "undo the last change of a model",
+    "history": "list the changes of a model, step by step",
+    "compensate": "write compensation data for motion controllers, or a corrected path",
+    "plan": "check, propose and compare plans: reach, limits, identifiability",
+    "thesis": "the method of the thesis: reference contours, linear estimator, tables",
+    "convert": "convert between record (.parquet) and text form (.csv)",
+    "recover": "write the record of an interrupted capture",
 }
 
 
 class _LazyGroup(click.Group):
-    """A click group whose commands live in `hexdbb.cli.<name>` as the object `command`."""
+    """Click group whose subcommands are the objects `command` of the modules `hexdbb.cli.<name>`."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -57,5 +57,5 @@ def cli() -> None:
 
 
 def main() -> None:
-    """Run the command line; errors of hexdbb become one line on stderr and an exit status."""
+    """Run the command line; report an error of hexdbb as one line on stderr and exit with its status."""
     reports_errors(cli)

@@ -1,4 +1,4 @@
-"""`python -m hexdbb.cli`: the command `hexdbb`, for programs that start it with an interpreter of their own."""
+"""`python -m hexdbb.cli`: the command `hexdbb` under a chosen interpreter."""
 
 from hexdbb.cli import main
 

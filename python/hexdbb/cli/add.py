@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import click
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.discovery import failing_effects
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.ledger import add_effect
-from hexdbb.ledger.history import step_json
+from hexdbb.ledger.json_form import added_json
 from hexdbb.ledger.words import PLACES, arrow
-from hexdbb.model import LedgerStep, save_model, split_choice
+from hexdbb.model import Choice, LedgerStep, save_model
 from hexdbb.record import read_record
+from hexdbb.samples import Samples
+from hexdbb.units import readable_unit
 
 
 @click.command("add")
@@ -42,7 +43,7 @@ def command(
     """Add EFFECT, or some ELEMENTs of it, to a model, fit everything that is free to RECORD..., show the fall.
 
     The error before is that of the model without the effect, fitted to the same readings. Held-out circles are
-    predicted by fits that have not seen them. `hexdbb undo` takes the step back.
+    predicted by fits to the other circles. `hexdbb undo` takes the step back.
 
     \b
     Examples:
@@ -53,26 +54,21 @@ def command(
     """
     refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
-    name = split_choice(effect)[0]
-    model.info(name)  # a name that is not known is said before records are read
+    name = Choice.parse(effect).effect
+    model.info(name)  # an unknown name is refused before records are read
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
-        read = [read_record(path) for path in records]
-    for error in failing_effects(read, model, [name]).values():
+        samples = Samples.of([read_record(path) for path in records])
+    for error in failing_effects(samples, model, [name]).values():
         raise error
-    with messages.status(f"adding {effect}: fitting with and without it, and to all circles but some"):
-        changed, found = add_effect(read, model, effect, robust=robust)
-    save_model(changed, model_path)
+    with messages.status(f"adding {effect}: fitting with and without it, then without the held-out circles"):
+        found = add_effect(samples, model, effect, robust=robust)
+    save_model(found.model, model_path)
     if as_json:
-        click.echo(json.dumps(added_json(found), indent=2, allow_nan=False))
+        click.echo(json.dumps(added_json(found).to_json(), indent=2, allow_nan=False))
     else:
         print_added(found, output_console())
-    messages.print(f"{model_path}: {effect} added (step {changed.ledger[-1].step})", markup=False)
-
-
-def added_json(found: Diagnosis) -> dict[str, Any]:
-    """Give the object ``hexdbb add --json`` prints: the step, and what to beware of."""
-    return {**step_json(found.model.ledger[-1]), "warnings": list(found.warnings)}
+    messages.print(f"{model_path}: {effect} added (step {found.model.ledger[-1].step})", markup=False)
 
 
 def print_added(found: Diagnosis, console: Console) -> None:
@@ -92,7 +88,7 @@ def print_added(found: Diagnosis, console: Console) -> None:
         places = PLACES.get(size.unit, ".4g")
         sigma = "~" if size.sigma is None else f"{size.sigma:{places}}"
         name = "" if index else step.effect
-        table.add_row(name, size.element, size.name, f"{size.value:{places}}", sigma, size.unit)
+        table.add_row(name, size.element, size.name, f"{size.value:{places}}", sigma, readable_unit(size.unit))
     console.print(table)
     if any(size.sigma is None for size in step.sizes):
         console.print("~: known only in combination with others.")
@@ -101,7 +97,7 @@ def print_added(found: Diagnosis, console: Console) -> None:
 
 
 def fall_line(step: LedgerStep) -> str:
-    """Give the fall in one line: ``6.83 µm -> 0.61 µm (held-out circles 6.90 -> 0.63)``."""
+    """Return the fall in one line: ``6.83 µm -> 0.61 µm (held-out circles 6.90 -> 0.63)``."""
     line = f"{step.rms_before_um:.2f} µm -> {step.rms_after_um:.2f} µm"
     if step.heldout_before_um is None or step.heldout_after_um is None:
         return f"{line} (one circle only: none can be held out)"

@@ -9,19 +9,16 @@ import click
 from rich.console import Console
 from rich.progress import Progress
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
-from hexdbb.compare import Comparison, compare
-from hexdbb.compare.tables import comparison_text
-from hexdbb.diagnosis import fit_mounts, noise_of
+from hexdbb.comparison import Comparison, compare
+from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
-from hexdbb.model import Model
-from hexdbb.prediction import predict_reading_mm, samples_of
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.record import read_record
-from hexdbb.variables import Pushes
+from hexdbb.samples import Samples
 
 
 @click.command("compare")
@@ -49,9 +46,10 @@ def command(
     """Compare measured readings with those a model predicts.
 
     Prints the residual (measured - predicted) and the quantities of ISO 230-4 for every circle, feed and direction;
-    where the prediction fails worst and what those samples have in common; what is the same in both directions and what
-    turns with direction; harmonics; which variable of the machine's state carries the residual. Draws polar plots with
-    a stated magnification, and the residual against each variable.
+    where the residual is largest and which circumstances are over-represented there; the part common to both directions
+    and the part that reverses with direction; harmonics; predictors of the residual among the variables of the
+    machine's state. The cup of a mount that the model does not know is fitted first, which is stated. Draws polar plots
+    with a stated magnification, and the residual against each predictor.
 
     \b
     RECORD is a Parquet record or a text-form CSV. Examples:
@@ -66,10 +64,8 @@ def command(
         refuse_existing(stem.with_name(f"{stem.name}.png"), overwrite=True)
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
-        comparison, fitted = _comparison(records, existing_model(model_path, effects_path), progress)
+        comparison = _comparison(records, model_path, effects_path, progress)
         written = [] if no_plot else _draw(comparison, stem, progress)
-    for sentence in fitted:
-        messages.print(sentence, markup=False)
     if as_json:
         click.echo(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
     else:
@@ -78,21 +74,10 @@ def command(
         messages.print(f"pictures: {', '.join(str(path) for path in written)}", markup=False)
 
 
-def _comparison(paths: tuple[Path, ...], model: Model, progress: Progress) -> tuple[Comparison, list[str]]:
-    """Compare, and say in sentences which set-ups had to be fitted first."""
-    task = progress.add_task("predicting", total=len(paths))
-    records, predicted_mm, states, pushes, sentences = [], [], [], [], []
-    for path in paths:
-        record = read_record(path)
-        with_mounts, fitted = fit_mounts(record, model)
-        records.append(record)
-        predicted_mm.append(predict_reading_mm(record, with_mounts))
-        samples = samples_of([record], with_mounts)
-        states.append(samples.state)
-        pushes.append(Pushes.of(with_mounts, samples))
-        sentences += fitted
-        progress.advance(task)
-    return compare(records, predicted_mm, states, pushes, noise_of(records).sigma_mm), sentences
+def _comparison(paths: tuple[Path, ...], model_path: Path, effects_path: Path | None, progress: Progress) -> Comparison:
+    model = existing_model(model_path, effects_path)
+    progress.add_task("comparing", total=None)
+    return compare(Samples.of([read_record(path) for path in paths]), model)
 
 
 def _draw(comparison: Comparison, stem: Path, progress: Progress) -> list[Path]:

@@ -1,4 +1,4 @@
-"""`hexdbb compensate`: compensation data for motion controllers, or the same correction applied to a path."""
+"""`hexdbb compensate`: a compensation file for motion controllers, or the same correction applied to a path."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ import click
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compensation import (
     MAX_CORRECTION_MM,
     REVERSAL_TRAVEL_MM,
     SUFFIX,
-    fitted_temperature_c,
     make_compensation,
     path_targets,
     read_compensation,
     read_poses,
+    reference_temperature_of,
     sliders_csv,
-    write_text,
+    write_compensation,
 )
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.model import Model
 from hexdbb.record import read_record
 
@@ -37,36 +37,40 @@ POSITIVE = click.FloatRange(min=0.0, min_open=True)
     "-o",
     "--output",
     type=click.Path(path_type=Path),
-    help="Compensation file to write (NAME.hexcomp); with --poses the table of slider coordinates.",
+    help="Compensation file to write (NAME.hexcomp); with --poses, the table of slider coordinates.",
 )
 @click.option("--poses", type=click.Path(path_type=Path), help="CSV of poses in order of motion.")
-@click.option("--header", type=click.Path(path_type=Path), help="C header of constants to write, for firmware.")
+@click.option(
+    "--header", type=click.Path(path_type=Path), help="C header of constants to write, for firmware without files."
+)
 @click.option(
     "--max-correction-um",
     type=POSITIVE,
     default=1e3 * MAX_CORRECTION_MM,
     show_default=True,
-    help="Largest correction of a slider; controllers refuse poses that need more.",
+    help="Largest correction of one slider, µm; controllers refuse poses that need more.",
 )
 @click.option(
     "--reversal-travel-um",
     type=POSITIVE,
     default=1e3 * REVERSAL_TRAVEL_MM,
     show_default=True,
-    help="Travel over which a slider's correction changes sides when it turns back.",
+    help="Travel after a reversal over which a direction-dependent correction changes over, µm.",
 )
 @click.option(
-    "--reference-temperature-c", type=float, help="Temperature at the record's first sample; else growth is left out."
+    "--reference-temperature-c",
+    type=float,
+    help="Temperature at the fitted record's first sample, °C; without it temperature-dependent effects are left out.",
 )
 @click.option(
     "--reference",
     "reference_path",
     metavar="RECORD",
     type=click.Path(path_type=Path),
-    help="The same, read from the record that the model was fitted to.",
+    help="The record to which the model was fitted: its first temperature is the reference temperature.",
 )
 @effects_option
-@click.option("--temperature-c", type=float, help="With --poses: the temperature to correct for.")
+@click.option("--temperature-c", type=float, help="With --poses: the measured temperature, °C.")
 @click.option("--overwrite", is_flag=True, help="Replace existing files.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
 def command(
@@ -83,13 +87,14 @@ def command(
     overwrite: bool,
     as_json: bool,
 ) -> None:
-    """Write what a motion controller needs to correct the errors of MODEL, or correct a path with it.
+    """Write the part of MODEL that a motion controller can correct, or apply the correction to a path.
 
-    MODEL is a model file, or a compensation file (NAME.hexcomp) made of one. Effects that belong to the measurement,
-    depend on what a controller does not follow, or are of your own (--effects) are left out and listed with the reason.
+    MODEL is a model file, or a compensation file (NAME.hexcomp) made from one. Effects that belong to the measurement,
+    that depend on a quantity the controller does not know, or that are user-defined (--effects) are left out and listed
+    with the reason.
 
-    POSES has the columns x_mm, y_mm, z_mm, roll_deg, pitch_deg, yaw_deg; the table written has s1_mm to s6_mm, a row a
-    pose. It has no times, so that lags in proportion to speed are not corrected there.
+    POSES has the columns x_mm, y_mm, z_mm, roll_deg, pitch_deg, yaw_deg; the table written has s1_mm to s6_mm, one row
+    per pose. Poses have no times, so that speed-dependent errors (lags) are not corrected in this table.
 
     \b
     Examples:
@@ -108,7 +113,7 @@ def command(
     else:
         known = existing_model(model, effects_path)
         if reference_path is not None:
-            reference_temperature_c = stated_once(known, reference_path, reference_temperature_c)
+            reference_temperature_c = _reference_temperature_c(known, reference_path, reference_temperature_c)
         data = make_compensation(
             known,
             max_correction_mm=1e-3 * max_correction_um,
@@ -119,23 +124,16 @@ def command(
     if output is not None and poses is not None:
         summary |= _correct_path(data, poses, output, temperature_c)
     elif output is not None:
-        write_text(data.text(), output)
+        write_compensation(data, output)
     if header is not None:
-        write_text(data.header(), header)
-    click.echo(json.dumps(summary, indent=2, allow_nan=False) if as_json else _words(summary))
+        write_text(header, data.header())
+    click.echo(json.dumps(summary, indent=2, allow_nan=False) if as_json else _table(summary))
 
 
-def stated_once(model: Model, path: Path, stated_c: float | None) -> float:
-    """Read the reference temperature from a record.
-
-    Raises
-    ------
-    InputError
-        It was stated as well, or the record does not tell.
-    """
+def _reference_temperature_c(model: Model, path: Path, stated_c: float | None) -> float:
     if stated_c is not None:
         raise InputError(f"--reference {path} together with --reference-temperature-c: expected one of them")
-    return fitted_temperature_c(model, read_record(path))
+    return reference_temperature_of(model, read_record(path))
 
 
 def _correct_path(
@@ -149,7 +147,7 @@ def _correct_path(
         temperature_c=np.nan if temperature_c is None else temperature_c,
         name=str(poses),
     )
-    write_text(sliders_csv(targets.sliders_mm), output)
+    write_text(output, sliders_csv(targets.sliders_mm))
     return {"poses": len(table), "largest_correction_um": 1e3 * float(np.abs(targets.correction_mm).max())}
 
 
@@ -163,15 +161,15 @@ def _summary(data: _core.CompensationData) -> dict[str, object]:
     }
 
 
-def _words(summary: dict[str, object]) -> str:
+def _table(summary: dict[str, object]) -> str:
     corrected, left_out = summary["corrected"], summary["left_out"]
     assert isinstance(corrected, list)
     assert isinstance(left_out, list)
     lines = [f"machine      {summary['machine']}", f"corrected    {', '.join(corrected) or 'nothing'}"]
     lines += [f"left out     {each['effect']}: {each['reason']}" for each in left_out]
-    lines.append(f"limit        {summary['max_correction_um']:g} um a slider")
+    lines.append(f"limit        {summary['max_correction_um']:g} µm per slider")
     if "poses" in summary:
         lines.append(
-            f"path         {summary['poses']} poses, corrected by up to {summary['largest_correction_um']:.1f} um"
+            f"path         {summary['poses']} poses, corrected by up to {summary['largest_correction_um']:.1f} µm"
         )
     return "\n".join(lines)

@@ -1,4 +1,4 @@
-"""Where commands print: tables for people to stdout, as wide as the terminal, or wide enough where redirected."""
+"""Console of command results: tables for people on stdout, as wide as the terminal."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import sys
 
 from rich.console import Console
 
-REDIRECTED_WIDTH = 110
-"""Characters per line where stdout is no terminal, so that a table in a file is not folded."""
+from hexdbb.files.plain_text import WIDTH
+
+REDIRECTED_WIDTH = WIDTH
+"""Limits the line length, in characters, where stdout is not a terminal: rich would fold at its default of 80, and the
+table of `hexdbb plan compare` is 103 wide."""
 
 
 def output_console() -> Console:
-    """Give the console of a command's results."""
+    """Return the console that a command prints its results to."""
     return Console(width=None if sys.stdout.isatty() else REDIRECTED_WIDTH, highlight=False)

@@ -1,4 +1,4 @@
-"""`hexdbb convert`: a record from one form into another."""
+"""`hexdbb convert`: a record from one file format to another."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from hexdbb.record import read_record, write_record
 @click.argument("target", metavar="OUT", type=click.Path(path_type=Path))
 @click.option("--overwrite", is_flag=True, help="Replace OUT if it exists.")
 def command(source: Path, target: Path, overwrite: bool) -> None:
-    """Convert a record between its forms, by suffix.
+    """Convert a record between its file formats, chosen by suffix.
 
-    A record is a Parquet file (.parquet). Its text form is NAME.csv with NAME.toml beside it, and is written
-    together with the machine file, NAME.machine.toml.
+    A record is a Parquet file (.parquet). Its text form is NAME.csv with NAME.toml beside it; on writing, the machine
+    file NAME.machine.toml is added.
 
     \b
     Examples:
@@ -27,5 +27,5 @@ def command(source: Path, target: Path, overwrite: bool) -> None:
     """
     with Console(stderr=True).status(f"{source} to {target}"):
         record = read_record(source)
-        write_record(record, target, overwrite)
+        write_record(record, target, overwrite, checked=True)
     click.echo(f"{target}: {len(record)} samples, {len(record.sweeps())} sweeps")

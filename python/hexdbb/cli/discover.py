@@ -9,16 +9,18 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.atomic_file import refuse_existing
-from hexdbb.cli.add import added_json, print_added
+from hexdbb.cli.add import print_added
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.discovery import AutoStep, Candidate, Discovery, discover, discover_all
 from hexdbb.discovery.search import Progress
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import Model, save_model
-from hexdbb.record import Record, read_record
+from hexdbb.record import read_record
+from hexdbb.samples import Samples
+from hexdbb.units import readable_unit
 
 
 @click.command()
@@ -30,11 +32,11 @@ from hexdbb.record import Record, read_record
 def command(records: tuple[Path, ...], model_path: Path, effects_path: Path | None, auto: bool, as_json: bool) -> None:
     """Find out which effect a model lacks, from RECORD... (.parquet or .csv).
 
-    The verdict is one of: an effect; one of several that these readings cannot tell apart, with the circle that would;
-    nothing missing; something missing that no known effect explains, with the variables that carry it.
+    The verdict is one of: an effect; one of several that these readings cannot separate, with the circle that
+    would; nothing missing; something missing that no known effect explains, with the variables that predict it.
 
     The model file is not changed, unless by --auto: it adds what is found and looks again, until nothing is missing or
-    it cannot be told what. An effect added earlier is taken out again where a later one makes it needless.
+    the cause is not identified. An effect added earlier is taken out again where a later one makes it needless.
 
     \b
     Examples:
@@ -48,26 +50,24 @@ def command(records: tuple[Path, ...], model_path: Path, effects_path: Path | No
     model = existing_model(model_path, effects_path)
     messages = Console(stderr=True)
     with messages.status("reading records") as status:
-        read = [read_record(path) for path in records]
+        samples = Samples.of([read_record(path) for path in records])
         if auto:
-            steps, found = _automatic(read, model, model_path, None if as_json else output_console(), status.update)
+            steps, found = _automatic(samples, model, model_path, None if as_json else output_console(), status.update)
         else:
-            steps, found = [], discover(read, model, progress=status.update)
+            steps, found = [], discover(samples, model, progress=status.update)
     if as_json:
-        shown = (
-            {**found.to_json(), "steps": [added_json(each.diagnosis) for each in steps]} if auto else found.to_json()
-        )
+        shown = found.to_json([each.diagnosis for each in steps])
         click.echo(json.dumps(shown, indent=2, allow_nan=False))
         return
     print_discovery(found, output_console(), " ".join(map(str, records)), model_path)
 
 
 def _automatic(
-    records: list[Record], model: Model, model_path: Path, console: Console | None, progress: Progress
+    samples: Samples, model: Model, model_path: Path, console: Console | None, progress: Progress
 ) -> tuple[list[AutoStep], Discovery]:
-    """Add effects, the model file written and the step printed after each; give the steps and the last look."""
+    """Add effects, the model file written and the step printed after each; return the steps and the last look."""
     steps: list[AutoStep] = []
-    for each in discover_all(records, model, progress=progress):
+    for each in discover_all(samples, model, progress=progress):
         if isinstance(each, Discovery):
             return steps, each
         save_model(each.diagnosis.model, model_path)
@@ -85,16 +85,16 @@ def print_discovery(found: Discovery, console: Console, records: str, model_path
     console.print(found.sentence, style="bold", highlight=False, soft_wrap=True)
     lack = found.lack_of_fit
     console.print(
-        f"residual {lack.rms_um:.2f} um against {lack.noise_um:.2f} um of noise;"
-        f" unexplained {lack.unexplained_um:.2f} um; probability of so smooth a residual by chance {lack.shape_p:.1g}",
+        f"residual {lack.rms_um:.2f} µm RMS, noise {lack.noise_um:.2f} µm;"
+        f" unexplained {lack.unexplained_um:.2f} µm; whiteness test {p_words(lack.shape_p)}",
         highlight=False,
         soft_wrap=True,
     )
     if found.best is not None:
-        console.print(f"with it: {found.rms_before_um:.2f} um -> {found.rms_after_um:.2f} um", highlight=False)
+        console.print(f"with it: {found.rms_before_um:.2f} µm -> {found.rms_after_um:.2f} µm", highlight=False)
         if found.heldout_before_um is not None and found.heldout_after_um is not None:
             console.print(
-                f"circles left out of the fit: {found.heldout_before_um:.2f} um -> {found.heldout_after_um:.2f} um",
+                f"held-out circles: {found.heldout_before_um:.2f} µm -> {found.heldout_after_um:.2f} µm RMS",
                 highlight=False,
             )
     if found.verdict != "none" and found.candidates:
@@ -102,7 +102,7 @@ def print_discovery(found: Discovery, console: Console, records: str, model_path
     if found.best is not None:
         console.print(_values(found.best))
     if found.structure:
-        console.print("What carries the rest (share of what is unexplained, on samples not used to find it):")
+        console.print("Predictors of the remaining residual (explained variance, cross-validated):")
         for each in found.structure:
             console.print(f"  {each.share:6.1%}  {each.sentence}", highlight=False, soft_wrap=True)
     _print_next(found, console, records, model_path)
@@ -110,11 +110,11 @@ def print_discovery(found: Discovery, console: Console, records: str, model_path
 
 def _candidates(candidates: tuple[Candidate, ...]) -> Table:
     table = Table(box=None, header_style="bold", pad_edge=False)
-    for name in ("effect", "RMS after, um", "share", "BIC drop", "p"):
+    for name in ("effect", "RMS after, µm", "share", "BIC drop", "p"):
         table.add_column(name, justify="left" if name == "effect" else "right")
     for each in candidates:
         table.add_row(
-            each.choice, f"{each.rms_after_um:.2f}", f"{each.share:.0%}", f"{each.bic_drop:,.0f}", f"{each.p_value:.1g}"
+            each.choice, f"{each.rms_after_um:.2f}", f"{each.share:.0%}", f"{each.bic_drop:,.0f}", p_shown(each.p_value)
         )
     return table
 
@@ -125,7 +125,7 @@ def _values(best: Candidate) -> Table:
         table.add_column(name, justify="right" if name in ("value", "± 1 sigma") else "left")
     for each in best.values:
         sigma = "-" if each.sigma is None else f"{each.sigma:.3g}"
-        table.add_row(each.element, each.name, f"{each.value:.4g}", sigma, each.unit)
+        table.add_row(each.element, each.name, f"{each.value:.4g}", sigma, readable_unit(each.unit))
     return table
 
 
@@ -135,8 +135,8 @@ def _print_next(found: Discovery, console: Console, records: str, model_path: Pa
     if found.next_test is not None:
         circle = found.next_test.circle
         console.print(
-            f"next best test: a circle of radius {circle['radius_mm']:.4g} mm, platform"
-            f" {circle['platform_rpy_deg']} deg, plane {circle['plane_rpy_deg']} deg (roll, pitch, yaw), at"
+            f"next best test: a circle of radius {circle.radius_mm:.4g} mm, platform"
+            f" {list(circle.platform_rpy_deg)} deg, plane {list(circle.plane_rpy_deg)} deg (roll, pitch, yaw), at"
             f" {found.next_test.feed_mm_min:g} mm/min: it would show {found.next_test.expected_sigmas:.0f} standard"
             " deviations between them",
             highlight=False,
@@ -153,3 +153,14 @@ def _print_next(found: Discovery, console: Console, records: str, model_path: Pa
             highlight=False,
             soft_wrap=True,
         )
+
+
+def p_shown(p_value: float) -> str:
+    """Return a p-value for people; below 1e-16 it is a rounding error of 1."""
+    return "< 1e-16" if p_value < 1e-16 else f"{p_value:.1g}"
+
+
+def p_words(p_value: float) -> str:
+    """Return ``p = 0.03`` or ``p < 1e-16``."""
+    shown = p_shown(p_value)
+    return f"p {shown}" if shown.startswith("<") else f"p = {shown}"

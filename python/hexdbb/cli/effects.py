@@ -45,7 +45,7 @@ def command(context: click.Context, path: Path | None, as_json: bool) -> None:
         ]
         click.echo(json.dumps({"effects": rows}, indent=2))
         return
-    table = Table("effect", "group", "elements", "parameters, expected size", "physics", box=None)
+    table = Table("effect", "group", "elements", "parameters, prior standard deviation", "physics", box=None)
     for info in infos:
         sizes = "\n".join(f"{each.name} {shown_size(each)}" for each in info.parameters)
         elements = f"{len(info.elements)} x {info.element_kind}"

@@ -18,7 +18,7 @@ effects_option = click.option(
 
 
 def own_effects(path: Path | None) -> list[UserEffect]:
-    """Give the effects of the file named, none where none is.
+    """Return the effects of the file named, none where none is.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How commands end: one clear line on stderr, exit status 0 done, 1 did not succeed, 2 wrong use."""
+"""End of a command: exit status 0 done, 1 did not succeed, 2 wrong use; an error is one line on stderr."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hexdbb.errors import HexdbbError
 
 
 def reports_errors(command: click.Command) -> None:
-    """Run a click command as a program and turn every error of hexdbb into one line and its exit status."""
+    """Run a click command as a program; report an error of hexdbb as one line and exit with its status."""
     try:
         command.main()
     except HexdbbError as error:

@@ -18,7 +18,7 @@ from hexdbb.ledger import history
 @effects_option
 @json_option
 def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
-    """Read out a model's ledger: each step, the effect, its size, and the error before and after.
+    """Print a model's ledger: each step, the effect, its size, and the error before and after.
 
     \b
     Examples:

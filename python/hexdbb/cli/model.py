@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from hexdbb.atomic_file import refuse_existing
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.machine import SHIPPED_MACHINE, load_machine, shipped_machine
 from hexdbb.model import new_model, save_model
 

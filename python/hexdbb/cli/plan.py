@@ -1,4 +1,4 @@
-"""`hexdbb plan`: look at plans before driving them, and have one proposed."""
+"""`hexdbb plan`: check, compare and propose plans before they are driven."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hexdbb.cli.plan_propose import propose_command
 
 @click.group("plan")
 def command() -> None:
-    """Check plans before driving them, hold them beside each other, have one proposed.
+    """Check, compare and propose plans before they are driven.
 
     \b
     Examples:

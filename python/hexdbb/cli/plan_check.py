@@ -1,4 +1,4 @@
-"""`hexdbb plan check`: reach, limits and clearances of a plan, and what it can tell."""
+"""`hexdbb plan check`: reach, limits and clearances of a plan, and what it would determine."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import click
 import numpy as np
 
 from hexdbb.capture.bus_load import check_load
-from hexdbb.cli.plan_judgement import Judgement, judge, noise_option
-from hexdbb.cli.plan_sheets import LIMITED, print_clearances, print_knowledge, print_motion
+from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option
+from hexdbb.cli.plan_tables import LIMITED, print_assessment, print_clearances, print_motion
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.model import load_model, new_model
@@ -20,7 +20,7 @@ from hexdbb.planning import Clearances, circle_clearances
 from hexdbb.trajectory import Programme, plan_programme
 
 
-@click.command("check", short_help="reach, limits, clearances, what a plan can tell")
+@click.command("check", short_help="reach, limits, clearances, what a plan determines")
 @click.argument("plan_name", metavar="PLAN")
 @click.option(
     "--rate", "rate_hz", type=click.FloatRange(min=1.0), help="Cycles per second; default: the machine file's."
@@ -30,17 +30,17 @@ from hexdbb.trajectory import Programme, plan_programme
     "--model",
     "model_path",
     type=click.Path(path_type=Path),
-    help="Model whose free values the plan is to tell; default: the thesis' 33 errors, cup and ball offset.",
+    help="Model whose free values are to be determined; default: the thesis' 33 errors, cup and ball offset.",
 )
 @noise_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 def check(
     plan_name: str, rate_hz: float | None, model_path: Path | None, noise_um: float | None, as_json: bool
 ) -> None:
-    """Say whether a plan is within reach and limits, how near it comes to each, and what it can tell of the machine.
+    """Check reach, limits and clearances of a plan, and compute what it would determine of the machine.
 
-    PLAN is a plan file or the name of a shipped plan. A plan out of reach ends with exit status 2 and names circle,
-    angle and limit. Uncertainties and detectable sizes are those of first order, at the gauge's stated noise.
+    PLAN is a plan file or the name of a shipped plan. A plan out of reach ends with exit status 2; the message names
+    circle, angle and limit. Uncertainties and detectable sizes are first order, at the stated noise of the gauge.
 
     \b
     Examples:
@@ -61,15 +61,17 @@ def check(
         if as_json:
             click.echo(json.dumps({"reachable": False, "reason": str(error)}, indent=2))
         raise
-    runs = [{**_name(programme, index), **_uses(programme, index, machine)} for index in range(len(programme.runs))]
+    runs = [
+        {**_run_json(programme, index), **_margins(programme, index, machine)} for index in range(len(programme.runs))
+    ]
     clearances = _clearances(plan, machine, plan_name)
-    found = judge(plan, model, rate_hz, noise_um, plan_name)
+    assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
     if as_json:
         summary = {"reachable": True, "duration_s": programme.duration_s, "bus_load": load, "runs": runs}
         circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
-        click.echo(json.dumps({**summary, "circles": circles, **found.to_json()}, indent=2))
+        click.echo(json.dumps({**summary, "circles": circles, **assessment.to_json()}, indent=2))
         return
-    _print(plan_name, programme, load, runs, clearances, found, machine)
+    _print(plan_name, programme, load, runs, clearances, assessment, machine)
 
 
 def _print(
@@ -78,21 +80,23 @@ def _print(
     load: float,
     runs: list[dict[str, float]],
     clearances: dict[int, Clearances],
-    found: Judgement,
+    assessment: PlanAssessment,
     machine: MachineFile,
 ) -> None:
     print_motion(f"plan {plan_name}: within reach and limits", runs, machine.can_setup.limits)
-    click.echo(f"{programme.duration_s:.0f} s at {1.0 / programme.cycle_s:g} Hz, bus load {load:.0%} at worst\n")
+    click.echo(f"{programme.duration_s:.0f} s at {1.0 / programme.cycle_s:g} Hz, bus load at most {load:.0%}\n")
     print_clearances(clearances)
-    print_knowledge(found)
+    print_assessment(assessment)
 
 
 def _clearances(plan: Plan, machine: MachineFile, plan_name: str) -> dict[int, Clearances]:
     found = {each.id: circle_clearances(machine, each, plan.mount_of(each).cup_mm) for each in plan.circles}
     for identity, each in found.items():
         if each is None:
-            expected = "room for the way in at every angle"
-            raise InputError(f"{plan_name}: circle {identity}: out of reach just outside it (expected {expected})")
+            expected = "room for the feed-in at every angle"
+            raise InputError(
+                f"{plan_name}: circle {identity}: out of reach at the start of the feed-in (expected {expected})"
+            )
     return {identity: each for identity, each in found.items() if each is not None}
 
 
@@ -106,7 +110,7 @@ def _clearance_json(identity: int, found: Clearances) -> dict[str, Any]:
     }
 
 
-def _name(programme: Programme, index: int) -> dict[str, float]:
+def _run_json(programme: Programme, index: int) -> dict[str, float]:
     run = programme.runs[index]
     return {
         "circle": run.circle.id,
@@ -116,17 +120,17 @@ def _name(programme: Programme, index: int) -> dict[str, float]:
     }
 
 
-def _uses(programme: Programme, index: int, machine: MachineFile) -> dict[str, float]:
-    """Give the largest slider rates of a run, and the least distance to the ends of travel and between two sliders."""
+def _margins(programme: Programme, index: int, machine: MachineFile) -> dict[str, float]:
+    """Return the largest slider rates of a run, and its margins to the ends of travel and to the smallest gap."""
     sliders_mm = programme.table.sliders_mm[programme.table.run == index]
     low_mm, high_mm = machine.sliders.travel_mm
     gaps_mm = sliders_mm[:, 1::2] - sliders_mm[:, 0::2] - machine.sliders.min_gap_mm
-    uses = {
+    margins = {
         "to_end_of_travel_mm": float(min(sliders_mm.min() - low_mm, high_mm - sliders_mm.max())),
         "to_min_gap_mm": float(gaps_mm.min()),
     }
     rate = sliders_mm
     for name, unit in LIMITED:
         rate = np.diff(rate, axis=0) / programme.cycle_s
-        uses[f"{name}_{unit}"] = float(np.abs(rate).max())
-    return uses
+        margins[f"{name}_{unit}"] = float(np.abs(rate).max())
+    return margins

@@ -1,45 +1,40 @@
-"""The command `hexdbb-run`: drive a plan's circles and record them, on a real bus or on a simulated rig."""
+"""The command `hexdbb-run`: drive the circles of a plan and record them, on a real bus or on a simulated rig."""
 
 from __future__ import annotations
 
 import logging
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-import can
 import click
 from rich.console import Console
 
-from hexdbb.atomic_file import refuse_existing
-from hexdbb.capture.clock import Clock, Deadlines, Lockstep
+from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.display import LIVE_PERIOD_S, display
-from hexdbb.capture.realtime import real_time_process
-from hexdbb.capture.request import Progress, Request, prepare
+from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
-from hexdbb.capture.simulated import simulated_rig
-from hexdbb.capture.transport import open_bus
 from hexdbb.cli.exits import reports_errors
 from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.plan import load_plan
 from hexdbb.record import Record
 from hexdbb.trajectory import Programme
 
 SIMULATED_SILENT_AFTER = 25
-"""In real time a simulated rig on a busy desktop may be held up for longer than a node, and can break nothing."""
+"""Consecutive unanswered SYNCs allowed to a simulated rig in real time (100 ms at 250 Hz): a busy desktop stalls it
+longer than a real node, and it can damage nothing."""
 
-HELP = """Drive a plan's circles and record slider positions and ball-bar readings.
+HELP = """Drive the circles of a plan and record slider positions and ball-bar readings.
 
 \b
-Without --bus a simulated rig is started as a process of its own and ended afterwards.
-Nothing moves before plan, bus load and every node's settings have been checked.
-Any fault stops all six axes together; what was captured is kept.
+Without --bus a simulated rig is started as a separate process and ended afterwards.
+Nothing moves before the plan, the bus load and the settings of every node have been checked.
+Any fault stops all six axes together; the captured samples are kept.
 
 \b
 Examples:
@@ -56,35 +51,44 @@ Buses (any interface of python-can):
 
 
 @click.command("hexdbb-run", help=HELP, context_settings={"help_option_names": ["-h", "--help"]})
-@click.option("--plan", "plan_name", default="thesis", show_default=True, help="Plan file, or a shipped plan's name.")
 @click.option(
-    "-o", "--output", "record", required=True, type=click.Path(path_type=Path), help="Record to make (.parquet)."
+    "--plan", "plan_name", default="thesis", show_default=True, help="Plan file, or the name of a shipped plan."
 )
-@click.option("--bus", "bus_spec", help="CAN bus, interface:channel; default: a simulated rig.")
+@click.option(
+    "-o", "--output", "record", required=True, type=click.Path(path_type=Path), help="Record to write (.parquet)."
+)
+@click.option("--bus", "bus_spec", help="CAN bus as interface:channel; default: a simulated rig.")
 @click.option(
     "--lockstep/--realtime",
     "lockstep",
     default=None,
-    help="As fast as the bus goes (default when simulated), or at the cycle rate.",
+    help="Next SYNC when all nodes have answered (default when simulated), or at the cycle rate.",
 )
 @click.option(
-    "--rate", "rate_hz", type=click.FloatRange(min=1.0), help="Cycles per second; default: the machine file's."
+    "--rate",
+    "rate_hz",
+    type=click.FloatRange(min=1.0),
+    help="Cycles per second; default: cycle_rate_hz of the machine file.",
 )
 @click.option(
     "--compensation",
     "compensation_path",
     type=click.Path(path_type=Path),
-    help="Compensation file (hexdbb compensate): slider targets of the machine as diagnosed, not of the nominal one.",
+    help="Compensation file (hexdbb compensate): slider targets of the diagnosed machine instead of the nominal one.",
 )
-@click.option("--temperature-c", type=float, help="With --compensation: the machine's temperature, for its growth.")
+@click.option(
+    "--temperature-c", type=float, help="With --compensation: temperature of the machine, to correct thermal growth."
+)
 @click.option("--truth", type=click.Path(path_type=Path), help="Simulated rig: truth file.")
 @click.option(
-    "--seed", type=click.IntRange(min=0), help="Simulated rig: seed of the hidden machine, or of a truth file's noise."
+    "--seed",
+    type=click.IntRange(min=0),
+    help="Simulated rig: seed of the random machine, or of the noise with --truth.",
 )
 @click.option(
-    "--fault", "faults", multiple=True, metavar="SPEC", help="Simulated rig: fault to inject, see hexdbb rig --help."
+    "--fault", "faults", multiple=True, metavar="SPEC", help="Simulated rig: fault to inject; see hexdbb rig --help."
 )
-@click.option("--yes", is_flag=True, help="Do not ask for the bar to be mounted.")
+@click.option("--yes", is_flag=True, help="Do not ask whether the bar is mounted.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing record.")
 def command(
     plan_name: str,
@@ -101,17 +105,17 @@ def command(
     overwrite: bool,
 ) -> None:
     """Measure."""
-    # What these libraries warn of while a node is silent or a frame is torn is reported by hexdbb itself.
+    # Their warnings about silent nodes and torn frames duplicate the messages of hexdbb.
     for library in ("can", "canopen"):
         logging.getLogger(library).setLevel(logging.CRITICAL)
     console = Console(stderr=True)
     simulated = bus_spec is None
-    rig_options = _rig_options(truth, seed, faults)
-    if rig_options and not simulated:
-        raise InputError(f"{rig_options[0]}: is an option of the simulated rig (expected no --bus with it)")
+    rig = SimulatedRig(truth, seed, faults)
+    if rig.options and not simulated:
+        raise InputError(f"{rig.options[0]}: option of the simulated rig (expected without --bus)")
     refuse_existing(record, overwrite)
     lockstep = simulated if lockstep is None else lockstep
-    request, progress = _request(plan_name, record, rate_hz, overwrite), Progress()
+    request, progress = _request(plan_name, record, rate_hz, overwrite), RunProgress()
     if compensation_path is not None:
         request = compensated(request, compensation_path, temperature_c, progress)
     elif temperature_c is not None:
@@ -124,16 +128,19 @@ def command(
     if simulated:
         request = request if lockstep else replace(request, silent_after=SIMULATED_SILENT_AFTER)
     elif not yes and not sys.stdin.isatty():
-        progress.notes.append("stdin is no terminal: nobody is asked whether the bar is mounted")
+        progress.notes.append("stdin is not a terminal: no confirmation that the bar is mounted")
     elif not yes:
         request = replace(request, confirm=_ask(console, progress))
     with console.status("computing and checking all targets"):
         programme = prepare(request)
-    with _bus(bus_spec, request, rig_options) as bus, _pace(lockstep, request.cycle_s, progress) as clock:
+    with (
+        opened_bus(rig if bus_spec is None else bus_spec, request.machine) as bus,
+        running_clock(lockstep, request.cycle_s, progress) as clock,
+    ):
         console.print(_announcement(programme, lockstep, request), highlight=False, soft_wrap=True)
         with display(progress, console):
-            made = measure(request, programme, bus, clock, progress)
-    _say_what_was_recorded(made, programme, progress)
+            recorded = measure(request, programme, bus, clock, progress)
+    _print_summary(recorded, programme, progress)
 
 
 def main() -> None:
@@ -152,37 +159,8 @@ def _request(plan_name: str, record: Path, rate_hz: float | None, overwrite: boo
     return Request(plan, machine, origin, 1.0 / rate_hz, record, overwrite, metadata=metadata)
 
 
-def _rig_options(truth: Path | None, seed: int | None, faults: tuple[str, ...]) -> list[str]:
-    """Options to hand on to the simulated rig."""
-    options = [] if truth is None else ["--truth", str(truth)]
-    options += [] if seed is None else ["--seed", str(seed)]
-    return options + [word for fault in faults for word in ("--fault", fault)]
-
-
-@contextmanager
-def _bus(spec: str | None, request: Request, rig_options: list[str]) -> Iterator[can.BusABC]:
-    """Open the bus named, or start a rig and open its bus."""
-    with ExitStack() as stack:
-        if spec is None:
-            path = request.machine.path
-            machine = [] if path is None else ["--machine", str(path)]
-            spec = stack.enter_context(simulated_rig([*machine, *rig_options]))
-        yield stack.enter_context(open_bus(spec, request.machine.can_setup.bitrate_bit_s))
-
-
-@contextmanager
-def _pace(lockstep: bool, cycle_s: float, progress: Progress) -> Iterator[Clock]:
-    """Give the clock; in real time, with what the system grants of a real-time process."""
-    if lockstep:
-        yield Lockstep()
-        return
-    with real_time_process() as refused:
-        progress.notes += refused
-        yield Deadlines(cycle_s)
-
-
-def _ask(console: Console, progress: Progress) -> Confirm:
-    """Give the question that waits for the operator."""
+def _ask(console: Console, progress: RunProgress) -> Confirm:
+    """Return the function that waits for the operator's confirmation."""
 
     def confirm(text: str) -> None:
         progress.paused = True
@@ -190,7 +168,7 @@ def _ask(console: Console, progress: Progress) -> Confirm:
         try:
             console.input(f"{text}, then press Enter ")
         except EOFError:
-            raise RunError("input ended: nobody has confirmed that the bar is mounted") from None
+            raise RunError("stdin closed: the operator has not confirmed that the bar is mounted") from None
         finally:
             progress.paused = False
 
@@ -208,8 +186,8 @@ def _announcement(programme: Programme, lockstep: bool, request: Request) -> str
     )
 
 
-def _say_what_was_recorded(record: Record, programme: Programme, progress: Progress) -> None:
-    """Print what there is now, and what to type next."""
+def _print_summary(record: Record, programme: Programme, progress: RunProgress) -> None:
+    """Print the summary of the record and the next command."""
     reading, planned = record.columns["reading_um"], programme.table.capture.sum()
     click.echo(
         f"recorded {record.path}: {len(record)} of {planned} samples, {len(record.sweeps())} sweeps, "

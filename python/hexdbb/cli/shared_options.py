@@ -1,4 +1,4 @@
-"""What several commands ask for alike: records, a model file, JSON."""
+"""Arguments and options shared by several commands: records, model file, JSON."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ records_argument: Decorator = click.argument(
 json_option: Decorator = click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
 
 
-def model_option(words: str) -> Decorator:
-    """Give the option -m MODEL, required; `words` are its help."""
+def model_option(help_text: str) -> Decorator:
+    """Return the required option -m MODEL with a help text."""
     return click.option(
-        "-m", "--model", "model_path", required=True, metavar="MODEL", type=click.Path(path_type=Path), help=words
+        "-m", "--model", "model_path", required=True, metavar="MODEL", type=click.Path(path_type=Path), help=help_text
     )

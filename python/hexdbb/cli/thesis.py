@@ -1,4 +1,4 @@
-"""`hexdbb thesis`: the thesis' own way, to hold beside it: reference contours, its estimator, its tables."""
+"""`hexdbb thesis`: the thesis' method, for comparison: reference contours, its estimator, its tables."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from typing import Any
 import click
 from rich.box import SIMPLE_HEAD
 from rich.console import Console
-from rich.table import Table as Sheet
+from rich.table import Table
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.plan import load_plan
 from hexdbb.record import read_record
-from hexdbb.thesis.circular_test import CircularTest, joint_plane_test, plan_test
-from hexdbb.thesis.contours import reference_contours
-from hexdbb.thesis.estimator import ThesisEstimate, thesis_estimate_record
-from hexdbb.thesis.unknowns import UNKNOWNS
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.studies.thesis.circular_test import CircularTest, joint_plane_test, plan_test
+from hexdbb.studies.thesis.contours import reference_contours
+from hexdbb.studies.thesis.estimator import ThesisEstimate, thesis_estimate_record
+from hexdbb.studies.thesis.unknowns import UNKNOWNS
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
-MOST_ERRORS = ", ".join(UNKNOWNS)
+ERROR_NAMES = ", ".join(UNKNOWNS)
 
 
 @click.group("thesis")
 def command() -> None:
     """Compute what the thesis computes: reference contours, linear least squares on them, Tables 5.1-5.8.
 
-    A documented mode to hold beside the thesis; `hexdbb diagnose` is what to fit a machine with.
+    A documented mode for comparison with the thesis; to fit a machine, use `hexdbb diagnose`.
 
     \b
     Examples:
@@ -40,9 +40,9 @@ def command() -> None:
 
 @command.command("contours")
 @click.option("-o", "--output", "stem", required=True, metavar="STEM", type=click.Path(path_type=Path))
-@click.option("--plan", "plan_name", metavar="PLAN", help="A plan file or a shipped plan, for a circle of it.")
-@click.option("--circle", "identity", type=int, help="Id of the plan's circle; its first where not given.")
-@click.option("--errors", help=f"Comma-separated; the thesis' 33 where not given. Known: {MOST_ERRORS}.")
+@click.option("--plan", "plan_name", metavar="PLAN", help="Plan file or shipped plan with the circle.")
+@click.option("--circle", "identity", type=int, help="Id of the circle in the plan; default: its first.")
+@click.option("--errors", help=f"Comma-separated errors; default: the thesis' 33. Known: {ERROR_NAMES}.")
 @click.option("--no-plot", is_flag=True, help="Write no pictures.")
 @click.option("--overwrite", is_flag=True, help="Replace existing files.")
 def contours(
@@ -50,7 +50,7 @@ def contours(
 ) -> None:
     """Write the radial deviation of each unit error along the circle as STEM.csv, STEM.png and STEM.svg.
 
-    Without --plan: a level circle, the ball in the plane of the ball joints (thesis Figures 3.16-3.20).
+    Without --plan: a level circle with the ball in the plane of the ball joints (thesis Figures 3.16-3.20).
 
     \b
     Examples:
@@ -63,13 +63,11 @@ def contours(
         refuse_existing(stem.with_name(f"{stem.name}{suffix}"), overwrite)
     test = _test(plan_name, identity)
     found = reference_contours(test, _names(errors)) if errors is not None else reference_contours(test)
-    from hexdbb.thesis.pages import write_text  # matplotlib takes a second to import
-
     write_text(table, found.to_csv())
     written = [table]
     if not no_plot:
-        from hexdbb.plots import save_figure
-        from hexdbb.thesis.pictures import contours_figure
+        from hexdbb.plots import save_figure  # matplotlib takes a second to import
+        from hexdbb.studies.thesis.pictures import contours_figure
 
         written += save_figure(contours_figure(found), stem)
     click.echo(f"{len(found.unknowns)} contours: {', '.join(str(path) for path in written)}", err=True)
@@ -77,13 +75,13 @@ def contours(
 
 @command.command("estimate")
 @click.argument("record_path", metavar="RECORD", type=click.Path(path_type=Path))
-@click.option("--errors", required=True, help=f"Comma-separated errors taken to exist. Known: {MOST_ERRORS}.")
-@click.option("--minimum-norm", is_flag=True, help="Where A'A is singular, give the solution of smallest norm.")
+@click.option("--errors", required=True, help=f"Comma-separated errors assumed to exist. Known: {ERROR_NAMES}.")
+@click.option("--minimum-norm", is_flag=True, help="Where A'A is singular, use the solution of smallest norm.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object instead of the table.")
 def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) -> None:
     """Estimate errors by linear least squares on reference contours, equations (5.4)-(5.10).
 
-    No uncertainty comes out of it, no error but the named ones may exist, and the cup stands where planned.
+    The estimate has no uncertainties; it assumes that only the named errors exist and that the cup is where planned.
 
     \b
     RECORD is a Parquet record or a text-form CSV. Examples:
@@ -94,27 +92,29 @@ def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) 
     if as_json:
         click.echo(json.dumps(_to_json(found), indent=2, allow_nan=False))
         return
-    sheet = Sheet(box=SIMPLE_HEAD, pad_edge=False)
+    sheet = Table(box=SIMPLE_HEAD, pad_edge=False)
     for heading in ("error", "value", "unit", "determined"):
         sheet.add_column(heading, justify="right" if heading == "value" else "left")
     for row in _to_json(found)["parameters"]:
-        sheet.add_row(row["error"], f"{row['value']:.2f}", row["unit"], "yes" if row["determined"] else "no")
+        sheet.add_row(
+            row["error"], f"{row['value']:.2f}", readable_unit(row["unit"]), "yes" if row["determined"] else "no"
+        )
     Console(highlight=False).print(sheet)
     for sentence in found.dependent:
-        click.echo(f"contours coincide, in unit errors: {sentence}")
-    click.echo(f"contour {1e3 * found.rms_before_mm:.2f} um rms, left of it {1e3 * found.rms_after_mm:.2f} um rms")
-    click.echo("true only if no other error exists and the cup stands where planned: hexdbb diagnose assumes neither")
+        click.echo(f"dependent contours, in unit errors: {sentence}")
+    click.echo(f"contour {1e3 * found.rms_before_mm:.2f} µm RMS, residual {1e3 * found.rms_after_mm:.2f} µm RMS")
+    click.echo("valid only if no other error exists and the cup is where planned; hexdbb diagnose assumes neither")
 
 
 @command.command("tables")
 def tables() -> None:
-    """Print Tables 5.1-5.8, given against identified, and why they come out so, as Markdown.
+    """Print Tables 5.1-5.8, given against identified values, and the reason for their results, as Markdown.
 
     \b
     Example:
       hexdbb thesis tables > thesis-tables.md
     """
-    from hexdbb.thesis.tables_page import tables_page
+    from hexdbb.studies.thesis.tables_page import tables_page
 
     click.echo(tables_page(), nl=False)
 
@@ -129,13 +129,13 @@ def tables() -> None:
     type=click.Path(path_type=Path, exists=True, file_okay=False),
 )
 def pages(directory: Path) -> None:
-    """Write the pages of contours and tables with their pictures, replacing what stands there.
+    """Write the pages of contours and tables with their pictures, replacing existing ones.
 
     \b
     Example:
       hexdbb thesis pages -o docs
     """
-    from hexdbb.thesis.pages import write_pages
+    from hexdbb.studies.thesis.pages import write_pages
 
     click.echo(f"written: {', '.join(str(path) for path in write_pages(directory))}", err=True)
 
@@ -143,7 +143,7 @@ def pages(directory: Path) -> None:
 def _test(plan_name: str | None, identity: int | None) -> CircularTest:
     if plan_name is None:
         if identity is not None:
-            raise InputError(f"--circle {identity} without --plan: expected the plan it belongs to")
+            raise InputError(f"--circle {identity} without --plan: expected the plan to which it belongs")
         return joint_plane_test()
     plan = load_plan(plan_name)
     which = plan.circles[0].id if identity is None else identity

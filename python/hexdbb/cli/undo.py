@@ -1,4 +1,4 @@
-"""`hexdbb undo`: take back what was last done to a model."""
+"""`hexdbb undo`: undo the last step of a model."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from pathlib import Path
 
 import click
 
-from hexdbb.atomic_file import refuse_existing
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.ledger import undo
-from hexdbb.ledger.history import step_json
+from hexdbb.ledger.json_form import UndoneJson, step_json
 from hexdbb.ledger.words import deed
 from hexdbb.model import save_model
 
 
 @click.command("undo")
-@model_option("Model file; its last step is taken back.")
+@model_option("Model file; its last step is undone.")
 @effects_option
 @json_option
 def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
-    """Give a model back as it was before the last step: a diagnosis, an effect added.
+    """Undo the last step of a model: a diagnosis, an effect added.
 
     The model's file keeps every earlier state, so undo can be repeated down to the first step.
 
@@ -37,8 +37,8 @@ def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
     save_model(earlier, model_path)
     last = model.ledger[-1]
     if as_json:
-        undone = {"undone": step_json(last), "steps_left": len(earlier.ledger)}
-        click.echo(json.dumps(undone, indent=2, allow_nan=False))
+        undone = UndoneJson(step_json(last), len(earlier.ledger))
+        click.echo(json.dumps(undone.to_json(), indent=2, allow_nan=False))
         return
     click.echo(f"undone: step {last.step}, which {deed(last)}")
     click.echo(f"{len(earlier.ledger)} step{'' if len(earlier.ledger) == 1 else 's'} left in the ledger")

@@ -1,4 +1,4 @@
-"""Held-out circles: what was fitted on some circles must predict the others.
+"""Held-out circles: what was fitted to some circles must predict the others.
 
 Circles (or sweeps) are dealt into groups; a model is fitted without each group in turn and predicts it. A fit that
 improves where it was trained and not here explains noise, or the wrong thing.
@@ -6,27 +6,27 @@ improves where it was trained and not here explains noise, or the wrong thing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb import _core
-from hexdbb.measured import Measured, measured
 from hexdbb.model import Model
-from hexdbb.record import Record
+from hexdbb.samples import Prediction, Samples, predict
 
-MOST_FOLDS = 7
+MAX_FOLDS = 7
+"""Groups of circles at most: the thesis' plan has seven circles, and more would each cost a fit and add little."""
 
-Refit = Callable[[Measured, Model], Model]
-Mask = NDArray[np.bool_]
+Refit = Callable[[Samples, Model], Model]
+"""Fits a model to some samples."""
+Grouping = Literal["circle", "sweep"]
 
 
 @dataclass(frozen=True)
 class HeldOut:
-    """Residual on readings left out of the fit, before and after: root mean square, and peak to valley."""
+    """Residual of readings held out of the fit, before and after: root mean square, and peak to valley."""
 
     before_um: float
     after_um: float
@@ -35,76 +35,66 @@ class HeldOut:
     peak_to_valley_after_um: float
 
     def share(self, noise_um: float) -> float:
-        """Part of what was unexplained that the fit explains where it was not made."""
+        """Return the explained share: the part of what was unexplained that the fit explains on held-out readings."""
         excess = self.before_um**2 - noise_um**2
         return (self.before_um**2 - self.after_um**2) / excess if excess > 0.0 else 0.0
 
 
 def held_out(
-    records: Sequence[Record] | Measured,
+    samples: Samples,
     before: tuple[Model, Refit],
     after: tuple[Model, Refit],
-    by: Literal["circle", "sweep"] = "circle",
-    most_folds: int = MOST_FOLDS,
+    by: Grouping = "circle",
+    max_folds: int = MAX_FOLDS,
 ) -> HeldOut | None:
-    """Compare two models on readings they have not seen.
+    """Compare two models on readings they were not fitted to.
 
     Parameters
     ----------
-    records : sequence of Record, or Measured
+    samples : Samples
     before, after : tuple of Model and callable
-        A start and how it is fitted to the training records; `as_it_is` leaves its values alone.
+        A start and how it is fitted to the training samples; `as_it_is` leaves its values alone.
     by : str
-        Whole circles are left out, or single sweeps, for what belongs to a circle alone.
-    most_folds : int
-        At most so many groups.
+        Whole circles are held out, or single sweeps, for what belongs to a circle alone.
+    max_folds : int
+        Number of groups at most.
 
     Returns
     -------
     HeldOut or None
         None where there are not two groups.
     """
-    taken = measured(records, after[0])
-    left_out = folds(taken.records, by, most_folds)
-    if len(left_out) < 2:
+    groups = folds(samples, by, max_folds)
+    if len(groups) < 2:
         return None
-    errors: tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]] = ([], [])
-    for fold in map(np.concatenate, left_out):
-        for (model, refit), gathered in zip((before, after), errors, strict=True):
-            own = measured(taken, model)
-            gathered.append(_residual(own.part(fold), refit(own.part(~fold), model)))
-    before_mm, after_mm = (np.concatenate(gathered) for gathered in errors)
+    left: tuple[list[Prediction], list[Prediction]] = ([], [])
+    for group in groups:
+        test, training = samples.part(group), samples.part(~group)
+        for (model, refit), gathered in zip((before, after), left, strict=True):
+            gathered.append(predict(test, refit(training, model)))
+    before_all, after_all = (_joined(each) for each in left)
     return HeldOut(
-        before_um=_rms_um(before_mm),
-        after_um=_rms_um(after_mm),
-        folds=len(left_out),
-        peak_to_valley_before_um=float(np.ptp(before_mm)) * 1e3,
-        peak_to_valley_after_um=float(np.ptp(after_mm)) * 1e3,
+        before_um=before_all.rms_um,
+        after_um=after_all.rms_um,
+        folds=len(groups),
+        peak_to_valley_before_um=before_all.peak_to_valley_um,
+        peak_to_valley_after_um=after_all.peak_to_valley_um,
     )
 
 
-def as_it_is(_: Measured, model: Model) -> Model:
-    """Fit nothing."""
+def as_it_is(_: Samples, model: Model) -> Model:
+    """Return the model: nothing is fitted."""
     return model
 
 
-def folds(records: Sequence[Record], by: str, most: int) -> list[list[Mask]]:
-    """Deal circles or sweeps into groups: masks of the rows left out, one list a fold, one mask a record."""
-    groups = [(index, int(each)) for index, record in enumerate(records) for each in np.unique(record.columns[by])]
-    count = min(len(groups), most)
-    return [
-        [
-            np.isin(record.columns[by], [each for at, each in groups[fold::count] if at == index])
-            for index, record in enumerate(records)
-        ]
-        for fold in range(count)
-    ]
+def folds(samples: Samples, by: Grouping, most: int) -> list[NDArray[np.bool_]]:
+    """Deal circles or sweeps into groups: a mask of the rows held out for each, shape (n,)."""
+    each_own = np.unique(np.column_stack([samples["record"], samples[by]]), axis=0, return_inverse=True)[1].ravel()
+    count = min(int(each_own.max(initial=-1)) + 1, most)
+    return [each_own % count == fold for fold in range(count)]
 
 
-def _residual(part: Measured, model: Model) -> NDArray[np.float64]:
-    residual: NDArray[np.float64] = part.reading_mm - _core.predict(part.engine(model), part.samples).reading_mm
-    return residual
-
-
-def _rms_um(residual_mm: NDArray[np.float64]) -> float:
-    return float(np.sqrt(np.mean(residual_mm**2))) * 1e3
+def _joined(parts: list[Prediction]) -> Prediction:
+    return Prediction(
+        np.concatenate([each.reading_mm for each in parts]), np.concatenate([each.residual_mm for each in parts])
+    )

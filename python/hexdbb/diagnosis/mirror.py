@@ -1,9 +1,9 @@
-"""Values whose size the readings tell and whose sign they do not.
+"""Values whose size the readings determine and whose sign they do not.
 
 Horizontal circles see the cup's height to second order only: off by d it shortens the bar by d^2 / (2 L), above or
 below alike, so that a fit may end on either side. Every value of the set-up that stands clear of zero is therefore
-tried with its sign turned: the better of the two solutions is kept, and where the readings hardly prefer one the
-value does not count as known.
+fitted again from the opposite sign: the better of the two solutions is kept, and where the readings hardly prefer one,
+the value does not count as identifiable.
 """
 
 from __future__ import annotations
@@ -11,23 +11,22 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.model import Model, Parameter
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 CLEAR_OF_ZERO = 2.0
-"""Stated standard deviations beyond which a value has a sign to speak of."""
+"""Stated standard deviations above which a value has a sign: below, the other sign is within its uncertainty."""
 HARDLY_PREFERRED = 9.0
-"""Difference of twice the log-likelihood (three standard deviations) below which the other sign is as good."""
+"""Difference of twice the log-posterior below which neither sign is preferred: three standard deviations, squared."""
 
 Fit = Callable[[Model], tuple[Model, _core.FitResult]]
 Fitted = tuple[Model, _core.FitResult]
 
 
 def settle_signs(fitted: Fitted, fit: Fit, noise_mm: float) -> tuple[Fitted, list[str]]:
-    """Try the other sign of each value of the set-up that has one.
+    """Fit again from the other sign of each value of the set-up that has one, and keep the better solution.
 
     Parameters
     ----------
@@ -51,7 +50,7 @@ def settle_signs(fitted: Fitted, fit: Fit, noise_mm: float) -> tuple[Fitted, lis
         model = fitted[0]
         turned = model.values.copy()
         turned[column] *= -1.0
-        other = fit(model.with_values(turned, model.sigma, _known(model)))
+        other = fit(model.with_values(turned))
         if other[0].values[column] * model.values[column] > 0.0:
             continue
         gain = _cost(*fitted, noise_mm) - _cost(*other, noise_mm)
@@ -75,24 +74,19 @@ def _signed(model: Model, result: _core.FitResult) -> list[int]:
 
 
 def _cost(model: Model, result: _core.FitResult, noise_mm: float) -> float:
-    sizes = np.array([parameter.prior_sigma for parameter in model.parameters()])
-    prior = (model.values / sizes)[result.free_columns]
+    prior = (model.values / model.prior_sigma)[result.free_columns]
     return float(np.sum((result.residual_mm / noise_mm) ** 2) + prior @ prior)
 
 
-def _known(model: Model) -> NDArray[np.bool_]:
-    return np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)])
-
-
 def _without_sigma(model: Model, columns: list[int]) -> Model:
-    sigma, known = model.sigma.copy(), _known(model).copy()
+    sigma, known = model.sigma, model.identifiable
     sigma[columns], known[columns] = np.nan, False
     return model.with_values(model.values, sigma, known)
 
 
 def _sentence(parameter: Parameter, one: float, other: float) -> str:
-    factor, unit = shown_factor(parameter.unit), shown_unit(parameter.unit)
+    factor, unit = shown_factor(parameter.unit), readable_unit(shown_unit(parameter.unit))
     return (
         f"{parameter.label} may be {one * factor:+.1f} or {other * factor:+.1f} {unit}:"
-        " the readings tell its size, not its sign (a circle in a tilted plane would)"
+        " the readings determine its size, not its sign (a circle in a tilted plane would)"
     )

@@ -1,8 +1,7 @@
-"""Set-ups a model has not seen: where the cups of a record's mounts stand, found with all else held."""
+"""Set-ups a model does not know: where the cups of mounts stand, fitted with all else held."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,52 +10,54 @@ from hexdbb import _core
 from hexdbb.diagnosis.fit import evaluate_fit
 from hexdbb.diagnosis.noise import noise_of
 from hexdbb.model import Model, MountKey, new_term
-from hexdbb.prediction import unseen_mounts
-from hexdbb.record import Record
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.samples import Samples
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 
-def fit_mounts(record: Record, model: Model) -> tuple[Model, list[str]]:
-    """Find where the cups of mounts stand that a model has not seen, holding all else: a set-up, not the machine.
+def fit_mounts(samples: Samples, model: Model) -> tuple[Model, list[str]]:
+    """Fit where the cups of mounts stand that a model does not know, holding all else: a set-up, not the machine.
+
+    Records are fitted one after another, each at the noise of its own readings.
 
     Returns
     -------
     model : Model
-        Knowing the record's mounts; the same object where it knew them.
+        Knowing the samples' mounts; the same object where it knew them.
     said : list of str
-        What was found, one sentence a mount.
+        What was found, one sentence for each mount.
     """
-    unseen = unseen_mounts(record, model)
-    if not unseen:
-        return model, []
+    said: list[str] = []
+    for record, part in samples.of_each_record():
+        unseen = [
+            samples.mounts[place] for place in np.unique(part["mount"]) if samples.mounts[place] not in model.mounts
+        ]
+        if unseen:
+            model, places = _fitted(part, model, unseen)
+            said += [_sentence(record.name, model, element, key) for element, key in places.items()]
+    return model, said
+
+
+def _fitted(samples: Samples, model: Model, unseen: list[MountKey]) -> tuple[Model, dict[str, MountKey]]:
+    """Fit the values of some mounts; return the model and the elements that the mounts are."""
     known = _with_mount_effects(model).with_mounts(unseen)
     kinds = {term.effect: known.info(term.effect).element_kind for term in known.terms}
     places = {str(known.mounts.index(key) + 1): key for key in unseen}
     free = np.array([kinds[each.effect] == "mount" and each.element in places for each in known.parameters()])
-    fitted, _ = evaluate_fit([record], known, free, noise_of([record]))
-    return fitted, [_sentence(record, fitted, element, key) for element, key in places.items()]
-
-
-def with_mounts_fitted(records: Sequence[Record], model: Model) -> tuple[Model, list[str]]:
-    """Do `fit_mounts` for several records, one after another."""
-    said: list[str] = []
-    for record in records:
-        model, more = fit_mounts(record, model)
-        said += more
-    return model, said
+    return evaluate_fit(samples, known, free, noise_of(samples))[0], places
 
 
 def _with_mount_effects(model: Model) -> Model:
-    present = {term.effect for term in model.terms}
     infos = [model.info(name) for name in _core.effect_names()]
-    missing = [info for info in infos if info.element_kind == "mount" and info.name not in present]
+    missing = [info for info in infos if info.element_kind == "mount" and model.term(info.name) is None]
     return replace(model, terms=(*model.terms, *(new_term(info.name, 0) for info in missing)))
 
 
-def _sentence(record: Record, model: Model, element: str, key: MountKey) -> str:
-    moved = [
-        f"{parameter.name} {value * shown_factor(parameter.unit):+.1f} {shown_unit(parameter.unit)}"
-        for parameter, value in zip(model.parameters(), model.values, strict=True)
-        if model.info(parameter.effect).element_kind == "mount" and parameter.element == element
-    ]
-    return f"{record.name}: mount {key.mount_id} is new to the model; its cup was fitted first: {', '.join(moved)}"
+def _sentence(record: str, model: Model, element: str, key: MountKey) -> str:
+    """State a mount's fitted values, effect by effect: cup and ball both have x, y and z."""
+    values: dict[str, list[str]] = {}
+    for parameter, value in zip(model.parameters(), model.values, strict=True):
+        if model.info(parameter.effect).element_kind == "mount" and parameter.element == element:
+            shown = f"{value * shown_factor(parameter.unit):+.1f} {readable_unit(shown_unit(parameter.unit))}"
+            values.setdefault(parameter.effect, []).append(f"{parameter.name} {shown}")
+    fitted = "; ".join(f"{effect} {', '.join(each)}" for effect, each in values.items())
+    return f"{record}, mount {key.mount_id}: not known to the model, so its set-up was fitted first: {fitted}"

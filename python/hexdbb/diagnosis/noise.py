@@ -1,19 +1,19 @@
-"""How noisy the readings are: from repeated laps, else as the gauge states it, else from the readings' own roughness.
+"""Noise of the readings: from repeated laps, else the gauge specification, else the readings' own roughness.
 
 Repeated laps: the slider positions of two laps at one angle differ by micrometres only, so the difference of their
-readings is noise, whatever the machine's errors are (pure error, in the words of regression). The sweep's lowest
-harmonics are taken out of both, lest the contour's curvature between two readings counts; with the earlier lap then
-interpolated linearly between two readings at part f, white noise s makes differences of variance
-s^2 (1 + f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding, which is evenly spread:
-step / sqrt(12). Roughness: second differences of neighbouring readings, harmonics taken out as well, remove what
-changes smoothly; of white noise s they have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard
-deviations are jumps and do not count in either; what that takes from normal noise is given back. A median would be
-robust too, but the readings are rounded, so that it could only be one of few values.
+readings is noise, whatever the machine's errors are (pure error, in the terms of regression). The sweep's lowest
+harmonics are removed from both, so that the contour's curvature between two readings does not count; with the earlier
+lap then interpolated linearly between two readings at part f, white noise s makes differences of variance
+s^2 (1 + f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness:
+second differences of neighbouring readings, harmonics removed as well, cancel what changes smoothly; of white noise s
+they have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in
+either; the variance that this removes from normal noise is restored. A median would be robust too, but the readings are
+rounded, so that it could only be one of few values.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
@@ -22,21 +22,27 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from hexdbb.circle import LEAST_NOISE_MM
-from hexdbb.record import Record
+from hexdbb.plan import LEAST_NOISE_MM
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 
-LEAST_REPEATS = 100
-"""So many repeated readings are needed to estimate noise from them to about a tenth."""
+TURN = 2.0 * np.pi
+MIN_REPEATS = 100
+"""Repeated readings below which laps are not used: a standard deviation from n differences scatters by 1 / sqrt(2 n),
+7 % here."""
 HARMONICS = 8
+"""Harmonics removed from a sweep: what geometry, play and screw errors put into a contour lies below, nearly all."""
 READINGS_PER_VALUE = 5
+"""Readings for each harmonic's coefficient at least: fewer harmonics are removed from a shorter sweep."""
 CLIP = 3.0
+"""Standard deviations beyond which a difference is a jump: one in 370 of normal noise, see `KEPT_VARIANCE`."""
 KEPT_VARIANCE = 1.0 - 2.0 * CLIP * float(stats.norm.pdf(CLIP)) / (2.0 * float(stats.norm.cdf(CLIP)) - 1.0)
-"""Variance of a standard normal value of which is known that it is within `CLIP`."""
-MOST_JUMPS = 0.1
-"""Of all differences."""
+"""Variance of a standard normal value given that it is within `CLIP`."""
+MAX_JUMPS = 0.1
+"""Share of jumps that the start of the iteration stands: more than any gauge seen, far below one half."""
 ROUNDS = 20
+"""Iterations of clipping: the clipped variance settles within a few."""
 
 
 @dataclass(frozen=True)
@@ -47,34 +53,33 @@ class Noise:
     source: Literal["repeated laps", "stated", "roughness"]
 
 
-def noise_of(records: Sequence[Record]) -> Noise:
-    """Find the noise of some records' readings; of several gauges the noisiest counts."""
-    repeated = [difference for record in records for difference in lap_differences(record)]
-    if sum(map(len, repeated)) >= LEAST_REPEATS:
+def noise_of(samples: Samples) -> Noise:
+    """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
+    repeated = list(lap_differences(samples))
+    if sum(map(len, repeated)) >= MIN_REPEATS:
         return Noise(_robust_sigma(np.concatenate(repeated)), "repeated laps")
-    stated = stated_noise(records)
+    stated = stated_noise(samples)
     if stated is not None:
         return stated
     rough = [
-        np.diff(_without_contour(record.columns["angle_deg"][rows], record.reading_mm[rows]), n=2) / np.sqrt(6.0)
-        for record in records
-        for rows in record.sweeps()
+        np.diff(_without_contour(samples["angle_rad"][rows], samples.reading_mm[rows]), n=2) / np.sqrt(6.0)
+        for rows in samples.sweeps()
     ]
     return Noise(_robust_sigma(np.concatenate(rough)), "roughness")
 
 
-def stated_noise(records: Sequence[Record]) -> Noise | None:
-    """Give the noise as the gauges state it, the noisiest; None where one of them states none."""
-    stated = [record.gauge.stated_noise_mm for record in records]
+def stated_noise(samples: Samples) -> Noise | None:
+    """Return the noise as the gauges' specifications state it, the noisiest; None where one of them states none."""
+    stated = [samples.records[each].gauge.stated_noise_mm for each in np.unique(samples["record"])]
     known = [each for each in stated if each is not None]
-    return Noise(max(known), "stated") if len(known) == len(stated) else None
+    return Noise(max(known), "stated") if known and len(known) == len(stated) else None
 
 
 def _robust_sigma(values: Floats) -> float:
     if not len(values):
         return LEAST_NOISE_MM
     size = np.abs(values)
-    sigma = float(np.quantile(size, 1.0 - MOST_JUMPS)) / float(stats.norm.ppf(1.0 - MOST_JUMPS / 2.0))
+    sigma = float(np.quantile(size, 1.0 - MAX_JUMPS)) / float(stats.norm.ppf(1.0 - MAX_JUMPS / 2.0))
     if sigma == 0.0:  # coarsely rounded readings are mostly alike
         sigma = float(np.sqrt(np.mean(values**2)))
     for _ in range(ROUNDS):
@@ -83,31 +88,32 @@ def _robust_sigma(values: Floats) -> float:
     return max(sigma, LEAST_NOISE_MM)
 
 
-def lap_differences(record: Record) -> Iterator[Floats]:
-    """Differences of consecutive laps at one angle, in units of one reading's noise."""
-    for rows in record.sweeps():
-        lap, angle = record.columns["lap"][rows], record.columns["angle_deg"][rows]
+def lap_differences(samples: Samples) -> Iterator[Floats]:
+    """Yield the differences of consecutive laps at one angle, in units of one reading's noise."""
+    for rows in samples.sweeps():
+        lap, angle, reading_mm = samples["lap"][rows], samples["angle_rad"][rows], samples.reading_mm[rows]
         numbers = np.unique(lap)
-        reading_mm = _without_contour(angle, record.reading_mm[rows]) if len(numbers) > 1 else record.reading_mm[rows]
+        if len(numbers) > 1:
+            reading_mm = _without_contour(angle, reading_mm)
         for earlier, later in pairwise(numbers):
             first, second = lap == earlier, lap == later
             if first.sum() > 2 and second.sum() > 2:
                 yield _difference(angle[first], reading_mm[first], angle[second], reading_mm[second])
 
 
-def _without_contour(angle_deg: Floats, reading_mm: Floats) -> Floats:
-    """Take the lowest harmonics out of a sweep's readings, as many as their number allows."""
-    highest = min(HARMONICS, len(angle_deg) // READINGS_PER_VALUE // 2)
-    turns = np.outer(np.radians(angle_deg), np.arange(highest + 1))
+def _without_contour(angle_rad: Floats, reading_mm: Floats) -> Floats:
+    """Remove the lowest harmonics from a sweep's readings, as many as their number allows."""
+    highest = min(HARMONICS, len(angle_rad) // READINGS_PER_VALUE // 2)
+    turns = np.outer(angle_rad, np.arange(highest + 1))
     basis = np.hstack([np.cos(turns), np.sin(turns[:, 1:])])
     left: Floats = reading_mm - basis @ np.linalg.lstsq(basis, reading_mm, rcond=None)[0]
     return left
 
 
-def _difference(first_deg: Floats, first_mm: Floats, second_deg: Floats, second_mm: Floats) -> Floats:
-    order = np.argsort(first_deg % 360.0)
-    at, value = (first_deg % 360.0)[order], first_mm[order]
-    wanted = second_deg % 360.0
+def _difference(first_rad: Floats, first_mm: Floats, second_rad: Floats, second_mm: Floats) -> Floats:
+    order = np.argsort(first_rad % TURN)
+    at, value = (first_rad % TURN)[order], first_mm[order]
+    wanted = second_rad % TURN
     right = np.searchsorted(at, wanted)
     inside = (right > 0) & (right < len(at))
     right, wanted, measured = right[inside], wanted[inside], second_mm[inside]

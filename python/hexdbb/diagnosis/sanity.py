@@ -1,4 +1,4 @@
-"""What does not make sense in a fit: values beyond reason, values that go together, fits that do not hold elsewhere."""
+"""Warnings about a fit: values beyond reason, correlated values, fits that do not hold on other circles."""
 
 from __future__ import annotations
 
@@ -9,38 +9,41 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
 from hexdbb import _core
-from hexdbb.diagnosis.extrapolation import Foretold
+from hexdbb.diagnosis.extrapolation import ExpectedError
 from hexdbb.diagnosis.heldout import HeldOut
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.model import Model, Parameter
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 FAR_FROM_PRIOR = 5.0
-"""Values beyond this many expected sizes are remarkable."""
+"""Prior standard deviations above which a value is remarked on: one in two million of the prior."""
 FEW_READINGS = 2
-"""Fewer readings than so many a value tell little."""
+"""Readings per value below which the prior dominates most values."""
 TOGETHER = 0.95
-"""Correlation beyond which two values cannot be told apart."""
+"""Correlation above which only a sum or difference of two values is known: its standard deviation is then a sixth of
+theirs."""
 LACK_OF_FIT = 1.5
-"""Residual over noise beyond which the model misses something."""
+"""Residual over noise above which the model lacks something: more than the noise itself is then unexplained, as
+1.5^2 = 1 + 1.12^2."""
 NO_BETTER = 0.98
-"""Held-out error must fall at least to this part where the training error did."""
+"""Part of the start's error to which the cross-validation error must fall where the training error did: 2 % is
+the scatter of a root mean square over a thousand readings."""
 
 
 def warnings_of(
-    model: Model, result: _core.FitResult, noise: Noise, checked: HeldOut | None, expected: Foretold | None = None
+    model: Model, result: _core.FitResult, noise: Noise, checked: HeldOut | None, expected: ExpectedError | None = None
 ) -> Iterator[str]:
-    """Yield what to beware of, one sentence each."""
+    """Yield the warnings, one sentence each."""
     readings, values = len(result.residual_mm), len(result.free_columns)
     if readings < FEW_READINGS * values:
-        yield f"{readings} readings for {values} values: most of what is shown is what was expected, not what was read"
+        yield f"{readings} readings for {values} values: most values are prior-dominated, not measured"
     yield from _beyond_reason(model, result)
     yield from _correlated(model, result)
     noise_um, after_um = noise.sigma_mm * 1e3, result.rms_after_mm * 1e3
     if after_um > LACK_OF_FIT * noise_um:
         yield (
-            f"residual {after_um:.2f} um against {noise_um:.2f} um of noise ({noise.source}): the model misses"
-            " something, and the uncertainties are stretched to match"
+            f"residual {after_um:.2f} µm RMS, noise {noise_um:.2f} µm ({noise.source}): the model lacks something,"
+            " and the uncertainties are scaled up to match"
         )
     if checked is not None and expected is not None and expected.extrapolates:
         yield expected.sentence(checked.after_um)
@@ -48,24 +51,24 @@ def warnings_of(
     trained = result.rms_after_mm < NO_BETTER * result.rms_before_mm
     if checked is not None and trained and checked.after_um > NO_BETTER * checked.before_um:
         yield (
-            f"held-out circles do not improve ({checked.before_um:.2f} -> {checked.after_um:.2f} um) though the fitted"
-            " ones do: what was fitted does not hold elsewhere"
+            f"held-out circles do not improve ({checked.before_um:.2f} -> {checked.after_um:.2f} µm RMS) though the"
+            " fitted ones do: what was fitted does not hold elsewhere"
         )
 
 
 def _beyond_reason(model: Model, result: _core.FitResult) -> Iterator[str]:
     free = set(result.free_columns)
     for index, (parameter, value) in enumerate(zip(model.parameters(), model.values, strict=True)):
-        factor, unit = shown_factor(parameter.unit), shown_unit(parameter.unit)
+        factor, unit = shown_factor(parameter.unit), readable_unit(shown_unit(parameter.unit))
         shown = f"{parameter.label} is {value * factor:.1f} {unit}"
         if abs(value) >= 0.999 * parameter.limit:
             yield f"{shown}, at its limit of {parameter.limit * factor:g} {unit}: beyond it makes no physical sense"
         elif index in free and abs(value) > FAR_FROM_PRIOR * parameter.prior_sigma:
-            yield f"{shown}, {abs(value) / parameter.prior_sigma:.0f} times the size to expect: look at it"
+            yield f"{shown}, {abs(value) / parameter.prior_sigma:.0f} prior standard deviations: check it"
 
 
 def _correlated(model: Model, result: _core.FitResult) -> Iterator[str]:
-    known = np.flatnonzero(np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)]))
+    known = np.flatnonzero(model.identifiable)
     known = np.array([column for column in known if column in set(result.free_columns)], dtype=int)
     if len(known) < 2:
         return
@@ -77,11 +80,11 @@ def _correlated(model: Model, result: _core.FitResult) -> Iterator[str]:
     said = [_together(correlation[np.ix_(own, own)], [parameters[known[i]] for i in own]) for own in members]
     groups = "; ".join(each for each in said if each)
     if groups:
-        yield f"values go together (correlation beyond {TOGETHER:g}), only sums or differences are sure: {groups}"
+        yield f"values are correlated beyond {TOGETHER:g}, only sums or differences are known: {groups}"
 
 
 def _together(correlation: NDArray[np.float64], parameters: Sequence[Parameter]) -> str:
-    """Name values that go together, with the largest correlation; nothing where there is one only."""
+    """Name correlated values, with the largest correlation; nothing where there is one only."""
     if len(parameters) < 2:
         return ""
     pairs = correlation[np.triu_indices(len(parameters), k=1)]

@@ -1,4 +1,4 @@
-"""Is what differs from lap to lap noise? White series of equal variance are; a line in the spectrum or a burst is not.
+"""Test whether the differences between laps are noise: white, of equal variance, without spectral lines or bursts.
 
 Line: of white noise the largest of m periodogram ordinates exceeds x times their mean with probability m e^-x
 (Fisher 1929, for large m). Burst: the logarithms of the series' variances scatter by sqrt(2 / n) each; more is tested
@@ -16,15 +16,15 @@ from scipy import stats
 Floats = NDArray[np.float64]
 
 LEAST_VALUES = 32
-"""A shorter series tells nothing."""
+"""Shorter series are left out: the asymptotic distribution of the periodogram's maximum needs this many values."""
 CHANCE = 1e-4
-"""Less probable than this is no chance."""
+"""Probability below which white noise is rejected: with tens of records a year, one false alarm in centuries."""
 COLOURED = 4.0 / 3.0
-"""Interpolation between readings lifts the lowest frequencies by so much above the mean, at most."""
+"""Largest power over mean power that interpolation between readings gives white noise, at the lowest frequencies."""
 
 
 def is_white(series: Sequence[Floats]) -> bool:
-    """Whether some series are noise of one and the same size, each white.
+    """Return whether some series are white noise of one variance.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def is_white(series: Sequence[Floats]) -> bool:
 
 
 def _line_chance(series: Sequence[Floats]) -> float:
-    """Probability of the strongest line by chance."""
+    """Return the probability of so strong a spectral line in white noise."""
     chances = []
     for each in series:
         power = np.abs(np.fft.rfft(each))[1:] ** 2
@@ -52,7 +52,7 @@ def _line_chance(series: Sequence[Floats]) -> float:
 
 
 def _burst_chance(series: Sequence[Floats]) -> float:
-    """Probability of so different variances by chance."""
+    """Return the probability of so different variances in noise of one variance."""
     count = np.array([len(each) for each in series])
     level = np.log([float(each.var()) for each in series])
     deviation = level - np.average(level, weights=count)

@@ -18,10 +18,9 @@ from hexdbb.discovery.discover import discover
 from hexdbb.discovery.judging import judging_noise
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.search import Progress
-from hexdbb.ledger import add_effect, held_at_zero, remove_effect
-from hexdbb.model import Model
-from hexdbb.prediction import knowing
-from hexdbb.record import Record
+from hexdbb.ledger import add_effect, remove_effect
+from hexdbb.model import Choice, Model
+from hexdbb.samples import Samples
 
 MOST_STEPS = 20
 """Effects added and removed at most, lest two take turns."""
@@ -37,7 +36,7 @@ class AutoStep:
 
 
 def discover_all(
-    records: Sequence[Record],
+    samples: Samples,
     model: Model,
     candidates: Sequence[str] | None = None,
     progress: Progress = lambda _: None,
@@ -46,7 +45,7 @@ def discover_all(
 
     Parameters
     ----------
-    records : sequence of Record
+    samples : Samples
     model : Model
     candidates : sequence of str, optional
         As for `discover`.
@@ -67,16 +66,17 @@ def discover_all(
     added: list[str] = []
     steps = 0
     while True:
-        found = discover(records, model, candidates, progress)
+        found = discover(samples, model, candidates, progress)
         if found.verdict != "effect" or found.best is None or steps >= MOST_STEPS:
             yield found
             return
         choice = found.best.choice
         progress(f"adding {choice}")
-        model, diagnosis = add_effect(records, model, choice)
+        diagnosis = add_effect(samples, model, choice)
+        model = diagnosis.model
         steps += 1
         yield AutoStep("add", choice, diagnosis)
-        for step in without_needless(records, model, added, progress):
+        for step in without_needless(samples, model, added, progress):
             model = step.diagnosis.model
             added.remove(step.choice)
             steps += 1
@@ -85,7 +85,7 @@ def discover_all(
 
 
 def without_needless(
-    records: Sequence[Record], model: Model, choices: Sequence[str], progress: Progress = lambda _: None
+    samples: Samples, model: Model, choices: Sequence[str], progress: Progress = lambda _: None
 ) -> Iterator[AutoStep]:
     """Take those of some effects (or elements of them) out of a model that it does as well without.
 
@@ -101,12 +101,13 @@ def without_needless(
     """
     for choice in tuple(choices):
         progress(f"asking whether {choice} is still needed")
-        if not is_needed(records, model, choice):
-            model, diagnosis = remove_effect(records, model, choice)
+        if not is_needed(samples, model, choice):
+            diagnosis = remove_effect(samples, model, choice)
+            model = diagnosis.model
             yield AutoStep("remove", choice, diagnosis)
 
 
-def is_needed(records: Sequence[Record], model: Model, choice: str) -> bool:
+def is_needed(samples: Samples, model: Model, choice: str) -> bool:
     """Whether a model explains records better, by BIC, with an effect (or some elements of it) than without.
 
     Raises
@@ -114,16 +115,16 @@ def is_needed(records: Sequence[Record], model: Model, choice: str) -> bool:
     InputError
         An effect or element that the model does not have.
     """
-    known, noise = knowing(model, records), judging_noise(records).noise
-    without = held_at_zero(known, choice)
+    known, noise = model.with_mounts(samples.mounts), judging_noise(samples).noise
+    without = known.without_effect(Choice.parse(choice))
     values = int(known.free.sum()) - int(without.free.sum())
-    more, correlation, readings = _squared(records, without, noise)
-    less, correlation, readings = _squared(records, known, noise)
+    more, correlation, readings = _squared(samples, without, noise)
+    less, correlation, readings = _squared(samples, known, noise)
     return (more - less) / correlation > values * float(np.log(readings / correlation))
 
 
-def _squared(records: Sequence[Record], model: Model, noise: Noise) -> tuple[float, float, int]:
+def _squared(samples: Samples, model: Model, noise: Noise) -> tuple[float, float, int]:
     """Squared residuals over the noise's variance, how many neighbours tell as much as one, and number of readings."""
-    result = evaluate_fit(records, model, model.free, noise, judging=True)[1]
+    result = evaluate_fit(samples, model, model.free, noise, judging=True)[1]
     squared = float(result.residual_mm @ result.residual_mm) / noise.sigma_mm**2
     return squared, result.correlation, len(result.residual_mm)

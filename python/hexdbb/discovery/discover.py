@@ -19,8 +19,7 @@ from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.discovery.verdict import judge
 from hexdbb.errors import InputError
 from hexdbb.model import Model
-from hexdbb.prediction import knowing
-from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 MOST_TRIED = 8
 """So many effects get a fit of their own."""
@@ -29,7 +28,7 @@ LEAST_SWEEPS = 2
 
 
 def discover(
-    records: Sequence[Record],
+    samples: Samples,
     model: Model,
     candidates: Sequence[str] | None = None,
     progress: Progress = lambda _: None,
@@ -38,7 +37,7 @@ def discover(
 
     Parameters
     ----------
-    records : sequence of Record
+    samples : Samples
     model : Model
         Its free values are fitted first.
     candidates : sequence of str, optional
@@ -57,15 +56,15 @@ def discover(
     RunError
         Where the model itself cannot be fitted.
     """
-    _require_enough(records)
-    known = knowing(model, records)
-    judging = judging_noise(records)
+    _require_enough(samples)
+    known = model.with_mounts(samples.mounts)
+    judging = judging_noise(samples)
     progress("fitting the model as it is")
-    base = fitted_base(records, known, judging.noise)
+    base = fitted_base(samples, known, judging.noise)
     asked = list(candidates) if candidates is not None else absent_effects(base.model)
-    failed = failing_effects(records, base.model, asked)
+    failed = failing_effects(samples, base.model, asked)
     names = tuple(name for name in asked if name not in failed)
-    search = Search(base, FitTest(records, judging.noise), names, progress)
+    search = Search(base, FitTest(samples, judging.noise), names, progress)
     progress("screening all effects")
     ranked, tried = search.ranked()
     found = judge(search, search.trials([each for each in ranked if each.gain > 0.0][:MOST_TRIED], tried))
@@ -80,20 +79,18 @@ def _with_remark(found: Discovery, base: Base, judging: JudgingNoise) -> Discove
     found = replace(found, remarks=(*found.remarks, judging.remark))
     if judging.is_steady or found.verdict != "none":
         return found
-    structure = unexplained_structure(base.records, base.model, base.residual_mm, base.noise)
+    structure = unexplained_structure(base.samples, base.model, base.residual_mm, base.noise)
     return replace(found, verdict="unknown", structure=structure)
 
 
-def _require_enough(records: Sequence[Record]) -> None:
-    if not records:
-        raise InputError("no record to judge by (expected at least one)")
-    readings = sum(len(record.columns["t_s"]) for record in records)
-    sweeps = sum(len(record.sweeps()) for record in records)
-    names = ", ".join(record.name for record in records)
-    if readings < LEAST_READINGS:
-        raise InputError(f"{names}: {readings} readings are too few to judge (expected {LEAST_READINGS} at least)")
+def _require_enough(samples: Samples) -> None:
+    sweeps = len(samples.sweeps())
+    if len(samples) < LEAST_READINGS:
+        raise InputError(
+            f"{samples.name}: {len(samples)} readings are too few to judge (expected {LEAST_READINGS} at least)"
+        )
     if sweeps < LEAST_SWEEPS:
         raise InputError(
-            f"{names}: {sweeps} sweep is too few to judge"
+            f"{samples.name}: {sweeps} sweep is too few to judge"
             f" (expected {LEAST_SWEEPS} at least: another direction, circle or feed)"
         )

@@ -7,11 +7,10 @@ with the next: then what is stated counts, and whatever else is found, not all i
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hexdbb.diagnosis import Noise, is_white, lap_differences, noise_of, stated_noise
-from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 UNSTEADY = 1.25
 """Noise of repeated laps over the gauge's stated noise beyond which the machine does not repeat."""
@@ -26,15 +25,15 @@ class JudgingNoise:
     is_steady: bool = True
 
 
-def judging_noise(records: Sequence[Record]) -> JudgingNoise:
+def judging_noise(samples: Samples) -> JudgingNoise:
     """Choose the noise of one reading that a model of some records is judged by."""
-    repeated, stated = noise_of(records), stated_noise(records)
+    repeated, stated = noise_of(samples), stated_noise(samples)
     if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
         return JudgingNoise(repeated)
     sizes = (
         f"laps repeat to {repeated.sigma_mm * 1e3:.2f} um only,"
         f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} um"
     )
-    if is_white([each for record in records for each in lap_differences(record)]):
+    if is_white(list(lap_differences(samples))):
         return JudgingNoise(repeated, f"{sizes}: it is noisier than stated")
     return JudgingNoise(stated, f"{sizes}: something changes from lap to lap", is_steady=False)

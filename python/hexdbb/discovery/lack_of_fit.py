@@ -12,7 +12,6 @@ harmonics of the angle
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +19,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from hexdbb.diagnosis import Noise
-from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 
@@ -62,21 +61,15 @@ class FitTest:
 
     Parameters
     ----------
-    records : sequence of Record
+    samples : Samples
     noise : Noise
         Of one reading.
     """
 
-    def __init__(self, records: Sequence[Record], noise: Noise) -> None:
+    def __init__(self, samples: Samples, noise: Noise) -> None:
         self._noise = noise
-        self._sweeps: list[tuple[NDArray[np.intp], Floats]] = []
-        first = 0
-        for record in records:
-            angle = np.radians(record.columns["angle_deg"])
-            self._sweeps += [
-                (first + rows, _orthonormal(angle[rows])) for rows in record.sweeps() if len(rows) >= LEAST_ROWS
-            ]
-            first += len(angle)
+        angle_rad = samples["angle_rad"]
+        self._sweeps = [(rows, _orthonormal(angle_rad[rows])) for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
 
     def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
         """Test a residual for anything but noise.
@@ -84,7 +77,7 @@ class FitTest:
         Parameters
         ----------
         residual_mm : ndarray, shape (n,)
-            Of all records, one after another.
+            Of all samples.
         fitted_values : int
             Number of values the fit has adjusted: so much smooth residual it may have taken away.
         """

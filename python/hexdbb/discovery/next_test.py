@@ -17,15 +17,14 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb import _core
-from hexdbb.circle import Circle
 from hexdbb.discovery.result import Candidate, NextTest
 from hexdbb.discovery.trial import Base
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import Model
-from hexdbb.prediction import samples_of
+from hexdbb.plan import Circle
 from hexdbb.record import Record
+from hexdbb.samples import Samples, linearise, normal_equations, predict
 
 Floats = NDArray[np.float64]
 
@@ -48,16 +47,17 @@ def next_test(base: Base, best: Candidate, other: Candidate) -> NextTest | None:
         None where no circle in reach shows a difference of a standard deviation.
     """
     found: NextTest | None = None
+    like = base.samples.records[0]
     free = np.flatnonzero(best.model.free)
-    prior = np.array([each.prior_sigma for each in best.model.parameters()])[free]
+    prior = best.model.prior_sigma[free]
     information = _information(base, best.model)[np.ix_(free, free)] + np.diag(prior**-2.0)
-    for circle, feed in _circles(base.records[0]):
-        record = _imagined(base.records[0], circle, feed)
+    for circle, feed in _circles(like):
+        record = _imagined(like, circle, feed)
         if record is None:
             continue
         sigmas = _difference(base, record, (best.model, other.model), information)
         if sigmas > max(1.0, 0.0 if found is None else found.expected_sigmas):
-            found = NextTest(_as_in_plan(circle), feed, sigmas, (best.effect, other.effect))
+            found = NextTest(circle, feed, sigmas, (best.effect, other.effect))
     return found
 
 
@@ -105,12 +105,9 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
     """Distance of two models' readings in sigmas; `information` is what the records tell of the first's values."""
     first, second = models
     try:
-        samples, alike = samples_of([record], first), samples_of([record], second)
-        one = _core.predict(first.engine(samples), samples, want_jacobian=True)
-        other = _core.predict(second.engine(alike), alike)
-    except (ValueError, InputError):  # a state that an effect needs, or a user's effect that fails there
-        return 0.0
-    if one.first_failure >= 0 or other.first_failure >= 0:
+        samples = Samples.of([record])
+        one, other = linearise(samples, first), predict(samples, second)
+    except (ValueError, InputError):  # no pose, a state that an effect needs, or a user's effect that fails there
         return 0.0
     difference: Floats = one.reading_mm - other.reading_mm
     noise = base.noise.sigma_mm / np.sqrt(READINGS_PER_SAMPLE)
@@ -122,19 +119,5 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
 
 
 def _information(base: Base, model: Model) -> Floats:
-    samples = base.measured.samples
-    measured_mm = np.concatenate([record.reading_mm for record in base.records])
-    equations = _core.normal_equations(model.engine(samples), samples, measured_mm)
-    information: Floats = equations.information / base.noise.sigma_mm**2
+    information: Floats = normal_equations(base.samples, model).information / base.noise.sigma_mm**2
     return information
-
-
-def _as_in_plan(circle: Circle) -> dict[str, object]:
-    return {
-        "id": circle.id,
-        "mount": circle.mount,
-        "radius_mm": circle.radius_mm,
-        "ball_offset_mm": list(circle.ball_offset_mm),
-        "plane_rpy_deg": list(circle.plane_rpy_deg),
-        "platform_rpy_deg": list(circle.platform_rpy_deg),
-    }

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Literal
 
+from hexdbb.diagnosis import Diagnosis
+from hexdbb.discovery.json_form import CandidateJson, DiscoveryJson, NextTestJson, StructureJson
 from hexdbb.discovery.lack_of_fit import LackOfFit
-from hexdbb.model import Model
+from hexdbb.ledger.json_form import SizeJson, added_json
+from hexdbb.model import Model, Size
+from hexdbb.plan import Circle
 
 Verdict = Literal["effect", "ambiguous", "none", "unknown"]
 
@@ -17,17 +22,6 @@ MEANING: dict[Verdict, str] = {
     "none": "nothing is missing: what is left is noise",
     "unknown": "something is missing that no known effect explains",
 }
-
-
-@dataclass(frozen=True)
-class FittedParameter:
-    """One value of a candidate, in the unit it names."""
-
-    element: str
-    name: str
-    value: float
-    sigma: float | None
-    unit: str
 
 
 @dataclass(frozen=True)
@@ -45,7 +39,7 @@ class Candidate:
     bic_drop: float
     p_value: float
     share: float
-    values: tuple[FittedParameter, ...]
+    values: tuple[Size, ...]
     model: Model
 
     @property
@@ -54,26 +48,17 @@ class Candidate:
         whole = self.elements == tuple(self.model.info(self.effect).elements)
         return self.effect if whole else ":".join((self.effect, *self.elements))
 
-    def to_json(self) -> dict[str, Any]:
-        """Give one entry of `candidates`."""
-        return {
-            "effect": self.effect,
-            "elements": [int(each) if each.isdecimal() else each for each in self.elements],
-            "rms_after_um": self.rms_after_um,
-            "bic_drop": self.bic_drop,
-            "p_value": self.p_value,
-            "share": self.share,
-            "parameters": [
-                {
-                    "element": each.element,
-                    "name": each.name,
-                    "value": each.value,
-                    "sigma": each.sigma,
-                    "unit": each.unit,
-                }
-                for each in self.values
-            ],
-        }
+    def to_json(self) -> CandidateJson:
+        """Return one entry of `candidates`."""
+        return CandidateJson(
+            effect=self.effect,
+            elements=tuple(int(each) if each.isdecimal() else each for each in self.elements),
+            rms_after_um=self.rms_after_um,
+            bic_drop=self.bic_drop,
+            p_value=self.p_value,
+            share=self.share,
+            parameters=tuple(SizeJson(**vars(each)) for each in self.values),
+        )
 
 
 @dataclass(frozen=True)
@@ -93,39 +78,37 @@ class Structure:
     place: tuple[float, float] | None = None
     size_um: float | None = None
 
-    def to_json(self) -> dict[str, Any]:
-        """Give one entry of `structure`."""
-        return {
-            "variable": self.variable,
-            "share": self.share,
-            "period": self.period,
-            "unit": self.unit,
-            "place": None if self.place is None else list(self.place),
-            "size_um": self.size_um,
-            "sentence": self.sentence,
-        }
+    def to_json(self) -> StructureJson:
+        """Return one entry of `structure`."""
+        return StructureJson(**vars(self))
 
 
 @dataclass(frozen=True)
 class NextTest:
     """The circle that would tell two candidates apart best, and how well: their difference in standard deviations."""
 
-    circle: dict[str, Any]
+    circle: Circle
     feed_mm_min: float
     expected_sigmas: float
     between: tuple[str, str]
 
-    def to_json(self) -> dict[str, Any]:
-        """Give `next_test`: a circle as in a plan."""
-        return {
-            **self.circle,
-            "feeds_mm_min": [self.feed_mm_min],
-            "expected_sigmas": self.expected_sigmas,
-            "between": list(self.between),
-        }
+    def to_json(self) -> NextTestJson:
+        """Return `next_test`: a circle as in a plan."""
+        circle = self.circle
+        return NextTestJson(
+            id=circle.id,
+            mount=circle.mount,
+            radius_mm=circle.radius_mm,
+            ball_offset_mm=circle.ball_offset_mm,
+            plane_rpy_deg=circle.plane_rpy_deg,
+            platform_rpy_deg=circle.platform_rpy_deg,
+            feeds_mm_min=(self.feed_mm_min,),
+            expected_sigmas=self.expected_sigmas,
+            between=self.between,
+        )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Discovery:
     """Outcome of one look for a missing effect; `candidates` best first, the first the one to add."""
 
@@ -154,21 +137,26 @@ class Discovery:
         others = f" (or {', '.join(self.ambiguous_with)})" if self.ambiguous_with else ""
         return f"{MEANING[self.verdict]}{named}{others}"
 
-    def to_json(self) -> dict[str, Any]:
-        """Give the object that `hexdbb discover --json` prints."""
-        return {
-            "verdict": self.verdict,
-            "noise_um": self.lack_of_fit.noise_um,
-            "rms_before_um": self.rms_before_um,
-            "rms_after_um": self.rms_after_um,
-            "heldout_before_um": self.heldout_before_um,
-            "heldout_after_um": self.heldout_after_um,
-            "candidates": [each.to_json() for each in self.candidates],
-            "ambiguous_with": list(self.ambiguous_with),
-            "next_test": None if self.next_test is None else self.next_test.to_json(),
-            "structure": [each.to_json() for each in self.structure],
-            "remarks": list(self.remarks),
-        }
+    def __repr__(self) -> str:
+        lack = self.lack_of_fit
+        return f"<Discovery: {self.sentence}; residual {lack.rms_um:.2f} µm RMS, noise {lack.noise_um:.2f} µm>"
+
+    def to_json(self, steps: Sequence[Diagnosis] = ()) -> dict[str, Any]:
+        """Return the object that ``hexdbb discover --json`` prints; `steps` are those of ``--auto``."""
+        return DiscoveryJson(
+            verdict=self.verdict,
+            noise_um=self.lack_of_fit.noise_um,
+            rms_before_um=self.rms_before_um,
+            rms_after_um=self.rms_after_um,
+            heldout_before_um=self.heldout_before_um,
+            heldout_after_um=self.heldout_after_um,
+            candidates=tuple(each.to_json() for each in self.candidates),
+            ambiguous_with=self.ambiguous_with,
+            next_test=None if self.next_test is None else self.next_test.to_json(),
+            structure=tuple(each.to_json() for each in self.structure),
+            remarks=self.remarks,
+            steps=tuple(added_json(each) for each in steps),
+        ).to_json()
 
     def _repr_html_(self) -> str:
         rows = "".join(

@@ -17,11 +17,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb import _core
 from hexdbb.diagnosis import Noise
-from hexdbb.measured import Measured, measured
 from hexdbb.model import Model, Parameter, new_term
-from hexdbb.record import Record
+from hexdbb.samples import Samples, normal_equations
 
 Floats = NDArray[np.float64]
 
@@ -109,7 +107,7 @@ def offered(projected: Floats, gradient: Floats, scale: Floats) -> tuple[Floats,
 
 
 def screen(
-    records: Sequence[Record] | Measured,
+    samples: Samples,
     model: Model,
     candidates: Sequence[str],
     noise: Noise,
@@ -120,7 +118,7 @@ def screen(
 
     Parameters
     ----------
-    records : sequence of Record, or Measured
+    samples : Samples
     model : Model
         Fitted; its free values are what may imitate a candidate.
     candidates : sequence of str
@@ -132,13 +130,12 @@ def screen(
         Where the candidates' shaping values (a time constant) stand, in expected sizes: first order cannot move them.
     """
     full, tried = _with_candidates(model, candidates, shape)
-    taken = measured(records, full)
-    equations = _core.normal_equations(taken.engine(full), taken.samples, taken.reading_mm)
+    equations = normal_equations(samples, full)
     weight = 1.0 / (noise.sigma_mm**2 * correlation)
     information, gradient = equations.information * weight, equations.gradient * weight
     parameters = full.parameters()
     own = np.flatnonzero(full.free)
-    prior = np.array([parameters[column].prior_sigma for column in own])
+    prior = full.prior_sigma[own]
     inner = np.linalg.cholesky(information[np.ix_(own, own)] + np.diag(prior**-2.0))
     cross = np.linalg.solve(inner, information[np.ix_(own, tried)])
     at_rest = np.linalg.solve(inner, gradient[own] - full.values[own] / prior**2)
@@ -147,7 +144,7 @@ def screen(
         gradient=gradient[tried] - cross.T @ at_rest,
         scale=np.diag(information)[tried],
         parameters=tuple(parameters[column] for column in tried),
-        readings=len(taken.reading_mm) / correlation,
+        readings=len(samples) / correlation,
         shape=shape,
     )
 
@@ -155,11 +152,10 @@ def screen(
 def shaped(model: Model, chosen: NDArray[np.bool_], shape: float) -> Model:
     """Give the model with the shaping values among the chosen at `shape` expected sizes."""
     values = model.values.copy()
-    known = np.concatenate([np.zeros(0, bool), *(term.identifiable for term in model.terms)])
     for index, (each, is_chosen) in enumerate(zip(model.parameters(), chosen, strict=True)):
         if is_chosen and each.is_shape:
             values[index] = shape * each.prior_sigma
-    return model.with_values(values, model.sigma, known)
+    return model.with_values(values)
 
 
 def _with_candidates(model: Model, candidates: Sequence[str], shape: float) -> tuple[Model, NDArray[np.intp]]:

@@ -52,11 +52,11 @@ class Search:
         Those with a shape of their own (a time constant) are screened at several.
         """
         base = self.base
-        screened = screen(base.measured, base.model, self.names, base.noise, 1.0)
+        screened = screen(base.samples, base.model, self.names, base.noise, 1.0)
         best = {name: screened.best_elements(name) for name in screened.effects()}
         shaping = [name for name in self.names if any(each.is_shape for each in base.model.info(name).parameters)]
         for shape in SHAPES if shaping else ():
-            again = screen(base.measured, base.model, shaping, base.noise, 1.0, shape)
+            again = screen(base.samples, base.model, shaping, base.noise, 1.0, shape)
             for name in again.effects():
                 best[name] = max(best[name], again.best_elements(name), key=lambda each: each.bic_drop(again.readings))
         ranked = sorted(best.values(), key=lambda each: -each.bic_drop(screened.readings))
@@ -87,7 +87,7 @@ class Search:
 
     def beside(self, candidate: Candidate) -> Search:
         """Give the search for what is missing once a candidate has been added."""
-        base = fitted_base(self.base.measured, candidate.model, self.base.noise)
+        base = fitted_base(self.base.samples, candidate.model, self.base.noise)
         names = tuple(name for name in absent_effects(base.model) if name in self.names)
         return replace(self, base=base, names=names)
 

@@ -15,11 +15,10 @@ from scipy import stats
 
 from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
-from hexdbb.discovery.result import Candidate, FittedParameter
+from hexdbb.discovery.result import Candidate
 from hexdbb.discovery.screen import shaped
-from hexdbb.measured import Measured, measured
-from hexdbb.model import Model, new_term
-from hexdbb.record import Record
+from hexdbb.model import Choice, Model, Size
+from hexdbb.samples import Samples
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
@@ -35,17 +34,12 @@ SMALLEST_PART = 0.01
 class Base:
     """The model a candidate must improve on, fitted to the same records."""
 
-    measured: Measured
+    samples: Samples
     model: Model
     noise: Noise
     squared: float
     """Sum of squared residuals over the noise's variance."""
     residual_mm: Floats
-
-    @property
-    def records(self) -> tuple[Record, ...]:
-        """Whose readings are to be explained."""
-        return self.measured.records
 
     @property
     def readings(self) -> int:
@@ -58,24 +52,24 @@ class Base:
         return max(self.squared - self.readings, 1e-9)
 
 
-def fitted_base(records: Sequence[Record] | Measured, model: Model, noise: Noise) -> Base:
+def fitted_base(samples: Samples, model: Model, noise: Noise) -> Base:
     """Fit a model's free values and keep what candidates are compared with."""
-    taken = measured(records, model)
-    fitted, result = evaluate_fit(taken, model, model.free, noise, judging=True)
+    fitted, result = evaluate_fit(samples, model, model.free, noise, judging=True)
     residual = result.residual_mm
-    return Base(taken, fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
+    return Base(samples, fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
 
 
 def with_effect(model: Model, effect: str, elements: Sequence[str], shape: float = 0.0) -> Model:
-    """Give the model with an effect's elements free as well, at zero; its other elements are held.
+    """Return the model with an effect's elements free as well, at zero; its other elements are held.
 
     Values that only shape the others start at `shape` expected sizes.
     """
-    present = {term.effect for term in model.terms}
-    if effect not in present:
-        model = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
-    freed = np.array([each.effect == effect and each.element in elements for each in model.parameters()])
-    return shaped(model, freed & ~model.free, shape).with_free(model.free | freed)
+    wider = model.with_effect(Choice(effect, tuple(elements)))
+    present = model.term(effect)
+    freed = wider.values_of(Choice(effect, tuple(elements)))
+    if present is not None:
+        freed[np.flatnonzero(wider.values_of(Choice(effect)))] &= ~present.free
+    return shaped(wider, freed, shape)
 
 
 def try_effect(
@@ -87,12 +81,12 @@ def try_effect(
     the rest is fitted again.
     """
     wider = with_effect(base.model, effect, elements, shape)
-    fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
+    fitted, result = evaluate_fit(base.samples, wider, wider.free, base.noise, judging=True)
     kept = contributing(base, fitted, result, effect, elements) or tuple(elements)
     if kept != tuple(elements):
         elements = kept
         wider = with_effect(base.model, effect, elements, shape)
-        fitted, result = evaluate_fit(base.measured, wider, wider.free, base.noise, judging=True)
+        fitted, result = evaluate_fit(base.samples, wider, wider.free, base.noise, judging=True)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
     candidate = Candidate(
         effect=effect,
@@ -146,7 +140,7 @@ def contributing(
     return tuple(element for element in elements if weight[element] >= max(cost[element], part))
 
 
-def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[FittedParameter, ...]:
+def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[Size, ...]:
     spread = np.sqrt(np.diag(result.covariance))
     rows = []
     for index, each in enumerate(model.parameters()):
@@ -154,5 +148,5 @@ def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequen
             factor = shown_factor(each.unit)
             sigma = float(spread[index]) * factor
             value = float(model.values[index]) * factor
-            rows.append(FittedParameter(each.element, each.name, value, sigma, shown_unit(each.unit)))
+            rows.append(Size(each.element, each.name, value, sigma, shown_unit(each.unit)))
     return tuple(rows)

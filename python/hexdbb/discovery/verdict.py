@@ -19,7 +19,7 @@ from typing import Literal
 
 import numpy as np
 
-from hexdbb.diagnosis import HeldOut, foretold, held_out, refitter
+from hexdbb.diagnosis import HeldOut, expected_error, held_out, refitter
 from hexdbb.discovery.lack_of_fit import LackOfFit
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import Candidate, Discovery, Verdict
@@ -119,7 +119,7 @@ def _predicts(base: Base, trial: Trial, checked: HeldOut | None) -> bool:
     level_um = max(trial.lack.rms_um, trial.lack.noise_um)
     if checked is None or checked.after_um <= UNSEEN * level_um:
         return True
-    expected = foretold(base.records, trial.candidate.model, level_um, MOST_FOLDS)
+    expected = expected_error(base.samples, trial.candidate.model, level_um, MOST_FOLDS)
     return expected is not None and not expected.extrapolates and checked.after_um <= UNSEEN * expected.expected_um
 
 
@@ -180,7 +180,7 @@ def _confirm(base: Base, candidate: Candidate) -> HeldOut | None:
     fit = refitter(base.noise)
     before, after = (base.model, fit), (candidate.model, fit)
     by: Literal["circle", "sweep"] = "circle" if _told_by_others(base, candidate) else "sweep"
-    return held_out(base.measured, before, after, by, MOST_FOLDS)
+    return held_out(base.samples, before, after, by, MOST_FOLDS)
 
 
 def _told_by_others(base: Base, candidate: Candidate) -> bool:
@@ -190,7 +190,7 @@ def _told_by_others(base: Base, candidate: Candidate) -> bool:
     """
     if base.model.info(candidate.effect).element_kind == "mount":
         return False
-    expected = foretold(base.records, base.model, base.noise.sigma_mm * 1e3, MOST_FOLDS)
+    expected = expected_error(base.samples, base.model, base.noise.sigma_mm * 1e3, MOST_FOLDS)
     return expected is not None and not expected.extrapolates
 
 
@@ -201,7 +201,7 @@ def _outcome(
     left, residual, model = lack, base.residual_mm, base.model
     if named is not None:
         left, residual, model = named.lack, named.result.residual_mm, named.candidate.model
-    structure = unexplained_structure(base.records, model, residual, base.noise) if left.is_significant else ()
+    structure = unexplained_structure(base.samples, model, residual, base.noise) if left.is_significant else ()
     return Discovery(
         verdict=verdict,
         lack_of_fit=lack,

@@ -1,29 +1,24 @@
 """Effects of a user's own, and the handbook of all effects.
 
-A user's effect is a function of the samples' state, decorated with what it pushes and in what unit; in a file named on
-the command line:
+A user's effect is a function of the samples (`hexdbb.samples.Samples`), decorated with what it pushes and in what unit;
+in a file named on the command line:
 
     import numpy as np
     from hexdbb.effects import effect
 
     @effect(port="slider", unit="mm", prior_sigma=0.01, elements=6)
-    def dent(state):
+    def dent(samples):
         '''A dent in the guideway, 400 mm from its vertex, as long as a carriage.'''
-        return np.exp(-(((state.sliders_mm - 400.0) / 15.0) ** 2))
+        return np.exp(-(((samples["sliders_mm"] - 400.0) / 15.0) ** 2))
 """
 
 from hexdbb.effects.loading import load_effects
-from hexdbb.effects.sample_state import SampleState, sample_state
-from hexdbb.effects.tabulate import Tabulated, UserEffectError, tabulate
+from hexdbb.effects.tabulate import UserEffectError
 from hexdbb.effects.user import UserEffect, effect
 
 __all__ = [
-    "SampleState",
-    "Tabulated",
     "UserEffect",
     "UserEffectError",
     "effect",
     "load_effects",
-    "sample_state",
-    "tabulate",
 ]

@@ -1,6 +1,6 @@
-"""The handbook: a page for every effect, made of what the effect says of itself; an index of all.
+"""The handbook: a page for every effect, made from its description; an index of all.
 
-Values are shown in the units of files and tables (`hexdbb.units`). What is drawn beside the text is in `signature`.
+Values are shown in the units of files and tables (`hexdbb.units`). The pictures are drawn in `signature`.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 from hexdbb import _core
 from hexdbb.kinematics import engine_machine
 from hexdbb.machine import MachineFile, shipped_machine
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 INDEX = "README.md"
 GROUPS = {
@@ -25,20 +25,20 @@ CAPTION = (
 
 
 def effect_infos(machine: MachineFile | None = None) -> list[_core.EffectInfo]:
-    """Describe every effect the engine knows, as it stands for one mount and one circle."""
+    """Return the description of every effect the engine knows, for one mount."""
     engine = engine_machine(machine if machine is not None else shipped_machine())
     return [_core.effect_info(engine, 1, name) for name in _core.effect_names()]
 
 
 def handbook() -> dict[str, str]:
-    """Give the text of every page, by file name."""
+    """Return the text of every page, by file name."""
     infos = effect_infos()
     return {INDEX: _index(infos), **{f"{info.name}.md": _page(info) for info in infos}}
 
 
 def shown_size(parameter: _core.ParameterInfo) -> str:
-    """Expected size of a parameter with its unit, as people see it."""
-    return f"{parameter.prior_sigma * shown_factor(parameter.unit):.3g} {shown_unit(parameter.unit)}"
+    """Return the prior standard deviation of a parameter with its unit, for people."""
+    return f"{parameter.prior_sigma * shown_factor(parameter.unit):.3g} {readable_unit(shown_unit(parameter.unit))}"
 
 
 def _index(infos: list[_core.EffectInfo]) -> str:
@@ -59,12 +59,12 @@ def _page(info: _core.EffectInfo) -> str:
     lines.append(f"| depends on | {', '.join(f'`{each}`' for each in info.needs) or 'the sliders alone'} |")
     kind = "the measurement: never compensated" if info.is_set_up else "the machine: can be compensated"
     lines += [f"| belongs to | {kind} |", ""]
-    lines += ["| parameter | unit | expected size (1 sigma) | limit |", "|---|---|---|---|"]
+    lines += ["| parameter | unit | prior standard deviation | limit |", "|---|---|---|---|"]
     for each in info.parameters:
         factor = shown_factor(each.unit)
         shape = " (shapes the others)" if each.is_shape else ""
         sizes = f"{each.prior_sigma * factor:.4g} | {each.limit * factor:.4g}"
-        lines.append(f"| `{each.name}`{shape} | {shown_unit(each.unit)} | {sizes} |")
+        lines.append(f"| `{each.name}`{shape} | {readable_unit(shown_unit(each.unit))} | {sizes} |")
     drawn = ", ".join(f"{each.name} = {shown_size(each)}" for each in info.parameters if not each.is_shape)
     lines += ["", f"![What {info.name} does to a circle](images/{info.name}.png)", ""]
     lines += [CAPTION.format(sizes=drawn, element=info.elements[0]), ""]

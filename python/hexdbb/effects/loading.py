@@ -11,7 +11,7 @@ from hexdbb.errors import InputError
 
 
 def load_effects(path: Path | str) -> list[UserEffect]:
-    """Run a Python file and give the effects it declares, in the order of its lines.
+    """Run a Python file and return the effects it declares, in the order of its lines.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def load_effects(path: Path | str) -> list[UserEffect]:
 
 
 def _line_in(path: Path, error: Exception) -> int:
-    """Line of a file in which an error arose."""
+    """Return the line of a file in which an error arose."""
     if isinstance(error, SyntaxError):
         return error.lineno or 0
     # A module knows its file by the whole path, however it was named.

@@ -1,12 +1,13 @@
-"""What an effect of its expected size does to the reading along the thesis' circle, in both directions, as a picture.
+"""Effect of one prior standard deviation on the reading along the thesis' circle, in both directions, as a picture.
 
-The first element of the effect is given its expected size, one parameter at a time, and the prediction is run with and
-without it. The circle is run 0.1 mm off the bar's length, so that a gauge's gain shows; temperature rises by 1 K a lap
-for effects of temperature, and is not measured for all others.
+One parameter at a time of the effect's first element is given its prior standard deviation, and the prediction is run
+with and without it. The circle is run 0.1 mm off the bar's length, so that a gauge's gain shows; temperature rises by
+1 K a lap for effects of temperature, and is not measured for all others.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,10 +19,10 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.effects.handbook import effect_infos, handbook, shown_size
-from hexdbb.kinematics import engine_machine, inverse
 from hexdbb.machine import MachineFile
+from hexdbb.model import new_model
 from hexdbb.plan import load_plan
-from hexdbb.state import planned_columns
+from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
 
@@ -38,14 +39,14 @@ SHARE_OF_RADIUS = 0.3
 
 @dataclass(frozen=True)
 class Signature:
-    """Change of the reading, um, shape (directions, n), by one parameter of an effect."""
+    """Change of the reading by one parameter of an effect, µm, shape (directions, n)."""
 
     parameter: _core.ParameterInfo
     change_um: Floats
 
 
 def write_handbook(folder: Path) -> list[Path]:
-    """Write every page and picture of the handbook; give their paths."""
+    """Write every page and picture of the handbook; return their paths."""
     images = folder / "images"
     images.mkdir(parents=True, exist_ok=True)
     written = []
@@ -59,22 +60,17 @@ def write_handbook(folder: Path) -> list[Path]:
     return written
 
 
-def signatures(info: _core.EffectInfo, samples: dict[bool, _core.Samples]) -> list[Signature]:
-    """Signature of every parameter that pushes by itself; `samples` with (True) and without a measured temperature."""
-    machine = engine_machine(_machine())
+def signatures(info: _core.EffectInfo, samples: Sequence[Samples]) -> list[Signature]:
+    """Compute the signature of every parameter that pushes by itself: the largest of those in some tables."""
+    still = new_model(_machine(), [info.name])
     found = []
     for index, parameter in enumerate(info.parameters):
         if parameter.is_shape:
             continue
-        changes = []
-        for each in samples.values():
-            model = _core.Model(machine)
-            model.add(info.name, 1)
-            without = _core.predict(model, each).reading_mm
-            values = np.zeros(model.size)
-            values[index] = parameter.prior_sigma
-            model.values = values
-            changes.append(UM_PER_MM * (_core.predict(model, each).reading_mm - without))
+        values = np.zeros(len(still.values))
+        values[index] = parameter.prior_sigma
+        moved = still.with_values(values)
+        changes = [UM_PER_MM * (predict(each, moved).reading_mm - predict(each, still).reading_mm) for each in samples]
         largest = max(changes, key=lambda change: float(np.abs(change).max()))
         found.append(Signature(parameter, largest.reshape(-1, PER_LAP)))
     return found
@@ -84,26 +80,13 @@ def _machine() -> MachineFile:
     return load_plan("thesis").machine_file()
 
 
-def _circle() -> tuple[Floats, list[int], dict[bool, _core.Samples]]:
-    """Polar angles, directions, and samples of one lap in each direction, with and without a thermometer."""
+def _circle() -> tuple[Floats, list[int], list[Samples]]:
+    """Return polar angles, directions, and samples of one lap in each direction, with and without a thermometer."""
     plan = load_plan("thesis")
     runs = [next(run for run in plan.runs() if run.direction == direction) for direction in (1, -1)]
-    angle_rad = np.linspace(0.0, 2.0 * np.pi, PER_LAP, endpoint=False)
-    run = runs[0]
-    poses = [run.circle.poses(each.direction * angle_rad, run.mount.cup_mm) for each in runs]
-    sliders_mm, _ = inverse(_machine(), np.vstack(poses), run.circle.platform_rpy_rad)
-    rows = np.zeros(len(sliders_mm), np.int32)
-    set_up = _core.SetUp(
-        cup_mm=np.array(run.mount.cup_mm), ball_offset_mm=np.array(run.circle.ball_offset_mm), bar_length_mm=BAR_MM
-    )
-    samples = {}
-    for has_thermometer in (False, True):
-        state = planned_columns(runs, angle_rad)
-        if has_thermometer:
-            state["warming_k"] = np.tile(angle_rad / (2.0 * np.pi), len(runs))
-        each = _core.Samples(sliders_mm=sliders_mm, set_up=rows, mount=rows, set_ups=[set_up], state=state)
-        each.derive(engine_machine(_machine()))
-        samples[has_thermometer] = each
+    angle_rad = np.arange(PER_LAP, dtype=np.float64) * (2.0 * np.pi / PER_LAP)
+    warming_k = np.tile(angle_rad / (2.0 * np.pi), len(runs))
+    samples = [Samples.planned(_machine(), runs, angle_rad, BAR_MM, warming_k=each) for each in (None, warming_k)]
     return angle_rad, [run.direction for run in runs], samples
 
 
@@ -129,7 +112,7 @@ def _draw(info: _core.EffectInfo, angle_rad: Floats, directions: list[int], draw
             }
             plain.plot(np.degrees(polar_angle[order]), change_um[order], label=label, **line)
             polar.plot(polar_angle[order], 1.0 + SHARE_OF_RADIUS * change_um[order] / largest, **line)
-    plain.set(xlabel="polar angle (deg)", ylabel="change of the reading (um)", xlim=(0, 360), xticks=range(0, 361, 60))
+    plain.set(xlabel="polar angle (deg)", ylabel="change of the reading (µm)", xlim=(0, 360), xticks=range(0, 361, 60))
     plain.set_title(f"{info.name}, {info.element_kind} {info.elements[0]}; dashed: clockwise", fontsize=9)
     plain.grid(alpha=0.3)
     if all(np.ptp(each.change_um) < FLAT * largest for each in drawn):
@@ -137,5 +120,5 @@ def _draw(info: _core.EffectInfo, angle_rad: Floats, directions: list[int], draw
     plain.legend(fontsize=8)
     polar.set_yticks([])
     polar.set_ylim(0.0, 1.0 + 1.3 * SHARE_OF_RADIUS)
-    polar.set_title(f"largest deviation {largest:.3g} um", fontsize=9)
+    polar.set_title(f"largest deviation {largest:.3g} µm", fontsize=9)
     figure.savefig(path, dpi=100, metadata={"Software": None})

@@ -1,24 +1,21 @@
 """From a user's function to numbers the engine can work with: the effect's push per unit in every sample.
 
-What a user's function gives is checked here, once: its shape, that it is finite, that it changes. Everything after that
-is the engine's (`TabulatedEffect`), as for its own effects.
+What a user's function returns is checked here, once: its shape, that it is finite, that it changes. Everything after
+that is the engine's (`TabulatedEffect`), as for its own effects.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.effects.sample_state import SampleState, sample_state
-from hexdbb.effects.shapes import SHAPES
 from hexdbb.effects.traces import line_of
 from hexdbb.errors import InputError
-from hexdbb.machine import MachineFile
+from hexdbb.model import Tabulated
+from hexdbb.samples import PUSH_SHAPES, Samples
 
 if TYPE_CHECKING:
     from hexdbb.effects.user import UserEffect
@@ -30,55 +27,23 @@ class UserEffectError(InputError):
     """A user's effect cannot be used; the message begins with its file and line."""
 
 
-@dataclass(frozen=True)
-class Tabulated:
-    """A user's effect as numbers: value `values[j]` pushes port column `ports[j]` by `per_unit[:, j]`."""
+def tabulated(effect: UserEffect, samples: Samples, *, must_vary: bool) -> Tabulated:
+    """Evaluate a user's effect for a table of samples.
 
-    effect: UserEffect
-    values: tuple[int, ...]
-    ports: tuple[int, ...]
-    per_unit: Floats
-    """Shape (n, k)."""
-
-    def add_to(self, engine: _core.Model) -> None:
-        """Append it, values zero, to a model that is to predict the samples it was tabulated for, or a part of them."""
-        values, ports = list(self.values), list(self.ports)
-        engine.add_tabulated(self.effect.info(), values=values, ports=ports, per_unit=self.per_unit)
-
-
-def add_own(effect: UserEffect, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
-    """Append a user's effect, values zero, to a model that is to predict samples, or a part of them.
-
-    In a part of a record an effect may well be the same everywhere: that is asked of whole records only (`tabulate`).
+    Parameters
+    ----------
+    effect : UserEffect
+    samples : Samples
+    must_vary : bool
+        Refuse an effect that is the same in every sample. In a part of a record it may well be: that is asked of whole
+        records only.
 
     Raises
     ------
     UserEffectError
-        Its function raises, or gives a wrong shape or a value that is not finite.
+        The function raises, or returns a wrong shape or a value that is not finite.
     """
-    _tabulated(effect, sample_state(samples, machine), must_vary=False).add_to(engine)
-
-
-def tabulate(effects: Sequence[UserEffect], state: SampleState) -> tuple[list[Tabulated], list[UserEffectError]]:
-    """Evaluate users' effects; one that fails does not hold up the others.
-
-    Returns
-    -------
-    tabulated : list of Tabulated
-    failed : list of UserEffectError
-        Of the effects that raise, or give a wrong shape, a value that is not finite, or the same push in every sample.
-    """
-    tabulated, failed = [], []
-    for each in effects:
-        try:
-            tabulated.append(_tabulated(each, state, must_vary=True))
-        except UserEffectError as error:
-            failed.append(error)
-    return tabulated, failed
-
-
-def _tabulated(effect: UserEffect, state: SampleState, *, must_vary: bool) -> Tabulated:
-    columns = [_columns(effect, name, basis, len(state)) for name, basis in _bases(effect, state)]
+    columns = [_columns(effect, name, basis, len(samples)) for name, basis in _bases(effect, samples)]
     if must_vary:
         for name, table in zip(effect.parameters, columns, strict=True):
             _require_variation(f"{effect.where}: {name}", table)
@@ -91,14 +56,14 @@ def _tabulated(effect: UserEffect, state: SampleState, *, must_vary: bool) -> Ta
             values.append(element * len(columns) + parameter)
             ports.append(first_port + column)
         tables.append(table)
-    return Tabulated(effect, tuple(values), tuple(ports), np.hstack(tables))
+    return Tabulated(effect.info(), tuple(values), tuple(ports), np.hstack(tables))
 
 
-def _bases(effect: UserEffect, state: SampleState) -> list[tuple[str, object]]:
-    """Call the user's function; one result a parameter."""
+def _bases(effect: UserEffect, samples: Samples) -> list[tuple[str, object]]:
+    """Call the user's function; one result for each parameter."""
     try:
         with np.errstate(all="ignore"):  # a value that is not finite is named below
-            result = effect.basis(state)
+            result = effect.basis(samples)
     except Exception as error:  # a user's function may raise anything
         line = line_of(effect.path, error) or effect.line
         said = f"{type(error).__name__}: {error}"
@@ -107,24 +72,26 @@ def _bases(effect: UserEffect, state: SampleState) -> list[tuple[str, object]]:
         return [(effect.parameters[0], result)]
     count = len(effect.parameters)
     if not isinstance(result, (tuple, list)) or len(result) != count:
-        raise UserEffectError(f"{effect.where}: gives {_kind(result)} (expected {count} arrays, one a parameter)")
+        raise UserEffectError(
+            f"{effect.where}: returns {_kind(result)} (expected {count} arrays, one for each parameter)"
+        )
     return list(zip(effect.parameters, result, strict=True))
 
 
 def _columns(effect: UserEffect, parameter: str, basis: object, count: int) -> Floats:
     """Check one parameter's basis; shape (count, columns of the port)."""
     of = f"{effect.where}: {parameter}"
-    expected = (count, *SHAPES[effect.port])
+    expected = (count, *PUSH_SHAPES[effect.port])
     if basis is None:
-        raise UserEffectError(f"{of}: gives nothing (expected to return an array of shape {expected})")
+        raise UserEffectError(f"{of}: returns nothing (expected an array of shape {expected})")
     try:
         table = np.asarray(basis, dtype=np.float64)
     except (TypeError, ValueError):
         raise UserEffectError(
-            f"{of}: gives {_kind(basis)} (expected an array of numbers of shape {expected})"
+            f"{of}: returns {_kind(basis)} (expected an array of numbers of shape {expected})"
         ) from None
     if table.shape != expected:
-        raise UserEffectError(f"{of}: gives shape {table.shape} (expected {expected} at port {effect.port})")
+        raise UserEffectError(f"{of}: returns shape {table.shape} (expected {expected} at port {effect.port})")
     table = table.reshape(count, -1)
     wrong = ~np.isfinite(table).all(axis=1)
     if wrong.any():

@@ -1,9 +1,9 @@
-"""A user's own effect: a function of the samples' state, with what it pushes, its unit and its expected size.
+"""A user's own effect: a function of the samples, with what it pushes, its unit and its expected size.
 
-The function gives the push per unit of the effect's value, in every sample and at every place of the port: shape (n, 6)
-at the ports `slider` and `leg`, (n, 6, 3) at `slider_joint` and `platform_joint`, (n, 3) at `ball` and `cup`, (n,) at
-`reading`. With six elements each slider (leg) has a value of its own, with three each guideway, with one all share it.
-An effect of several parameters gives a sequence of such arrays, one each.
+The function takes `hexdbb.samples.Samples` and returns the push per unit of the effect's value, in every sample and at
+every place of the port: shape (n, 6) at the ports `slider` and `leg`, (n, 6, 3) at `slider_joint` and `platform_joint`,
+(n, 3) at `ball` and `cup`, (n,) at `reading`. With six elements each slider (leg) has a value of its own, with three
+each guideway, with one all share it. An effect of several parameters returns a sequence of such arrays, one each.
 """
 
 from __future__ import annotations
@@ -13,18 +13,18 @@ from dataclasses import dataclass
 from typing import Any
 
 from hexdbb import _core
-from hexdbb.effects.sample_state import SampleState
-from hexdbb.effects.shapes import SHAPES
-from hexdbb.effects.tabulate import add_own
+from hexdbb.effects.tabulate import tabulated
 from hexdbb.errors import InputError
-from hexdbb.machine import MachineFile
+from hexdbb.model import Tabulated
+from hexdbb.samples import PUSH_SHAPES, Samples
 
-Basis = Callable[[SampleState], Any]
+Basis = Callable[[Samples], Any]
 
 KINDS = {1: "machine", 3: "guideway", 6: "slider"}
 """What an element is, by their number."""
 LIMIT_OF_SIGMA = 100.0
-"""A value beyond so many expected sizes makes no physical sense, where the effect states no limit."""
+"""Limit of a value in prior standard deviations where the effect states none: far beyond any fault of a working
+machine, so that it stops a diverging fit and nothing else."""
 
 
 @dataclass(frozen=True)
@@ -64,15 +64,25 @@ class UserEffect:
             ports=[self.port],
         )
 
-    def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
-        """Append it, values zero, to a model that is to predict these samples, or a part of them.
+    def tabulated(self, samples: Samples) -> Tabulated:
+        """Evaluate it for a table of samples.
 
         Raises
         ------
         UserEffectError
-            Its function raises, or gives a wrong shape or a value that is not finite.
+            Its function raises, or returns a wrong shape or a value that is not finite.
         """
-        add_own(self, engine, samples, machine)
+        return tabulated(self, samples, must_vary=False)
+
+    def require_usable(self, samples: Samples) -> None:
+        """Check that it can be fitted to samples.
+
+        Raises
+        ------
+        UserEffectError
+            As `tabulated`, or where its push is the same in every sample.
+        """
+        tabulated(self, samples, must_vary=True)
 
 
 def effect(
@@ -84,7 +94,7 @@ def effect(
     parameters: Sequence[str] = ("size",),
     limit: float | None = None,
 ) -> Callable[[Basis], UserEffect]:
-    """Declare a function of the state an effect; its docstring's first line is the effect's physics.
+    """Declare a function of the samples an effect; its docstring's first line is the effect's physics.
 
     Parameters
     ----------
@@ -93,13 +103,13 @@ def effect(
     unit : str
         Of its values, such that value times basis is mm: ``mm`` where the basis is a pure number, ``mm/N``, ``s`` ...
     prior_sigma : float
-        Size to expect before any measurement.
+        Prior standard deviation of its values: the size to expect before any measurement.
     elements : int
         6: a value for each slider or leg; 3: one for each guideway; 1: one for the whole machine.
     parameters : sequence of str
         Names of an element's values.
     limit : float, optional
-        Values beyond +-limit make no physical sense; `LIMIT_OF_SIGMA` expected sizes where not given.
+        Values beyond +-limit make no physical sense; `LIMIT_OF_SIGMA` prior standard deviations where not given.
 
     Raises
     ------
@@ -130,9 +140,9 @@ def effect(
 
 
 def _check(declared: UserEffect) -> None:
-    shape = SHAPES.get(declared.port)
+    shape = PUSH_SHAPES.get(declared.port)
     if shape is None:
-        raise InputError(f"{declared.where}: port {declared.port!r} (expected one of {', '.join(SHAPES)})")
+        raise InputError(f"{declared.where}: port {declared.port!r} (expected one of {', '.join(PUSH_SHAPES)})")
     possible = (1, 3, 6) if shape[:1] == (6,) else (1,)
     if declared.elements not in possible:
         counts = " or ".join(map(str, possible))

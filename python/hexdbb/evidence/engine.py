@@ -12,16 +12,13 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
-from hexdbb.effects.shapes import SHAPES
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.joints import joint_state
 from hexdbb.evidence.readings import Linear, Readings, State
-from hexdbb.machine import MachineFile
-from hexdbb.measured import Measured, measured
-from hexdbb.model import Model, new_term
-from hexdbb.record import Record
+from hexdbb.model import Model, OwnEffect, Tabulated, new_term
+from hexdbb.samples import PUSH_SHAPES, Samples
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -42,7 +39,7 @@ class Fitted:
     """Places of the free values in the model's."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TabulatedLearned:
     """A learned hypothesis as an effect of the engine: its coefficients in the prior's own axes.
 
@@ -77,8 +74,8 @@ class TabulatedLearned:
             ports=[PLACE_PORT[self.hypothesis.place]],
         )
 
-    def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
-        """Append it, values zero, to a model that is to predict these samples, or a part of them."""
+    def tabulated(self, samples: Samples) -> Tabulated:
+        """Evaluate it for a table of samples; rows other than its own stay zero."""
         values: list[int] = []
         ports: list[int] = []
         tables: list[Floats] = []
@@ -93,52 +90,47 @@ class TabulatedLearned:
                     values.append(int(value))
                     ports.append(port)
                     tables.append(weight * pushed[:, value])
-        table = np.zeros((samples.size, len(values)))
+        table = np.zeros((int(samples.row_numbers.max()) + 1, len(values)))
         table[self.rows] = np.column_stack(tables)
-        engine.add_tabulated(self.info(), values=values, ports=ports, per_unit=table)
+        return Tabulated(self.info(), tuple(values), tuple(ports), table)
 
 
 class Engine:
-    """Records prepared for evidence: rows, groups, state, and fits of models to the rows.
+    """Samples prepared for evidence: rows, groups, state, and fits of models to the rows.
 
     Parameters
     ----------
-    records : sequence of Record, or Measured
+    samples : Samples
     model : Model
-        Of whose mounts the records are.
+        That knows the samples' mounts.
     noise : Noise
     criteria : Criteria
     """
 
-    def __init__(
-        self, records: Sequence[Record] | Measured, model: Model, noise: Noise, criteria: Criteria = DEFAULT
-    ) -> None:
-        self.taken, self.noise = measured(records, model), noise
-        self.machine = model.machine
-        self.base, result = evaluate_fit(self.taken, model, model.free, noise, judging=True)
+    def __init__(self, samples: Samples, model: Model, noise: Noise, criteria: Criteria = DEFAULT) -> None:
+        self.samples, self.noise = samples, noise
+        self.base, result = evaluate_fit(samples, model, model.free, noise, judging=True)
         self.residual_mm = result.residual_mm
-        self.blocks = _blocks(self.taken.sweep, criteria.max_rows)
-        begin, count = self.blocks
-        self.rows: Ints = begin + count // 2
-        self.samples = self.taken.samples.rows(self.rows)
+        begin, count = _blocks(samples["sweep"], criteria.max_rows)
+        chosen = begin + count // 2
+        self.part = samples.part(chosen)
         averaged = np.add.reduceat(self.residual_mm, begin) / count
-        self.reading_mm = self.taken.reading_mm[self.rows] - self.residual_mm[self.rows] + averaged
-        self.sweep = self.taken.sweep[self.rows]
+        self.reading_mm = self.part.reading_mm - self.residual_mm[chosen] + averaged
         self.row_noise_mm = noise.sigma_mm / np.sqrt(count)
+        self._tabulated: dict[str, Tabulated] = {}
 
     @cached_property
     def readings(self) -> Readings:
         """State, groups and noise of the rows."""
-        known = self.samples.state
-        state = _state(known, self.samples.sliders_mm, self.machine)
+        part = self.part
         groups = {
-            "circle": _codes(known["circle"]),
-            "feed": _codes(known["feed_mm_s"]),
-            "direction": _codes(known["direction"]),
-            "lap": _codes(known["lap"]),
-            "sweep": _codes(known["sweep"]),
+            "circle": _codes(part["circle"]),
+            "feed": _codes(part["feed_mm_s"]),
+            "direction": _codes(part["direction"]),
+            "lap": _codes(part["lap"]),
+            "sweep": _codes(part["sweep"]),
         }
-        return Readings(state, groups, self.row_noise_mm, self.machine.sliders.screw_lead_mm)
+        return Readings(_state(part), groups, self.row_noise_mm, part.machine.sliders.screw_lead_mm)
 
     def fit(self, model: Model) -> Fitted:
         """Fit a model's free values to the rows and linearise about the fit.
@@ -149,31 +141,31 @@ class Engine:
             Where the fit did not end in a usable solution.
         """
         result = _core.fit(
-            model.engine(self.taken.whole),
-            self.samples,
+            self._engine(model),
+            self.part.block(model),
             self.reading_mm,
             noise_mm=float(np.mean(self.row_noise_mm)),
             free=[bool(each) for each in model.free],
-            sweep=self.sweep,
+            sweep=self.part["sweep"],
             judging=True,
         )
         if not result.usable:
-            raise RunError(f"the fit did not succeed: {result.termination}")
-        unknown = np.full(len(result.values), np.nan)
-        return self.linearised(model.with_values(result.values, unknown, np.zeros(len(unknown), bool)))
+            raise RunError(f"{self.samples.name}: the fit did not succeed: {result.termination}")
+        return self.linearised(model.with_values(result.values))
 
     def linearised(self, model: Model) -> Fitted:
         """Linearise the rows about a model as it is."""
-        prediction = _core.predict(engine := model.engine(self.taken.whole), self.samples, want_jacobian=True)
+        engine, block = self._engine(model), self.part.block(model)
+        prediction = _core.predict(engine, block, want_jacobian=True)
         free = np.flatnonzero(model.free)
-        prior = prior_sigmas(model)[free]
+        prior = model.prior_sigma[free]
         weight = 1.0 / self.row_noise_mm[:, None]
         own = prediction.jacobian[:, free] * prior * weight
         linear = Linear(
             residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
             own=own,
             standing=model.values[free] / prior,
-            pushes=_pushes(_core.port_sensitivity(engine, self.samples) * weight),
+            pushes=_pushes(_core.port_sensitivity(engine, block) * weight),
         )
         covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
         return Fitted(model, linear, covariance, free)
@@ -189,7 +181,7 @@ class Engine:
         present = {term.effect for term in model.terms}
         terms = [new_term(name, model.info(name).size, free=False) for name in effects if name not in present]
         full = replace(model, terms=(*model.terms, *terms))
-        jacobian = _core.predict(full.engine(self.taken.whole), self.samples, want_jacobian=True).jacobian
+        jacobian = _core.predict(self._engine(full), self.part.block(full), want_jacobian=True).jacobian
         wanted = [
             (index, each)
             for index, each in enumerate(full.parameters())
@@ -209,14 +201,20 @@ class Engine:
 
     def with_learned(self, model: Model, hypothesis: Learned, factor: Floats, size_mm: float, name: str = "") -> Model:
         """Return the model with a learned hypothesis, its coefficients free, at zero."""
-        own = TabulatedLearned(hypothesis, factor, size_mm, self.readings.state, self.rows)
+        own = TabulatedLearned(hypothesis, factor, size_mm, self.readings.state, self.part.row_numbers)
         wider = model.knowing_effects([own])
         return replace(wider, terms=(*wider.terms, new_term(own.name, factor.shape[1])))
 
+    def _engine(self, model: Model) -> _core.Model:
+        return model.engine(self._tabulate)
 
-def prior_sigmas(model: Model) -> Floats:
-    """Return the prior standard deviations of a model's values, shape (size,)."""
-    return np.array([each.prior_sigma for each in model.parameters()])
+    def _tabulate(self, effect: OwnEffect) -> Tabulated:
+        """Evaluate an effect for the whole table; a user's is kept, a learned one belongs to one fit."""
+        if isinstance(effect, TabulatedLearned):
+            return effect.tabulated(self.samples)
+        if effect.name not in self._tabulated:
+            self._tabulated[effect.name] = effect.tabulated(self.samples)
+        return self._tabulated[effect.name]
 
 
 def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
@@ -238,8 +236,8 @@ def _codes(values: NDArray[np.generic]) -> Ints:
 
 
 def _pushes(sensitivity: Floats) -> dict[str, Floats]:
-    widths = [int(np.prod(shape, dtype=int)) for shape in SHAPES.values()]
-    parts = dict(zip(SHAPES, np.split(sensitivity, np.cumsum(widths)[:-1], axis=1), strict=True))
+    widths = [int(np.prod(shape, dtype=int)) for shape in PUSH_SHAPES.values()]
+    parts = dict(zip(PUSH_SHAPES, np.split(sensitivity, np.cumsum(widths)[:-1], axis=1), strict=True))
     across = np.array([_core.guideway_axes(slider // 2) for slider in range(6)])
     local = np.einsum("nki,kij->nkj", parts["slider_joint"].reshape(-1, 6, 3), across)
     return {
@@ -262,25 +260,29 @@ def _ports(place: str, column: int) -> list[tuple[int, float]]:
     return [(12 + 3 * column + base, float(axis[base])) for base in range(3) if axis[base] != 0.0]
 
 
-def _state(known: Mapping[str, NDArray[np.generic]], sliders_mm: Floats, machine: MachineFile) -> State:
-    time_s = np.asarray(known["time_s"], np.float64)
+def _state(part: Samples) -> State:
+    time_s = part["time_s"]
     passed = (time_s - time_s.min()) / max(float(np.ptp(time_s)), 1e-9)
     state = {
-        "position": sliders_mm,
-        "velocity": known["velocity_mm_s"],
-        "acceleration": known["acceleration_mm_s2"],
-        "direction": known["side"],
-        "since_reversal_s": known["since_reversal_s"],
-        "since_reversal_mm": known["since_reversal_mm"],
-        "leg_force": known["leg_force"],
+        "position": part["sliders_mm"],
+        "velocity": part["velocity_mm_s"],
+        "acceleration": part["acceleration_mm_s2"],
+        "direction": part["travel_direction"],
+        "since_reversal_s": part["since_reversal_s"],
+        "since_reversal_mm": part["since_reversal_mm"],
+        "leg_force": part["leg_force"],
+        "slider_joint_angle": part["slider_joint_angle_rad"],
+        "slider_joint_rate": part["slider_joint_rate_rad_s"],
+        "platform_joint_angle": part["platform_joint_angle_rad"],
+        "platform_joint_rate": part["platform_joint_rate_rad_s"],
         "time": time_s,
         "elapsed": passed - passed.mean(),
-        "feed": known["feed_mm_s"],
-        "polar_angle": known["angle_rad"],
-        "circle_direction": known["direction"],
-        "nominal_reading": known["nominal_reading_mm"],
+        "feed": part["feed_mm_s"],
+        "polar_angle": part["angle_rad"],
+        "circle_direction": part["direction"],
+        "nominal_reading": part["nominal_reading_mm"],
     }
-    if np.isfinite(known["warming_k"]).all():
-        state["warming"] = known["warming_k"]
-    state |= joint_state(machine, sliders_mm, time_s, np.asarray(known["sweep"]), np.asarray(known["angle_rad"]))
+    if np.isfinite(part["warming_k"]).all():
+        state["warming"] = part["warming_k"]
+    state |= joint_state(part)
     return State({name: np.asarray(values, np.float64) for name, values in state.items()})

@@ -12,7 +12,7 @@ import numpy as np
 from scipy import stats
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.engine import Fitted, prior_sigmas
+from hexdbb.evidence.engine import Fitted
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Known
 from hexdbb.units import shown_factor, shown_unit
@@ -39,7 +39,7 @@ def outside_domain(
     log_evidence : float
         Change of the log evidence by the one-sided priors and by values beyond their limits.
     """
-    parameters, sigmas = fitted.model.parameters(), prior_sigmas(fitted.model)
+    parameters, sigmas = fitted.model.parameters(), fitted.model.prior_sigma
     spread = np.sqrt(np.diag(fitted.covariance))
     known = {(each.effect, element) for each in hypotheses if isinstance(each, Known) for element in each.elements}
     refused, change = [], 0.0

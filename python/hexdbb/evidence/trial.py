@@ -19,7 +19,7 @@ from scipy import stats
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.engine import Engine, Fitted, prior_sigmas
+from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.homes import Homes, discrepancy
 from hexdbb.evidence.marginal import marginal
@@ -161,9 +161,9 @@ class Trials:
             return self.engine.fit(model)
         found = []
         for start in SHAPE_STARTS:
-            values = np.where(shapes, start * prior_sigmas(model), model.values)
+            values = np.where(shapes, start * model.prior_sigma, model.values)
             try:
-                found.append(self.engine.fit(model.with_values(values, model.sigma, np.zeros(len(values), bool))))
+                found.append(self.engine.fit(model.with_values(values)))
             except RunError:
                 continue
         if not found:
@@ -212,7 +212,7 @@ class Trials:
     def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[Learned]]:
         """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy."""
         model, readings = fitted.model, self.engine.readings
-        sigmas = prior_sigmas(model)
+        sigmas = model.prior_sigma
         square, functions = 0.0, []
         for place, column in enumerate(fitted.free):
             parameter = model.parameters()[column]

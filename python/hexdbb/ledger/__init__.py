@@ -1,8 +1,7 @@
-"""Changing a model: effects added and taken away, every step kept with what it gained, every step undone."""
+"""Fits that a model's ledger keeps: values fitted, effects added and removed, every step with its gain; undo."""
 
-from hexdbb.ledger.change import add_effect, remove_effect
-from hexdbb.ledger.choice import held_at_zero, with_effect
+from hexdbb.ledger.change import add_effect, fit_model, remove_effect
 from hexdbb.ledger.history import History, history
 from hexdbb.ledger.undo import undo
 
-__all__ = ["History", "add_effect", "held_at_zero", "history", "remove_effect", "undo", "with_effect"]
+__all__ = ["History", "add_effect", "fit_model", "history", "remove_effect", "undo"]

@@ -1,11 +1,12 @@
-"""The ledger of a model as text to be read aloud, as data, and as a table for a notebook."""
+"""The ledger of a model as text, as JSON, and as a table for a notebook."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
-from hexdbb.frames import html_table
+from hexdbb.files.frames import html_table
+from hexdbb.ledger.json_form import HistoryJson, step_json
 from hexdbb.ledger.words import arrow, deed, sentence
 from hexdbb.model import LedgerStep, Model
 
@@ -18,12 +19,12 @@ class History:
 
     @property
     def text(self) -> str:
-        """One sentence a step, a line each."""
+        """One sentence for each step, on a line of its own."""
         return "\n".join(sentence(step) for step in self.steps) or "nothing was done to this model yet"
 
     def to_json(self) -> dict[str, Any]:
-        """Give the object that ``hexdbb history --json`` prints."""
-        return {"steps": [step_json(step) for step in self.steps]}
+        """Return the object that ``hexdbb history --json`` prints."""
+        return HistoryJson(tuple(step_json(step) for step in self.steps)).to_json()
 
     def _repr_html_(self) -> str:
         heads = ("step", "what", "error, µm RMS", "held-out circles, µm RMS", "records")
@@ -34,22 +35,8 @@ class History:
 
 
 def history(model: Model) -> History:
-    """Give the ledger of a model."""
+    """Return the ledger of a model."""
     return History(model.ledger)
-
-
-def step_json(step: LedgerStep) -> dict[str, Any]:
-    """Give one step as JSON has it: numbers of what was looked at, null elsewhere, and the sentence."""
-    known = {name: value for name, value in vars(step).items() if name not in ("before", "sizes")}
-    return {
-        **known,
-        "elements": list(step.elements),
-        "records": list(step.records),
-        "record_hashes": list(step.record_hashes),
-        "sizes": [asdict(size) for size in step.sizes],
-        "sentence": sentence(step),
-        "can_be_undone": step.before is not None,
-    }
 
 
 def _fitted(step: LedgerStep) -> str:

@@ -1,4 +1,4 @@
-"""Taking back what was last done to a model."""
+"""Undoing the last step of a model's ledger."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hexdbb.model import Model
 
 
 def undo(model: Model) -> Model:
-    """Give a model as it was before the last step of its ledger.
+    """Return a model as it was before the last step of its ledger.
 
     The model's file holds every earlier state, so this can be done as often as there are steps.
 

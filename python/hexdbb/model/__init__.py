@@ -1,13 +1,15 @@
 """Models: a machine and a list of effects with their values; the file that holds them; the ledger of what was done."""
 
+from hexdbb.model.catalogue import default_effects, effect_info, effect_names
+from hexdbb.model.choice import Choice
 from hexdbb.model.file import load_model, save_model
-from hexdbb.model.ledger import LedgerStep, Size, State
-from hexdbb.model.model import Model, default_effects, effect_info, new_model
-from hexdbb.model.own import OwnEffect, OwnEffects
-from hexdbb.model.selection import parse_selection, split_choice
+from hexdbb.model.ledger import LedgerStep, Size, Snapshot
+from hexdbb.model.model import Model, new_model
+from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate, Tabulated
 from hexdbb.model.terms import MountKey, Parameter, Term, new_term
 
 __all__ = [
+    "Choice",
     "LedgerStep",
     "Model",
     "MountKey",
@@ -15,14 +17,15 @@ __all__ = [
     "OwnEffects",
     "Parameter",
     "Size",
-    "State",
+    "Snapshot",
+    "Tabulate",
+    "Tabulated",
     "Term",
     "default_effects",
     "effect_info",
+    "effect_names",
     "load_model",
     "new_model",
     "new_term",
-    "parse_selection",
     "save_model",
-    "split_choice",
 ]

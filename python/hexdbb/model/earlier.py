@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.model.entries import EarlierEffectEntry, EarlierEntry
-from hexdbb.model.ledger import State
+from hexdbb.model.ledger import Snapshot
 from hexdbb.model.shown import engine_values, shown_values, units_of
 from hexdbb.model.terms import MountKey, Term
 
@@ -18,15 +18,15 @@ Describe = Callable[[int, str], _core.EffectInfo]
 """Describes an effect, given the number of mounts and its name."""
 
 
-def earlier_entry(step: int, state: State, describe: Describe) -> EarlierEntry:
-    """Put the state before a step into the form of the file."""
-    mounts = len(state.mounts)
-    effects = tuple(_entry(term, units_of(describe(mounts, term.effect))) for term in state.terms)
+def earlier_entry(step: int, snapshot: Snapshot, describe: Describe) -> EarlierEntry:
+    """Return the model before a step in the form of the file."""
+    mounts = len(snapshot.mounts)
+    effects = tuple(_entry(term, units_of(describe(mounts, term.effect))) for term in snapshot.terms)
     return EarlierEntry(before_step=step, mounts=mounts, effect=effects)
 
 
-def earlier_state(entry: EarlierEntry, mounts: Sequence[MountKey], describe: Describe, where: str) -> State:
-    """Read the state before a step.
+def earlier_snapshot(entry: EarlierEntry, mounts: Sequence[MountKey], describe: Describe, where: str) -> Snapshot:
+    """Return the model before a step, as a file has it.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def earlier_state(entry: EarlierEntry, mounts: Sequence[MountKey], describe: Des
         except InputError as error:
             raise InputError(f"{place}.name: {error}") from None
         terms.append(_term(effect, units, place))
-    return State(tuple(terms), tuple(mounts[: entry.mounts]))
+    return Snapshot(tuple(terms), tuple(mounts[: entry.mounts]))
 
 
 def _entry(term: Term, units: Sequence[str]) -> EarlierEffectEntry:

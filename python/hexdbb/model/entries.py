@@ -6,8 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from hexdbb.files.validation import FileModel, NotNegative, Number, StrictModel
 from hexdbb.machine import MachineFile
-from hexdbb.validation import FileModel, NotNegative, Number, StrictModel
 
 Names = Annotated[tuple[str, ...], Field(strict=False)]
 Numbers = Annotated[tuple[Number, ...], Field(strict=False)]

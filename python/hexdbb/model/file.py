@@ -10,18 +10,19 @@ from pathlib import Path
 
 import numpy as np
 
-from hexdbb.atomic_file import replacing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import replacing
+from hexdbb.files.validation import dump_toml, load_toml
 from hexdbb.machine import MachineFile
-from hexdbb.model.earlier import Describe, earlier_entry, earlier_state
+from hexdbb.model.catalogue import effect_info
+from hexdbb.model.earlier import Describe, earlier_entry, earlier_snapshot
 from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
 from hexdbb.model.ledger import LedgerStep, Size
-from hexdbb.model.model import Model, effect_info
+from hexdbb.model.model import Model
 from hexdbb.model.own import OwnEffect, OwnEffects
 from hexdbb.model.shown import shown_value
 from hexdbb.model.terms import MountKey, Parameter, Term
 from hexdbb.units import shown_factor, shown_unit
-from hexdbb.validation import dump_toml, load_toml
 
 
 def load_model(path: Path | str, effects: Iterable[OwnEffect] = ()) -> Model:
@@ -74,11 +75,11 @@ def _describe(machine: MachineFile, own: OwnEffects) -> Describe:
 
 def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], own: OwnEffects, path: str) -> tuple[LedgerStep, ...]:
     describe = _describe(file.machine, own)
-    states = {
-        entry.before_step: earlier_state(entry, mounts, describe, f"{path}: earlier[{index}]")
+    snapshots = {
+        entry.before_step: earlier_snapshot(entry, mounts, describe, f"{path}: earlier[{index}]")
         for index, entry in enumerate(file.earlier)
     }
-    return tuple(replace(_step(entry), before=states.get(entry.step)) for entry in file.steps)
+    return tuple(replace(_step(entry), before=snapshots.get(entry.step)) for entry in file.steps)
 
 
 def _step(entry: StepEntry) -> LedgerStep:

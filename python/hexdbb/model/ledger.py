@@ -12,7 +12,7 @@ from hexdbb.model.terms import MountKey, Term
 
 
 @dataclass(frozen=True)
-class State:
+class Snapshot:
     """How a model stood: its effects with their values, the mounts whose set-up it knew."""
 
     terms: tuple[Term, ...]
@@ -60,7 +60,7 @@ class LedgerStep:
         The same root mean square on circles left out of the fit.
     heldout_peak_to_valley_before_um, heldout_peak_to_valley_after_um : float or None
         Largest minus smallest residual there.
-    before : State or None
+    before : Snapshot or None
         The model before this step; None where nobody kept it.
     """
 
@@ -80,4 +80,4 @@ class LedgerStep:
     heldout_after_um: float | None = None
     heldout_peak_to_valley_before_um: float | None = None
     heldout_peak_to_valley_after_um: float | None = None
-    before: State | None = field(default=None, compare=False, repr=False)
+    before: Snapshot | None = field(default=None, compare=False, repr=False)

@@ -1,7 +1,7 @@
 """A model is a machine plus a list of effects.
 
 The values of all effects stand one after another in one vector, effect by effect, element by element, in the engine's
-units; a `Parameter` names each place of it. What is known of the values (uncertainty, whether they can be told at all)
+units; a `Parameter` names each place of it. What is known of the values (uncertainty, whether they are identifiable)
 stands beside.
 """
 
@@ -10,20 +10,25 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
+from hexdbb.files.frames import to_frame
 from hexdbb.kinematics import engine_machine
 from hexdbb.machine import MachineFile
-from hexdbb.model.ledger import LedgerStep, State
-from hexdbb.model.own import OwnEffect, OwnEffects
-from hexdbb.model.terms import Floats, MountKey, Parameter, Term, new_term
+from hexdbb.model.catalogue import default_effects, effect_info
+from hexdbb.model.choice import Choice
+from hexdbb.model.ledger import LedgerStep, Snapshot
+from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate
+from hexdbb.model.tables import value_columns, values_html
+from hexdbb.model.terms import Bools, Floats, MountKey, Parameter, Term, extended, new_term, parameters_of
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Model:
     """A machine, its effects, the mounts whose cups it knows, and the ledger of steps."""
 
@@ -33,26 +38,26 @@ class Model:
     ledger: tuple[LedgerStep, ...] = field(default=())
     path: Path | None = field(default=None, compare=False)
     """The file it was read from."""
-    own_effects: OwnEffects = field(default_factory=dict, compare=False, repr=False)
+    own_effects: OwnEffects = field(default_factory=dict, compare=False)
     """Effects of the user's own that may stand in it, by name; the file does not keep what they do."""
 
     @property
     def name(self) -> str:
-        """How errors name it: by its file, where it has one."""
+        """What errors call it: its file, where it has one."""
         return "the model" if self.path is None else str(self.path)
 
     def info(self, effect: str) -> _core.EffectInfo:
-        """Describe one effect as it stands in this model."""
+        """Return the description of one effect as it stands in this model."""
         return effect_info(self.machine, max(len(self.mounts), 1), effect, self.own_effects)
 
     def parameters(self) -> list[Parameter]:
-        """Name every value, in the order of `values`."""
-        return [parameter for term in self.terms for parameter in _parameters(self.info(term.effect))]
+        """Return name and nature of every value, in the order of `values`."""
+        return [parameter for term in self.terms for parameter in parameters_of(self.info(term.effect))]
 
     @property
-    def state(self) -> State:
+    def snapshot(self) -> Snapshot:
         """Effects and mounts as they stand, for the ledger to keep."""
-        return State(self.terms, self.mounts)
+        return Snapshot(self.terms, self.mounts)
 
     @property
     def values(self) -> Floats:
@@ -65,44 +70,138 @@ class Model:
         return np.concatenate([np.zeros(0), *(term.sigma for term in self.terms)])
 
     @property
-    def free(self) -> NDArray[np.bool_]:
-        """Which values a diagnosis may change."""
+    def prior_sigma(self) -> Floats:
+        """Prior standard deviations (expected sizes) of the values, engine units, shape (size,)."""
+        return np.array([parameter.prior_sigma for parameter in self.parameters()])
+
+    @property
+    def free(self) -> Bools:
+        """Which values a diagnosis may change, shape (size,)."""
         return np.concatenate([np.zeros(0, bool), *(term.free for term in self.terms)])
 
-    def with_free(self, free: NDArray[np.bool_]) -> Model:
-        """Give the same model with another choice of free values, shape (size,)."""
-        terms, at = [], 0
-        for term in self.terms:
-            terms.append(replace(term, free=free[at : at + len(term.values)]))
-            at += len(term.values)
-        return replace(self, terms=tuple(terms))
+    @property
+    def identifiable(self) -> Bools:
+        """Which values the readings determined on their own when they were fitted, shape (size,)."""
+        return np.concatenate([np.zeros(0, bool), *(term.identifiable for term in self.terms)])
 
-    def with_values(self, values: Floats, sigma: Floats, identifiable: NDArray[np.bool_]) -> Model:
-        """Give the same model with other values."""
-        terms, at = [], 0
-        for term in self.terms:
-            span = slice(at, at + len(term.values))
-            terms.append(replace(term, values=values[span], sigma=sigma[span], identifiable=identifiable[span]))
-            at = span.stop
-        return replace(self, terms=tuple(terms))
-
-    def with_mounts(self, keys: Sequence[MountKey]) -> Model:
-        """Give the same model knowing these mounts too; their cups stand where planned until they are fitted."""
-        new = [key for key in keys if key not in self.mounts]
-        wider = replace(self, mounts=(*self.mounts, *new))
-        return replace(wider, terms=tuple(_extended(term, wider.info(term.effect).size) for term in self.terms))
-
-    def knowing_effects(self, effects: Iterable[OwnEffect]) -> Model:
-        """Give the same model, in which effects of the user's own may stand too."""
-        return replace(self, own_effects={**self.own_effects, **{each.name: each for each in effects}})
-
-    def engine(self, samples: _core.Samples | None = None) -> _core.Model:
-        """Give the engine's form of the model.
+    def chosen(self, choices: str, option: str) -> Bools:
+        """Return which values a text chooses: ``leg_length,guideway_translation:3``.
 
         Parameters
         ----------
-        samples : Samples, optional
-            What it is to predict; a model with an effect of the user's own predicts these and parts of them only.
+        choices : str
+            Separated by commas (`Choice`).
+        option : str
+            Where the text comes from, for errors (``--free``).
+
+        Returns
+        -------
+        ndarray of bool, shape (size,)
+
+        Raises
+        ------
+        InputError
+            Naming an effect the model does not have, or an element the effect does not have.
+        """
+        chosen = np.zeros(len(self.values), dtype=bool)
+        for text in filter(None, (part.strip() for part in choices.split(","))):
+            choice = Choice.parse(text)
+            if self.term(choice.effect) is None:
+                present = ", ".join(term.effect for term in self.terms)
+                raise InputError(f'{option}: "{choice.effect}" is not in the model (expected one of {present})')
+            try:
+                chosen |= self.values_of(choice)
+            except InputError as error:
+                raise InputError(f"{option}: {error}") from None
+        if not chosen.any():
+            raise InputError(
+                f'{option}: "{choices}" chooses nothing (expected effects, as in leg_length,guideway_translation:3)'
+            )
+        return chosen
+
+    def values_of(self, choice: Choice) -> Bools:
+        """Return which values belong to an effect's elements, shape (size,); `InputError` as `Choice.of_effect`."""
+        masks = [
+            choice.of_effect(self.info(term.effect))
+            if term.effect == choice.effect
+            else np.zeros(len(term.values), bool)
+            for term in self.terms
+        ]
+        return np.concatenate([np.zeros(0, bool), *masks])
+
+    def term(self, effect: str) -> Term | None:
+        """Return the effect of that name, None where the model does not have it."""
+        return next((term for term in self.terms if term.effect == effect), None)
+
+    def with_free(self, free: Bools) -> Model:
+        """Return the same model with another choice of free values, shape (size,)."""
+        return self._with_columns(free=free)
+
+    def with_values(self, values: Floats, sigma: Floats | None = None, identifiable: Bools | None = None) -> Model:
+        """Return the same model with other values; what is known of them is kept where it is not given."""
+        known = {"sigma": sigma, "identifiable": identifiable}
+        return self._with_columns(values=values, **{name: each for name, each in known.items() if each is not None})
+
+    def with_effect(self, choice: Choice) -> Model:
+        """Return a model with an effect too: new values are zero, those of the elements chosen free, others held.
+
+        Where the model has the effect, the elements chosen become free.
+
+        Raises
+        ------
+        InputError
+            An effect or element that is not known, or that the model has free already.
+        """
+        chosen = choice.of_effect(self.info(choice.effect))
+        present = self.term(choice.effect)
+        if present is None:
+            return replace(self, terms=(*self.terms, replace(new_term(choice.effect, len(chosen)), free=chosen)))
+        if present.free[chosen].all():
+            raise InputError(f"{choice}: {self.name} has it already, free to be fitted (expected what it has not)")
+        return self._with_term(replace(present, free=present.free | chosen))
+
+    def without_effect(self, choice: Choice) -> Model:
+        """Return a model without an effect, or with some elements of it held at zero; the last one removes the effect.
+
+        Raises
+        ------
+        InputError
+            An effect or element that is not known, or that the model does not have.
+        """
+        chosen = choice.of_effect(self.info(choice.effect))
+        term = self.term(choice.effect)
+        if term is None or not (term.free[chosen] | (term.values[chosen] != 0.0)).any():
+            free = ", ".join(each.effect for each in self.terms if each.free.any())
+            raise InputError(f"{choice}: not in {self.name} (expected one of {free})")
+        left = Term(
+            choice.effect,
+            free=term.free & ~chosen,
+            values=np.where(chosen, 0.0, term.values),
+            sigma=np.where(chosen, np.nan, term.sigma),
+            identifiable=term.identifiable & ~chosen,
+        )
+        if left.free.any() or left.values.any():
+            return self._with_term(left)
+        return replace(self, terms=tuple(each for each in self.terms if each.effect != choice.effect))
+
+    def with_mounts(self, keys: Sequence[MountKey]) -> Model:
+        """Return the same model knowing these mounts too; their cups stand where planned until they are fitted."""
+        new = [key for key in keys if key not in self.mounts]
+        wider = replace(self, mounts=(*self.mounts, *new))
+        return replace(wider, terms=tuple(extended(term, wider.info(term.effect).size) for term in self.terms))
+
+    def knowing_effects(self, effects: Iterable[OwnEffect]) -> Model:
+        """Return the same model, in which effects of the user's own may stand too."""
+        return replace(self, own_effects={**self.own_effects, **{each.name: each for each in effects}})
+
+    def engine(self, tabulate: Tabulate | None = None) -> _core.Model:
+        """Return the engine's form of the model.
+
+        Parameters
+        ----------
+        tabulate : callable, optional
+            Evaluates effects of the user's own for the samples that are to be predicted
+            (`hexdbb.samples.Samples.engine`); a model that has such predicts these samples and parts of them only.
 
         Raises
         ------
@@ -114,39 +213,41 @@ class Model:
             own = self.own_effects.get(term.effect)
             if own is None:
                 engine.add(term.effect, max(len(self.mounts), 1))
-            elif samples is None:
+            elif tabulate is None:
                 raise InputError(f"{term.effect}: an effect of your own is known in measured samples only, not here")
             else:
-                own.add_to(engine, samples, self.machine)
+                tabulate(own).add_to(engine)
         engine.values = self.values
         return engine
 
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Return every value with name, uncertainty and unit, one array a column (`hexdbb.model.tables`)."""
+        return value_columns(self.parameters(), self.values, self.sigma, self.identifiable, self.free)
 
-def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects | None = None) -> _core.EffectInfo:
-    """Describe an effect; `own` are the user's.
+    def to_frame(self) -> Any:
+        """Return `columns` as a ``pandas.DataFrame``; `InputError` where pandas is not installed."""
+        return to_frame(self.columns())
 
-    Raises
-    ------
-    InputError
-        Where no effect has that name, with the names there are.
-    """
-    if own and effect in own:
-        return own[effect].info()
-    try:
-        return _core.effect_info(engine_machine(machine), mounts, effect)
-    except ValueError as error:
-        raise InputError(str(error)) from None
+    def __repr__(self) -> str:
+        effects = ", ".join(term.effect for term in self.terms) or "no effects"
+        counts = f"{len(self.values)} values ({int(self.free.sum())} free), {len(self.mounts)} mounts"
+        return f"<Model of {self.machine.name}: {counts}, {len(self.ledger)} steps; {effects}>"
 
+    def _repr_html_(self) -> str:
+        return values_html(self.columns())
 
-def default_effects(machine: MachineFile) -> dict[str, bool]:
-    """Give the effects of a new model and whether each is free.
+    def _with_columns(self, **columns: NDArray[Any]) -> Model:
+        """Replace columns of shape (size,), each cut into the terms' parts."""
+        terms, at = [], 0
+        for term in self.terms:
+            span = slice(at, at + len(term.values))
+            parts: dict[str, Any] = {name: column[span] for name, column in columns.items()}
+            terms.append(replace(term, **parts))
+            at = span.stop
+        return replace(self, terms=tuple(terms))
 
-    The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit
-    to a micrometre. The bar's length is calibrated and fixed. Effects of the catalogue are added when something asks
-    for them.
-    """
-    names = [*_core.effect_names("geometry"), *_core.effect_names("set-up")]
-    return {name: name != "bar_length" for name in names}
+    def _with_term(self, term: Term) -> Model:
+        return replace(self, terms=tuple(term if each.effect == term.effect else each for each in self.terms))
 
 
 def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Model:
@@ -167,29 +268,7 @@ def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Mod
     if effects is not None and len(chosen) != len(effects):
         twice = next(name for name in effects if list(effects).count(name) > 1)
         raise InputError(f"effect {twice}: named twice (expected each effect once)")
-    terms = []
-    for name, free in chosen.items():
-        size = effect_info(machine, 1, name).size
-        terms.append(new_term(name, size, free=free))
-    return Model(machine, tuple(terms))
-
-
-def _parameters(info: _core.EffectInfo) -> list[Parameter]:
-    return [
-        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)
-        for element in info.elements
-        for each in info.parameters
-    ]
-
-
-def _extended(term: Term, size: int) -> Term:
-    more = size - len(term.values)
-    if more <= 0:
-        return term
-    return replace(
-        term,
-        free=np.append(term.free, np.full(more, bool(term.free.any()) or not len(term.free))),
-        values=np.append(term.values, np.zeros(more)),
-        sigma=np.append(term.sigma, np.full(more, np.nan)),
-        identifiable=np.append(term.identifiable, np.zeros(more, bool)),
+    return Model(
+        machine,
+        tuple(new_term(name, effect_info(machine, 1, name).size, free=free) for name, free in chosen.items()),
     )

@@ -1,21 +1,41 @@
 """Effects of a user's own in a model: declared by a file the user names; the model's file keeps name and values.
 
-What such an effect does comes from the samples themselves, so the engine's form of a model that has one is made for the
+What such an effect does depends on the samples themselves, so the engine's form of a model that has one is made for the
 samples it is to predict. Nothing in a model file causes code to run: a file that names such an effect is refused until
 the user names the file that declares it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Protocol
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.machine import MachineFile
+
+
+@dataclass(frozen=True, eq=False)
+class Tabulated:
+    """A user's effect as numbers: value `values[j]` pushes port column `ports[j]` by `per_unit[:, j]`.
+
+    `per_unit` has shape (n, k): one row for each sample of a whole table.
+    """
+
+    info: _core.EffectInfo
+    values: tuple[int, ...]
+    ports: tuple[int, ...]
+    per_unit: NDArray[np.float64]
+
+    def add_to(self, engine: _core.Model) -> None:
+        """Append it, values zero, to a model that is to predict the samples it was tabulated for, or a part of them."""
+        engine.add_tabulated(self.info, values=list(self.values), ports=list(self.ports), per_unit=self.per_unit)
 
 
 class OwnEffect(Protocol):
-    """What a model asks of a user's effect (`hexdbb.effects.UserEffect`)."""
+    """What a model requires of a user's effect (`hexdbb.effects.UserEffect`)."""
 
     @property
     def name(self) -> str:
@@ -26,10 +46,12 @@ class OwnEffect(Protocol):
         """Describe it as the engine's own are described."""
         ...
 
-    def add_to(self, engine: _core.Model, samples: _core.Samples, machine: MachineFile) -> None:
-        """Append it, values zero, to a model that is to predict these samples, or a part of them."""
+    def tabulated(self, samples: Any) -> Tabulated:
+        """Evaluate it for a table of samples (`hexdbb.samples.Samples`, of which a model knows nothing)."""
         ...
 
 
 OwnEffects = Mapping[str, OwnEffect]
 """Users' effects by name."""
+Tabulate = Callable[[OwnEffect], Tabulated]
+"""Evaluates a user's effect for the samples that are to be predicted."""

@@ -16,20 +16,20 @@ from hexdbb.units import shown_factor
 
 
 def units_of(info: _core.EffectInfo) -> list[str]:
-    """Give the engine unit of each value of an effect, element by element."""
+    """Return the engine unit of each value of an effect, element by element."""
     return [each.unit for _ in info.elements for each in info.parameters]
 
 
 def shown_value(value: float, unit: str) -> float:
-    """Give a value of an engine unit in the unit shown."""
+    """Return a value of an engine unit in the unit shown."""
     return float(f"{value * shown_factor(unit):.15g}")
 
 
 def shown_values(values: Floats, units: Sequence[str]) -> tuple[float, ...]:
-    """Give values of engine units in the units shown; nan stays nan."""
+    """Return values of engine units in the units shown; nan stays nan."""
     return tuple(shown_value(float(value), unit) for value, unit in zip(values, units, strict=True))
 
 
 def engine_values(shown: Sequence[float], units: Sequence[str]) -> Floats:
-    """Give values shown in engine units."""
+    """Return shown values in engine units."""
     return np.array([value / shown_factor(unit) for value, unit in zip(shown, units, strict=True)], dtype=float)

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb import _core
+
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -44,13 +47,36 @@ class Term:
     """One effect of a model with its values; `sigma` is nan where a value is not known on its own."""
 
     effect: str
-    free: NDArray[np.bool_]
+    free: Bools
     """Which values a diagnosis may change."""
     values: Floats
     sigma: Floats
-    identifiable: NDArray[np.bool_]
+    identifiable: Bools
 
 
 def new_term(effect: str, size: int, *, free: bool = True) -> Term:
     """Make a term with all values zero and nothing known of them."""
     return Term(effect, np.full(size, free), np.zeros(size), np.full(size, np.nan), np.zeros(size, bool))
+
+
+def extended(term: Term, size: int) -> Term:
+    """Return the term with further elements, values zero, so that it has `size` values; free where the others are."""
+    more = size - len(term.values)
+    if more <= 0:
+        return term
+    return Term(
+        term.effect,
+        free=np.append(term.free, np.full(more, bool(term.free.any()) or not len(term.free))),
+        values=np.append(term.values, np.zeros(more)),
+        sigma=np.append(term.sigma, np.full(more, np.nan)),
+        identifiable=np.append(term.identifiable, np.zeros(more, bool)),
+    )
+
+
+def parameters_of(info: _core.EffectInfo) -> list[Parameter]:
+    """Return name and nature of every value of an effect, element by element."""
+    return [
+        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)
+        for element in info.elements
+        for each in info.parameters
+    ]

@@ -1,24 +1,24 @@
-"""Planning: which circles tell most about the machine, before any of them is driven."""
+"""Planning: which circles determine most of the machine, before any of them is driven."""
 
 from hexdbb.planning.candidates import GRIDS, Grid
-from hexdbb.planning.clearances import Clearances, Demands, circle_clearances
+from hexdbb.planning.clearances import Clearances, RequiredClearances, circle_clearances
 from hexdbb.planning.criteria import CRITERIA
 from hexdbb.planning.detectable import Detectable, detectable_sizes
-from hexdbb.planning.information import unknowns_of
+from hexdbb.planning.information import planned_unknowns
 from hexdbb.planning.picture import spectrum_figure
-from hexdbb.planning.proposal import Question, propose
+from hexdbb.planning.proposal import PlanRequest, propose
 
 __all__ = [
     "CRITERIA",
     "GRIDS",
     "Clearances",
-    "Demands",
     "Detectable",
     "Grid",
-    "Question",
+    "PlanRequest",
+    "RequiredClearances",
     "circle_clearances",
     "detectable_sizes",
+    "planned_unknowns",
     "propose",
     "spectrum_figure",
-    "unknowns_of",
 ]

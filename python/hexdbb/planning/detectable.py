@@ -1,9 +1,9 @@
-"""The smallest size of every effect that a plan can show.
+"""The smallest detectable size of every effect under a plan.
 
-Definition: an effect shows where the part of its signature that no other free value of the model and no set-up
-unknown can explain has an RMS of `DETECTION` times the gauge's noise over all readings of the plan. First order, at
-the nominal machine: signature = column of the Jacobian times the size. An effect of the model itself is judged with
-its own other values held, as one fault alone.
+Definition: an effect is detectable where the part of its signature that no other free value of the model and no
+set-up unknown can explain has an RMS of `DETECTION_RATIO` times the gauge noise over all readings of the plan. First
+order, at the nominal machine: signature = column of the Jacobian times the size. The other values of the same effect
+are held at zero: one fault alone.
 """
 
 from __future__ import annotations
@@ -16,43 +16,51 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.sensitivity import Sensitivity
+from hexdbb.identifiability import Sensitivity
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
 
-DETECTION = 3.0
-NOTHING = 1e-6
-"""No more than this part of an effect's largest signature is rounding."""
+DETECTION_RATIO = 3.0
+"""RMS of the unexplained signature over the noise from which an effect counts as detectable: three standard deviations,
+so that it is visible in single readings and not only in their average."""
+ROUNDING_SHARE = 1e-6
+"""Unexplained share of an effect's largest signature below which it counts as zero: what projection by QR leaves of
+an exactly redundant column in double precision, with a margin."""
 
 
 @dataclass(frozen=True)
 class Detectable:
-    """How large an effect must be to show.
-
-    `size` of the value that shows most easily, `hardest` of the one that shows least, in the unit shown; None where a
-    value never shows. `kept` is the largest part of a signature that nothing else explains.
-    """
+    """Detectable sizes of one effect."""
 
     size: float | None
+    """Of the element and parameter detected most easily, in `unit`; None where none is detectable at any size."""
     hardest: float | None
+    """Of the one detected least easily, in `unit`; None where one is never detectable."""
     unit: str
+    """Unit of files and JSON."""
     kept: float
+    """Largest unexplained share of a signature, 0 to 1."""
 
     def to_json(self) -> dict[str, Any]:
-        """Give the entry of `hexdbb plan check --json`."""
+        """Return the entry of `hexdbb plan check --json`."""
         return {"size": self.size, "unit": self.unit, "hardest": self.hardest, "kept": self.kept}
 
 
 def detectable_sizes(sensitivity: Sensitivity, noise_mm: float) -> Mapping[str, Detectable]:
-    """Find the smallest size of every effect among a sensitivity's values.
+    """Compute the smallest detectable size of every effect in a sensitivity.
 
     Parameters
     ----------
     sensitivity : Sensitivity
-        Of a model with all effects that are asked for (`hexdbb.sensitivity.with_every_effect`).
+        Of a model with all effects of interest (`hexdbb.identifiability.with_every_effect`).
     noise_mm : float
-        Standard deviation of one reading.
+        Standard deviation of one reading, mm.
+
+    Returns
+    -------
+    mapping of str to Detectable
+        By effect, in the order of the sensitivity.
     """
     effects = dict.fromkeys(each.effect for each in sensitivity.parameters)
     return {effect: _detectable(effect, sensitivity, noise_mm) for effect in effects}
@@ -63,13 +71,13 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     signature = sensitivity.scaled(own)
     rest = _core.project_out(signature, sensitivity.scaled(sensitivity.free & ~own))
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
-    shows = left > NOTHING * whole.max()
+    visible = left > ROUNDING_SHARE * whole.max()
     parameter = sensitivity.where(own)[0]
-    rms_mm = left[shows] / np.sqrt(sensitivity.readings) / sensitivity.sizes[own][shows]
-    sizes = DETECTION * noise_mm / rms_mm * shown_factor(parameter.unit)
+    rms_mm = left[visible] / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own][visible]
+    sizes = DETECTION_RATIO * noise_mm / rms_mm * shown_factor(parameter.unit)
     return Detectable(
         size=float(sizes.min()) if len(sizes) else None,
-        hardest=float(sizes.max()) if shows.all() else None,
+        hardest=float(sizes.max()) if visible.all() else None,
         unit=shown_unit(parameter.unit),
-        kept=float((left[shows] / whole[shows]).max(initial=0.0)),
+        kept=float((left[visible] / whole[visible]).max(initial=0.0)),
     )

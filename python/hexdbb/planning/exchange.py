@@ -1,8 +1,8 @@
 """Choosing circles from a grid: greedy start, then exchange (Fedorov, Theory of Optimal Experiments, 1972).
 
-Starting from nothing, the circle that adds most is taken until there are enough; then each in turn is exchanged for
-the best one in its place, until none can be bettered. Cups are few, as each costs an operator's time: they are added
-one at a time, the best first, and a further one only where it betters the plan.
+Greedy start: the circle that improves the score most is added until there are enough. Exchange: each circle in turn is
+replaced by the best one for its place, until no replacement improves the score. Cup positions are few, because each
+costs the operator's time: they are added one at a time, the best first, and only where they improve the plan.
 """
 
 from __future__ import annotations
@@ -18,83 +18,96 @@ from hexdbb.planning.criteria import Criterion
 from hexdbb.planning.information import Information
 
 Floats = NDArray[np.float64]
-Choice = tuple[int, int]
-"""A mount and the place of a circle among its candidates."""
-Progress = Callable[[str], None]
+CircleIndex = tuple[int, int]
+"""A mount, and the index of a circle among the candidates about it."""
+ReportStep = Callable[[str], None]
+"""Called with a description of each step of the work."""
 
 BETTER = 1e-6
-"""Part by which a score must rise to count as better: symmetric choices differ by rounding."""
-MOST_PASSES = 20
+"""Relative improvement above which a score counts as better: equivalent choices, of which the machine's symmetry makes
+many, differ by rounding only."""
+MAX_PASSES = 20
+"""Limit of passes over all circles, against endless exchange; it ends earlier, when no replacement improves."""
 
 
 @dataclass(frozen=True)
-class Chosen:
-    """Circles chosen, and their score."""
+class Selection:
+    """A choice of circles and its score."""
 
-    circles: tuple[Choice, ...]
+    circles: tuple[CircleIndex, ...]
     score: float
 
 
 @dataclass(frozen=True)
-class Search:
-    """The candidates, by mount, and what makes a choice good."""
+class CircleExchange:
+    """The exchange algorithm on candidates.
+
+    Attributes
+    ----------
+    information : sequence of Information
+        Of the candidates, one per mount.
+    criterion : callable
+        The score to maximise.
+    """
 
     information: Sequence[Information]
     criterion: Criterion
 
-    def score(self, circles: Sequence[Choice]) -> float:
-        """Score one choice."""
-        return float(self.criterion(self._told(circles)[None])[0])
+    def score(self, circles: Sequence[CircleIndex]) -> float:
+        """Return the score of one choice of circles."""
+        return float(self.criterion(self._information_of(circles)[None])[0])
 
-    def rounds(self, count: int, most_mounts: int, start: Criterion, progress: Progress) -> list[list[Chosen]]:
-        """Choose circles, in as many ways as cup places were tried.
+    def rounds(self, count: int, most_mounts: int, start: Criterion, report_step: ReportStep) -> list[list[Selection]]:
+        """Choose circles for every cup position, with one more position per round.
 
         Parameters
         ----------
         count : int
-            Circles to choose.
+            Number of circles to choose.
         most_mounts : int
-            Cup places at most.
+            Largest number of cup positions.
         start : callable
-            Criterion of the greedy start, where too few circles to tell everything are compared.
-        progress : callable
-            Told what is being done.
+            Criterion of the greedy start, where there are too few circles to determine all values.
+        report_step : callable
+            Called with a description of each step.
 
         Returns
         -------
-        list of list of Chosen
-            With at most one cup place, at most two and so on; in each the best first, none twice.
+        list of list of Selection
+            With one cup position, with two and so on; in each round the best first, without duplicates.
 
         Raises
         ------
         InputError
-            Where no cup place has so many circles.
+            No cup position has so many circles.
         """
-        rounds: list[list[Chosen]] = []
+        rounds: list[list[Selection]] = []
         pool: tuple[int, ...] = ()
         best = -np.inf
         for _ in range(most_mounts):
             tried = [(*pool, mount) for mount in range(len(self.information)) if mount not in pool]
-            found: list[tuple[Chosen, tuple[int, ...]]] = []
+            found: list[tuple[Selection, tuple[int, ...]]] = []
             for number, mounts in enumerate(tried):
-                progress(f"{len(mounts)} of at most {most_mounts} cup places: trying {number + 1} of {len(tried)}")
-                chosen = self._exchanged(self._greedy(mounts, count, start), mounts)
-                if chosen is not None:
-                    found.append((chosen, mounts))
-            if tried and not found:  # too few circles about these cups: the one with most, and another to come
+                report_step(f"{len(mounts)} of at most {most_mounts} cup positions: {number + 1} of {len(tried)}")
+                selection = self._exchanged(self._greedy(mounts, count, start), mounts)
+                if selection is not None:
+                    found.append((selection, mounts))
+            if tried and not found:  # too few circles about these cups: keep the one with most and add another
                 pool = max(tried, key=lambda mounts: len(self.information[mounts[-1]]))
                 continue
             found.sort(key=lambda each: -each[0].score)
             if not found or not is_better(found[0][0].score, best):
                 break
-            rounds.append(list({frozenset(chosen.circles): chosen for chosen, _ in reversed(found)}.values())[::-1])
+            rounds.append(list({frozenset(each.circles): each for each, _ in reversed(found)}.values())[::-1])
             best, pool = found[0][0].score, found[0][1]
         if not rounds:
-            raise InputError(f"circles {count}: not so many candidates about {most_mounts} cup places (expected fewer)")
+            raise InputError(
+                f"circles {count}: fewer candidates about {most_mounts} cup position(s) (expected a smaller number)"
+            )
         return rounds
 
-    def _greedy(self, mounts: Sequence[int], count: int, start: Criterion) -> tuple[Choice, ...] | None:
-        chosen: tuple[Choice, ...] = ()
+    def _greedy(self, mounts: Sequence[int], count: int, start: Criterion) -> tuple[CircleIndex, ...] | None:
+        chosen: tuple[CircleIndex, ...] = ()
         for _ in range(count):
             options = list(self._options(chosen, mounts, start))
             if not options:
@@ -102,11 +115,11 @@ class Search:
             chosen = (*chosen, _first_best(options)[0])
         return chosen
 
-    def _exchanged(self, chosen: tuple[Choice, ...] | None, mounts: Sequence[int]) -> Chosen | None:
+    def _exchanged(self, chosen: tuple[CircleIndex, ...] | None, mounts: Sequence[int]) -> Selection | None:
         if chosen is None:
             return None
         score = self.score(chosen)
-        for _ in range(MOST_PASSES):
+        for _ in range(MAX_PASSES):
             before = score
             for place in range(len(chosen)):
                 rest = (*chosen[:place], *chosen[place + 1 :])
@@ -115,38 +128,38 @@ class Search:
                     chosen, score = (*rest[:place], option, *rest[place:]), reached
             if not is_better(score, before):
                 break
-        return Chosen(chosen, score)
+        return Selection(chosen, score)
 
     def _options(
-        self, rest: Sequence[Choice], mounts: Sequence[int], criterion: Criterion
+        self, rest: Sequence[CircleIndex], mounts: Sequence[int], criterion: Criterion
     ) -> Iterator[tuple[int, Floats]]:
-        """Yield each mount with the scores of adding each of its circles; one chosen already scores nothing."""
+        """Yield each mount with the scores of adding each of its circles; -inf for one that is chosen already."""
         for mount in mounts:
             candidates = self.information[mount]
             here = [place for own, place in rest if own == mount]
             if len(here) == len(candidates):
                 continue
-            others = self._told([choice for choice in rest if choice[0] != mount])
-            scores = criterion(others + candidates.plus(candidates.total(here)).told())
+            others = self._information_of([each for each in rest if each[0] != mount])
+            scores = criterion(others + candidates.plus(candidates.total(here)).marginal())
             scores[here] = -np.inf
             yield mount, scores
 
-    def _told(self, circles: Sequence[Choice]) -> Floats:
+    def _information_of(self, circles: Sequence[CircleIndex]) -> Floats:
         size = self.information[0].shared.shape[1]
-        told = np.zeros((size, size))
+        information = np.zeros((size, size))
         for mount in sorted({mount for mount, _ in circles}):
             places = [place for own, place in circles if own == mount]
-            told += self.information[mount].total(places).told()[0]
-        return told
+            information += self.information[mount].total(places).marginal()[0]
+        return information
 
 
 def is_better(score: float, than: float) -> bool:
-    """Say whether a score is better by more than rounding."""
+    """Return whether a score is better by more than rounding."""
     return score > than + BETTER * abs(than) if np.isfinite(than) else score > than
 
 
-def _first_best(options: Sequence[tuple[int, Floats]]) -> tuple[Choice, float]:
-    """Give the first choice that is as good as the best but for rounding, so that every computer takes the same one."""
+def _first_best(options: Sequence[tuple[int, Floats]]) -> tuple[CircleIndex, float]:
+    """Return the first choice as good as the best but for rounding, so that every computer takes the same one."""
     best = max(float(scores.max()) for _, scores in options)
     enough = best - BETTER * abs(best)
     mount, scores = next((mount, scores) for mount, scores in options if scores.max() >= enough)

@@ -1,7 +1,8 @@
-"""A picture of what plans tell: the singular values of the machine's errors, largest first.
+"""Picture of the singular values of the machine's errors under several plans, largest first.
 
-A plan that tells more has more of them, and higher; where the curve falls steeply, a combination of errors is told only
-by much patience. Figures are made without pyplot, so drawing keeps no state and opens no window.
+A plan that determines more has more singular values and higher ones; where the curve falls steeply, a combination of
+errors is determined only by many readings. Figures are made without pyplot, so that drawing keeps no state and opens no
+window.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from hexdbb.identifiability import Observability
 
 
 def spectrum_figure(plans: Mapping[str, Observability]) -> Figure:
-    """Draw the singular values of several plans, each under its name."""
+    """Return a figure of the singular values of several plans, each under its name."""
     figure = Figure(figsize=(8.0, 4.5), layout="constrained")
     axes = figure.add_subplot()
     for name, found in plans.items():
@@ -24,8 +25,8 @@ def spectrum_figure(plans: Mapping[str, Observability]) -> Figure:
         label = f"{name}: rank {found.rank}, condition {found.condition:.0f}"
         axes.semilogy(np.arange(1, found.rank + 1), 1e3 * seen, "o-", markersize=4, label=label)
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set_xlabel("combination of errors, best told first")
-    axes.set_ylabel("reading error, RMS (µm)\nper expected size of the combination")
+    axes.set_xlabel("combination of errors, best determined first")
+    axes.set_ylabel("reading error, RMS (µm)\nper prior standard deviation of the combination")
     axes.grid(which="both", color="0.88", linewidth=0.6)
     axes.legend()
     return figure

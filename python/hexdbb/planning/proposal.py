@@ -1,9 +1,9 @@
-"""Proposing a plan: candidates, choice, refinement off the grid, and the plan that can be driven.
+"""Proposing a plan: candidates, choice, refinement off the grid, and a plan that can be driven.
 
-The grid's choice is refined by coordinate exchange (Meyer, Nachtsheim, Technometrics 37(1), 1995): every circle in
-turn tries its neighbours, with steps that halve. The plan is then made with its whole motion, ways between circles
-included; circles that cannot follow one another in one order are tried in others. No random number is drawn: the same
-question has the same answer.
+The choice on the grid is refined by coordinate exchange (Meyer, Nachtsheim, Technometrics 37(1), 1995): every circle in
+turn is replaced by its best neighbour, with decreasing steps. The motion of the whole plan, paths between circles
+included, is then computed; circles that cannot follow one another in one order are tried in others. No random number is
+drawn: the same request gives the same plan.
 """
 
 from __future__ import annotations
@@ -13,55 +13,58 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hexdbb.circle import Circle, Mount
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
-from hexdbb.plan import Plan
-from hexdbb.planning.candidates import Candidate, Grid, grid_candidates, neighbours, other_radii, within_reach
-from hexdbb.planning.clearances import Demands
-from hexdbb.planning.criteria import Criterion, criterion
-from hexdbb.planning.exchange import Choice, Progress, Search, is_better
-from hexdbb.planning.information import Information, Unknowns, information_of
+from hexdbb.plan import Circle, Mount, Plan
+from hexdbb.planning.candidates import CandidateCircle, Grid, grid_candidates, neighbours, other_radii, within_reach
+from hexdbb.planning.clearances import RequiredClearances
+from hexdbb.planning.criteria import Criterion, make_criterion
+from hexdbb.planning.exchange import CircleExchange, CircleIndex, ReportStep, is_better
+from hexdbb.planning.information import Information, PlannedUnknowns, information_of
 from hexdbb.trajectory import plan_programme
 
 STEPS_DEG = (6.0, 3.0, 1.0)
-"""Of the refinement, off a grid of 6 degrees and more."""
-MOST_PASSES = 10
-MOST_REFINED = 6
-"""So many of the grid's best choices are refined for each number of cups: the best on the grid need not be the best off
-it."""
+"""Steps of the refinement: the finest spacing of the grid's tilts, half of it, and 1 deg,
+which moves the end of a bar of 100 mm by less than 2 mm."""
+MAX_PASSES = 10
+"""Limit of passes over all circles with one step, against endless refinement; it ends earlier, when no neighbour is
+better."""
+MAX_REFINED = 6
+"""Choices refined for each number of cup positions: limits the time, which is proportional to it; more than one,
+because the best on the grid need not be the best off it."""
 START = "D"
-"""Criterion of the greedy start: it tells few circles apart where the smallest singular value is still zero."""
+"""Criterion of the greedy start: it distinguishes choices of few circles, whose smallest singular value is still
+zero."""
 
 
 @dataclass(frozen=True)
-class Question:
-    """What a plan is wanted for.
+class PlanRequest:
+    """The purpose of a plan and the limits of the search for it."""
 
-    `like` lends machine, gauge, ball, feeds, directions and laps; its first mount is the centre of the cup places
-    tried.
-    """
-
-    like: Plan
+    template: Plan
+    """Its gauge, ball, feeds, directions and laps are kept; its first mount is the centre of the cup positions."""
     machine: MachineFile
-    unknowns: Unknowns
+    unknowns: PlannedUnknowns
     circles: int
+    """Number of circles."""
     criterion: str = "D"
+    """A key of `hexdbb.planning.CRITERIA`."""
     most_mounts: int = 1
+    """Largest number of cup positions."""
     off_nominal: bool = False
-    """Let radii differ from the bar's length; the bar then comes off between circles of different radii."""
-    demands: Demands = field(default_factory=Demands)
+    """Whether radii may differ from the bar's length; the bar is then removed between circles of different radii."""
+    required: RequiredClearances = field(default_factory=RequiredClearances)
     grid: Grid = field(default_factory=Grid)
 
 
-def propose(question: Question, progress: Progress) -> Plan:
-    """Choose circles and make a plan of them.
+def propose(request: PlanRequest, report_step: ReportStep = lambda _: None) -> Plan:
+    """Choose circles and return a plan of them.
 
     Parameters
     ----------
-    question : Question
-    progress : callable
-        Told, in words, what is being done.
+    request : PlanRequest
+    report_step : callable
+        Called with a description of each step of the work.
 
     Returns
     -------
@@ -71,106 +74,115 @@ def propose(question: Question, progress: Progress) -> Plan:
     Raises
     ------
     InputError
-        Fewer than one circle or cup place, a criterion that is not known, nothing within reach.
+        Fewer than one circle or cup position, an unknown criterion, or no candidate within reach.
     RunError
-        Where the circles chosen cannot be driven one after another.
+        The chosen circles cannot be driven one after another.
     """
-    if question.circles < 1:
-        raise InputError(f"circles {question.circles}: nothing to choose (expected 1 or more)")
-    if question.most_mounts < 1:
-        raise InputError(f"mounts {question.most_mounts}: a cup has to stand somewhere (expected 1 or more)")
-    criterion(question.criterion, np.ones(1, bool), np.eye(1))  # a name that is not known is told before the work
-    progress("circles within reach")
-    reach = grid_candidates(question.like, question.machine, question.demands, question.grid)
+    if request.circles < 1:
+        raise InputError(f"circles {request.circles}: no circle to choose (expected 1 or more)")
+    if request.most_mounts < 1:
+        raise InputError(f"mounts {request.most_mounts}: no position for the cup (expected 1 or more)")
+    make_criterion(request.criterion, np.ones(1, bool), np.eye(1))  # an unknown name is refused before the work
+    report_step("circles within reach")
+    reach = grid_candidates(request.template, request.machine, request.required, request.grid)
     pools = [pool for pool in reach if pool]
     if not pools:
-        raise InputError(f"{_name(question.like)}: no circle of the grid is within reach with the clearances demanded")
-    progress(f"what {sum(map(len, pools))} circles would tell")
-    information = [information_of(pool, question.like, question.unknowns) for pool in pools]
-    whole = sum((each.total(range(len(each))).told()[0] for each in information), np.zeros(()))
-    judge, start = (criterion(name, question.unknowns.wanted, whole) for name in (question.criterion, START))
-    search = Search(information, judge)
-    rounds = search.rounds(question.circles, min(question.most_mounts, question.circles), start, progress)
-    # Fewest cups first, so that more cups must earn their place.
-    hopeful = list(dict.fromkeys(chosen for ranked in rounds for chosen in ranked[:MOST_REFINED]))
+        raise InputError(
+            f"{_name(request.template)}: no circle of the grid is within reach with the required clearances"
+        )
+    report_step(f"information of {sum(map(len, pools))} circles")
+    information = [information_of(pool, request.template, request.unknowns) for pool in pools]
+    whole = sum((each.total(range(len(each))).marginal()[0] for each in information), np.zeros(()))
+    criterion, start = (
+        make_criterion(name, request.unknowns.of_interest, whole) for name in (request.criterion, START)
+    )
+    rounds = CircleExchange(information, criterion).rounds(
+        request.circles, min(request.most_mounts, request.circles), start, report_step
+    )
+    # Fewest cups first: a plan with more cups must be better to replace one with fewer.
+    promising = list(dict.fromkeys(chosen for ranked in rounds for chosen in ranked[:MAX_REFINED]))
     refined = []
-    for number, chosen in enumerate(hopeful):
-        progress(f"refining choice {number + 1} of {len(hopeful)}")
-        refined.append(_refined([pools[mount][place] for mount, place in chosen.circles], judge, question))
-    return _driven(_best(refined, judge, question), question, progress)
+    for number, chosen in enumerate(promising):
+        report_step(f"refining choice {number + 1} of {len(promising)}")
+        refined.append(_refined([pools[mount][place] for mount, place in chosen.circles], criterion, request))
+    return _driven(_best(refined, criterion, request), request, report_step)
 
 
-def _best(choices: Sequence[list[Candidate]], judge: Criterion, question: Question) -> list[Candidate]:
-    """Give the first of the best choices."""
+def _best(
+    choices: Sequence[list[CandidateCircle]], criterion: Criterion, request: PlanRequest
+) -> list[CandidateCircle]:
+    """Return the best choice, the first among equals."""
     best, score = choices[0], -np.inf
     for each in choices:
-        search, others = _search_about(each[:1], each[1:], judge, question)
-        reached = search.score([*others, (0, 0)])
+        exchange, others = _exchange_about(each[:1], each[1:], criterion, request)
+        reached = exchange.score([*others, (0, 0)])
         if is_better(reached, score):
             best, score = each, reached
     return best
 
 
-def _refined(chosen: Sequence[Candidate], judge: Criterion, question: Question) -> list[Candidate]:
-    """Let every circle try its neighbours until none is better, with smaller and smaller steps."""
+def _refined(chosen: Sequence[CandidateCircle], criterion: Criterion, request: PlanRequest) -> list[CandidateCircle]:
+    """Return a choice with every circle replaced by its best neighbour until none is better, with decreasing steps."""
     best = list(chosen)
     for step_deg in STEPS_DEG:
-        for _ in range(MOST_PASSES):
-            moved = [_moved(best, place, step_deg, judge, question) for place in range(len(best))]
+        for _ in range(MAX_PASSES):
+            moved = [_moved(best, place, step_deg, criterion, request) for place in range(len(best))]
             if not any(moved):
                 break
     return best
 
 
-def _moved(best: list[Candidate], place: int, step_deg: float, judge: Criterion, question: Question) -> bool:
-    """Put the best neighbour in the place of one circle; say whether there was a better one."""
+def _moved(
+    best: list[CandidateCircle], place: int, step_deg: float, criterion: Criterion, request: PlanRequest
+) -> bool:
+    """Replace one circle by its best neighbour; return whether there was a better one."""
     own = best[place]
-    near = [*neighbours(own, step_deg), *(other_radii(own, question.like) if question.off_nominal else ())]
+    near = [*neighbours(own, step_deg), *(other_radii(own, request.template) if request.off_nominal else ())]
     new = (each for each in near if each not in best)
-    options = [own, *within_reach(new, question.like, question.machine, question.demands)]
-    search, choices = _search_about(options, [*best[:place], *best[place + 1 :]], judge, question)
-    scores = [search.score([*choices, (0, option)]) for option in range(len(options))]
+    options = [own, *within_reach(new, request.template, request.machine, request.required)]
+    exchange, others = _exchange_about(options, [*best[:place], *best[place + 1 :]], criterion, request)
+    scores = [exchange.score([*others, (0, option)]) for option in range(len(options))]
     if not is_better(max(scores), scores[0]):
         return False
     best[place] = options[int(np.argmax(scores))]
     return True
 
 
-def _search_about(
-    options: Sequence[Candidate], others: Sequence[Candidate], judge: Criterion, question: Question
-) -> tuple[Search, list[Choice]]:
-    """Make a search over the options for one circle, and the choices that the other circles are."""
+def _exchange_about(
+    options: Sequence[CandidateCircle], others: Sequence[CandidateCircle], criterion: Criterion, request: PlanRequest
+) -> tuple[CircleExchange, list[CircleIndex]]:
+    """Return the exchange over the options for one circle, and the indices of the other circles in it."""
     cups = list(dict.fromkeys([options[0].cup_mm, *(each.cup_mm for each in others)]))
     groups = [[each for each in others if each.cup_mm == cup] for cup in cups]
     groups[0] = [*options, *groups[0]]
     information: list[Information] = [
-        information_of(group, question.like, question.unknowns) for group in groups if group
+        information_of(group, request.template, request.unknowns) for group in groups if group
     ]
-    choices = [
+    fixed = [
         (mount, place)
         for mount, group in enumerate(groups)
         for place in range(len(options) if mount == 0 else 0, len(group))
     ]
-    return Search(information, judge), choices
+    return CircleExchange(information, criterion), fixed
 
 
-def _driven(chosen: Sequence[Candidate], question: Question, progress: Progress) -> Plan:
-    """Make a plan whose whole motion is within reach and limits, of the first order of circles that has one."""
+def _driven(chosen: Sequence[CandidateCircle], request: PlanRequest, report_step: ReportStep) -> Plan:
+    """Return the plan of the first order of circles whose whole motion is within reach and limits."""
     reason = ""
     for number, order in enumerate(_orders(chosen)):
-        progress(f"motion of the whole plan, order {number + 1}")
-        plan = _plan_of(order, question.like)
+        report_step(f"motion of the whole plan, order {number + 1}")
+        plan = _plan_of(order, request.template)
         try:
-            plan_programme(plan, question.machine, 1.0 / question.unknowns.cycle_rate_hz, "the plan proposed")
+            plan_programme(plan, request.machine, 1.0 / request.unknowns.cycle_rate_hz, "the proposed plan")
         except InputError as error:
             reason = str(error)
             continue
         return plan
-    raise RunError(f"the circles chosen cannot be driven one after another: {reason}")
+    raise RunError(f"the chosen circles cannot be driven one after another: {reason}")
 
 
-def _orders(chosen: Sequence[Candidate]) -> Iterator[list[Candidate]]:
-    """Yield orders of the circles: from each as the first, cup place by cup place, the nearest orientation next."""
+def _orders(chosen: Sequence[CandidateCircle]) -> Iterator[list[CandidateCircle]]:
+    """Yield orders of the circles: from each as the first, cup by cup, the nearest orientation next."""
     for first in range(len(chosen)):
         left = [*chosen[first:], *chosen[:first]]
         order = [left.pop(0)]
@@ -182,17 +194,17 @@ def _orders(chosen: Sequence[Candidate]) -> Iterator[list[Candidate]]:
         yield order
 
 
-def _turn_deg(one: Candidate, other: Candidate) -> float:
+def _turn_deg(one: CandidateCircle, other: CandidateCircle) -> float:
     return float(np.linalg.norm(np.subtract(one.platform_rpy_deg, other.platform_rpy_deg)))
 
 
-def _plan_of(order: Sequence[Candidate], like: Plan) -> Plan:
+def _plan_of(order: Sequence[CandidateCircle], template: Plan) -> Plan:
     cups = list(dict.fromkeys(each.cup_mm for each in order))
     mounts = tuple(Mount(id=identity, cup_mm=cup) for identity, cup in enumerate(cups))
     circles: tuple[Circle, ...] = tuple(
-        each.circle(like, identity, cups.index(each.cup_mm)) for identity, each in enumerate(order)
+        each.circle(template, identity, cups.index(each.cup_mm)) for identity, each in enumerate(order)
     )
-    return like.model_copy(update={"mounts": mounts, "circles": circles})
+    return template.model_copy(update={"mounts": mounts, "circles": circles})
 
 
 def _name(plan: Plan) -> str:

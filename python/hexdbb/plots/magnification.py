@@ -1,8 +1,8 @@
-"""How much larger than the circle its deviations are drawn.
+"""Magnification: the scale of a polar plot's deviations against that of its circle.
 
 A polar plot draws the nominal circle to one scale and the deviation from it to another. The magnification is the ratio
-of the two: at 2000x, 1 um of deviation is drawn as long as 2 mm of radius. It is a number of the series 1, 2, 5, 10, so
-that plots of different circles can be held side by side, and is printed with the plot, as is the division of its grid.
+of the two: at 2000x, 1 µm of deviation is drawn as long as 2 mm of radius. It is a number of the series 1, 2, 5, 10, so
+that plots of different circles can be compared, and is printed with the plot, as is the division of its grid.
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from hexdbb.compare import UM_PER_MM
+from hexdbb.comparison import UM_PER_MM
 
 SERIES = (1.0, 2.0, 5.0)
 LARGEST_SHARE_OF_RADIUS = 0.4
-"""The largest deviation is drawn no longer than this share of the nominal radius, so that the path stays a ring."""
+"""Largest length of a deviation in the drawing, as part of the nominal radius: the path stays a ring."""
 SMALLEST_DEVIATION_UM = 0.1
-"""A path truer than this is drawn as if it deviated by this: below a gauge's resolution there is nothing to see."""
+"""Smallest deviation the scale is chosen for: below a gauge's resolution there is nothing to see."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Scale:
 
     @property
     def label(self) -> str:
-        """What is printed with the plot."""
+        """Text printed with the plot."""
         return f"1 division = {self.division_um:g} µm, magnification {self.magnification:g}x"
 
 

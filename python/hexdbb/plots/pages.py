@@ -17,14 +17,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
-from hexdbb import iso230
-from hexdbb.atomic_file import replacing
-from hexdbb.circle import Circle
-from hexdbb.compare import UM_PER_MM, CircleComparison, Comparison
+from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison, iso230
+from hexdbb.files.atomic_file import replacing
+from hexdbb.plan import Circle
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
 from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
-from hexdbb.plots.residual_pages import directions_page, harmonics_page, state_page
+from hexdbb.plots.residual_pages import directions_page, harmonics_page, predictors_page
 
 OVERVIEW_COLUMNS = 4
 FORMATS: dict[str, dict[str, Any]] = {".png": {"dpi": 150}, ".svg": {"metadata": {"Date": None}}}
@@ -42,7 +41,7 @@ class Page:
 def comparison_pages(comparison: Comparison) -> list[Page]:
     """List the pages of a comparison: one circle makes one page, several make an overview and a page each.
 
-    Three pages of the residual follow: over each state variable, both directions together, harmonics.
+    Three pages of the residual follow: against each predictor, both directions combined, harmonics.
     """
     grouped: dict[tuple[str, int], list[CircleComparison]] = {}
     for circle in comparison.circles:
@@ -60,9 +59,9 @@ def comparison_pages(comparison: Comparison) -> list[Page]:
 
 
 def _residual_pages(comparison: Comparison) -> list[Page]:
-    """List the pages of the residual; what has nothing to show is left out."""
-    pages = [Page("-state", partial(state_page, comparison))]
-    if any(circle.both_ways is not None for circle in comparison.circles):
+    """List the pages of the residual; those with nothing to show are left out."""
+    pages = [Page("-state", partial(predictors_page, comparison))]
+    if any(circle.both_directions is not None for circle in comparison.circles):
         pages.append(Page("-directions", partial(directions_page, comparison)))
     if any(part.harmonics for circle in comparison.circles for part in circle.directions):
         pages.append(Page("-harmonics", partial(harmonics_page, comparison)))
@@ -105,7 +104,7 @@ def overview_page(comparison: Comparison) -> Figure:
         record = f"{circle.record_name}\n" if several_records else ""
         axes.set_title(
             f"{record}circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min\n"
-            f"{_both_directions(circle)}residual rms {UM_PER_MM * circle.rms_mm:.2f} µm",
+            f"{_both_directions(circle)}residual RMS {UM_PER_MM * circle.rms_mm:.2f} µm",
             fontsize=8,
         )
     for axes in grid.flat[len(circles) :]:
@@ -113,7 +112,7 @@ def overview_page(comparison: Comparison) -> Figure:
     name = "several records" if several_records else circles[0].record_name
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     figure.suptitle(
-        f"{name}, measured and predicted: residual rms {rms_um:.2f} µm, peak to valley {peak_um:.2f} µm\n"
+        f"{name}, measured and predicted: residual RMS {rms_um:.2f} µm, peak to valley {peak_um:.2f} µm\n"
         f"{scale.label}; centre offset of each set-up removed (least squares)",
         fontsize=11,
     )
@@ -122,7 +121,7 @@ def overview_page(comparison: Comparison) -> Figure:
 
 
 def describe_circle(circle: Circle) -> str:
-    """Say in words how a circle is set up."""
+    """Return the set-up of a circle in words."""
     plane, platform = (
         "/".join(f"{value + 0.0:g}" for value in rpy) for rpy in (circle.plane_rpy_deg, circle.platform_rpy_deg)
     )

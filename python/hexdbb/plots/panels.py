@@ -1,4 +1,4 @@
-"""What stands beside a polar plot: the residual against angle and the table of ISO 230-4 quantities."""
+"""The panels beside a polar plot: the residual against angle and the table of ISO 230-4 quantities."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
-from hexdbb.compare import QUANTITIES, UM_PER_MM, CircleComparison
-from hexdbb.compare.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
-from hexdbb.iso230 import FloatArray, Path
+from hexdbb.comparison import QUANTITIES, UM_PER_MM, CircleComparison
+from hexdbb.comparison.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
+from hexdbb.comparison.iso230 import FloatArray, Path
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
 
 SMOOTHED_OVER_DEG = 3
 """Arc over which the dark residual line is averaged; a divisor of 360."""
 BREAK_DEG = 15
-"""Where there is no sample over more than this the line breaks; fast circles may have one in four degrees only."""
+"""Arc without a sample at which the line breaks; fast circles may have one in four degrees only."""
 SMOOTHED_WIDTHS = {1: 2.4, -1: 1.0}
 """Broad below narrow, so that both directions are seen where they coincide."""
 
 
 def draw_residual(axes: Axes, circle: CircleComparison) -> None:
-    """Draw measured minus predicted reading (um) against commanded polar angle, per direction.
+    """Draw measured minus predicted reading (µm) against commanded polar angle, per direction.
 
     In light the mean of the laps at every angle, in dark its mean over arcs of `SMOOTHED_OVER_DEG`.
     """
@@ -37,7 +37,7 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
             color=PREDICTED_COLOURS[part.direction],
             linewidth=SMOOTHED_WIDTHS[part.direction],
             zorder=4,
-            label=f"{DIRECTION_NAMES[part.direction]}, rms {UM_PER_MM * part.rms_mm:.2f} µm",
+            label=f"{DIRECTION_NAMES[part.direction]}, RMS {UM_PER_MM * part.rms_mm:.2f} µm",
         )
     axes.set_xlim(0.0, 360.0)
     axes.set_xticks(np.arange(0, 361, 45))
@@ -49,7 +49,7 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
 
 
 def _smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
-    """Middle angle (deg) and mean (um) of each arc with a sample; nan where the line breaks, as in `BREAK_DEG`."""
+    """Return middle angle (deg) and mean (µm) of each arc with a sample; nan where the line breaks (`BREAK_DEG`)."""
     count = 360 // SMOOTHED_OVER_DEG
     arc = np.minimum((np.degrees(residual.angle_rad) // SMOOTHED_OVER_DEG).astype(np.int64), count - 1)
     samples = np.bincount(arc, minlength=count)
@@ -80,7 +80,7 @@ def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
 
 
 def quantity_rows(circle: CircleComparison) -> Iterator[tuple[str, float | None, float | None]]:
-    """Give label, measured and predicted value (mm) of each quantity: once per direction, or once for both."""
+    """Yield label, measured and predicted value (mm) of each quantity: once per direction, or once for both."""
     for quantity in QUANTITIES:
         parts = circle.directions[:1] if quantity.of_both else circle.directions
         for part in parts:

@@ -2,7 +2,7 @@
 
 The radial axis is the deviation in micrometres; its origin is the deviation `Scale.centre_um`, so that the nominal
 circle (deviation 0) has its true radius at the stated magnification. The set-up's centre offset, as measured (least
-squares, both directions together), is taken out of the measured **and** the predicted paths, so that a difference
+squares, both directions together), is removed from the measured **and** the predicted paths, so that a difference
 between the two stays visible.
 """
 
@@ -16,9 +16,9 @@ from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 
-from hexdbb.compare import UM_PER_MM, CircleComparison
-from hexdbb.compare.circles import DIRECTION_NAMES
-from hexdbb.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
+from hexdbb.comparison import UM_PER_MM, CircleComparison
+from hexdbb.comparison.circles import DIRECTION_NAMES
+from hexdbb.comparison.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
 from hexdbb.plots.magnification import Scale
 
 MEASURED_COLOURS = {1: "#56B4E9", -1: "#E69F00"}
@@ -31,7 +31,7 @@ GRID_LABEL_ANGLE_DEG = 67.5
 
 
 def drawn_paths(circle: CircleComparison) -> list[tuple[int, Path, Path]]:
-    """Give direction, measured and predicted path, the measured set-up centre taken out of both."""
+    """Return direction, measured and predicted path of each direction, the measured centre offset removed from both."""
     centre = circle.set_up_centre_mm
     return [
         (part.direction, part.measured, part.predicted)
@@ -42,7 +42,7 @@ def drawn_paths(circle: CircleComparison) -> list[tuple[int, Path, Path]]:
 
 
 def largest_drawn_mm(circles: Iterable[CircleComparison]) -> float:
-    """Largest absolute deviation that the plots of these circles show."""
+    """Return the largest absolute deviation that the plots of these circles show."""
     return max(
         float(np.abs(path.deviation_mm).max())
         for circle in circles
@@ -52,7 +52,7 @@ def largest_drawn_mm(circles: Iterable[CircleComparison]) -> float:
 
 
 def curve(path: Path) -> tuple[FloatArray, FloatArray]:
-    """Angle (rad) and deviation (um) of a path as a line: closed, and broken where samples are missing."""
+    """Return angle (rad) and deviation (µm) of a path as a line: closed, and broken where samples are missing."""
     angle = np.append(path.angle_rad, path.angle_rad[0] + FULL_TURN_RAD)
     deviation_um = UM_PER_MM * np.append(path.deviation_mm, path.deviation_mm[0])
     gaps = np.flatnonzero(np.diff(angle) > MAX_GAP_RAD) + 1
@@ -80,7 +80,7 @@ def draw_polar(axes: PolarAxes, circle: CircleComparison, scale: Scale, fine: bo
 
 
 def legend_handles() -> list[Artist]:
-    """Give one legend entry for each line of a polar plot."""
+    """Return one legend entry for each line of a polar plot."""
     handles: list[Artist] = []
     for direction, name in DIRECTION_NAMES.items():
         handles.append(Line2D([], [], **_measured_style(direction, fine=True), label=f"measured, {name}"))

@@ -1,4 +1,4 @@
-"""Pictures of the residual alone: against each state variable, its two directions together, its harmonics."""
+"""Pictures of the residual alone: against each predictor, its two directions combined, its harmonics."""
 
 from __future__ import annotations
 
@@ -8,61 +8,61 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hexdbb.compare import UM_PER_MM, Comparison
-from hexdbb.compare.circles import SHORT_DIRECTION_NAMES, CircleComparison
-from hexdbb.iso230 import FloatArray
+from hexdbb.comparison import UM_PER_MM, Comparison
+from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison
+from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS
-from hexdbb.variables import Carrier
-from hexdbb.variables.carriers import LEAST_SHARE
+from hexdbb.predictors import LEAST_SHARE, Predictor
 
 COLUMNS = 4
-MOST_VARIABLES = 16
+MOST_PREDICTORS = 16
+"""Number of panels drawn: four rows are still read on a screen."""
 TITLE_WIDTH = 36
 """Characters in a line above a panel."""
 GAP = 10.0
-"""Lines break where points are so many times further apart than usual: a guideway's two sliders do not meet."""
+"""Distance between points, in usual distances, at which a line breaks: a guideway's two sliders do not meet."""
 MOST_LINES = 2
-"""A variable with more classes apart (each circle) is drawn in one colour."""
+"""Number of lines with colours of their own; a variable with more classes (each circle) is drawn in one."""
 LINE_COLOURS = ("#1f5fa8", "#c0561a")
 SUM_COLOUR, DIFFERENCE_COLOUR = PREDICTED_COLOURS[1], MEASURED_COLOURS[-1]
 
 
-def state_page(comparison: Comparison) -> Figure:
-    """Draw what each variable's bins explain of the residual, the most telling variable first, all to one scale."""
-    drawn = [each for each in comparison.dependences if each.profiles]
-    found = [each for each in drawn if each.share > LEAST_SHARE][:MOST_VARIABLES] or drawn[:COLUMNS]
+def predictors_page(comparison: Comparison) -> Figure:
+    """Draw what the bins of each predictor explain of the residual, the one of most worth first, all to one scale."""
+    drawn = [each for each in comparison.predictors if each.profiles]
+    found = [each for each in drawn if each.share > LEAST_SHARE][:MOST_PREDICTORS] or drawn[:COLUMNS]
     rows = -(-len(found) // COLUMNS)
     figure = Figure(figsize=(11.5, 2.2 * rows + 0.9), layout="constrained")
     grid = figure.subplots(rows, COLUMNS, squeeze=False, sharey=True)
-    for axes, dependence in zip(grid.flat, found, strict=False):
-        _draw_dependence(axes, dependence)
+    for axes, predictor in zip(grid.flat, found, strict=False):
+        _draw_predictor(axes, predictor)
     for axes in grid.flat[len(found) :]:
         axes.set_axis_off()
     for row in grid:
         row[0].set_ylabel("in the reading, µm", fontsize=8)
     figure.suptitle(
-        "What each variable explains of the residual (measured - predicted), as the reading shows it (rms of each bin,"
-        " signed as the push),\nand the share of its mean square that it carries, judged on laps it was not fitted to",
+        "Predictors of the residual (measured - predicted): response in the reading (RMS of each bin, signed as the"
+        " push),\nand explained variance, cross-validated: fitted to one half of the laps, tested on the other",
         fontsize=11,
     )
     return figure
 
 
 def directions_page(comparison: Comparison) -> Figure:
-    """Draw half the sum and half the difference of both directions' residuals, circle by circle, all to one scale."""
-    pairs = [circle for circle in comparison.circles if circle.both_ways is not None]
+    """Draw the common part and the reversing part of both directions' residuals, circle by circle, all to one scale."""
+    pairs = [circle for circle in comparison.circles if circle.both_directions is not None]
     rows = max(-(-len(pairs) // COLUMNS), 1)
     figure = Figure(figsize=(11.5, 2.2 * rows + 1.2), layout="constrained")
     grid = figure.subplots(rows, COLUMNS, squeeze=False, sharex=True, sharey=True)
     for axes, circle in zip(grid.flat, pairs, strict=False):
-        _draw_both_ways(axes, circle)
+        _draw_both_directions(axes, circle)
     for axes in grid.flat[len(pairs) :]:
         axes.set_axis_off()
     for axes in grid.flat[max(len(pairs) - COLUMNS, 0) : len(pairs)]:
         axes.tick_params(labelbottom=True)
     for row in grid:
         row[0].set_ylabel("residual, µm", fontsize=8)
-    figure.suptitle("Residuals of both directions together, against commanded polar angle (deg)", fontsize=11)
+    figure.suptitle("Residuals of both directions combined, against commanded polar angle (deg)", fontsize=11)
     handles, labels = grid[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     return figure
@@ -103,11 +103,11 @@ def harmonics_page(comparison: Comparison) -> Figure:
     return figure
 
 
-def _draw_dependence(axes: Axes, dependence: Carrier) -> None:
+def _draw_predictor(axes: Axes, predictor: Predictor) -> None:
     axes.axhline(0.0, color="0.6", linewidth=0.6)
-    classes = not dependence.unit
-    for index, means in enumerate(dependence.profiles):
-        colour = LINE_COLOURS[index] if len(dependence.profiles) <= MOST_LINES else LINE_COLOURS[0]
+    classes = not predictor.unit
+    for index, means in enumerate(predictor.profiles):
+        colour = LINE_COLOURS[index] if len(predictor.profiles) <= MOST_LINES else LINE_COLOURS[0]
         marker, line = ("o", "none") if classes else (".", "-")
         axes.plot(
             *_broken(means.centre, means.mean_um),
@@ -118,15 +118,17 @@ def _draw_dependence(axes: Axes, dependence: Carrier) -> None:
             linestyle=line,
             label=means.name,
         )
-    if all(means.name for means in dependence.profiles):
+    if all(means.name for means in predictor.profiles):
         axes.legend(loc="best", fontsize=6, frameon=False)
-    title = f"{dependence.variable}: {100.0 * dependence.share:.0f} %"
+    title = f"{predictor.variable}: {100.0 * predictor.share:.0f} %"
     axes.set_title(textwrap.fill(title, TITLE_WIDTH), fontsize=8)
     if classes:
-        axes.set_xticks(sorted({float(each) for means in dependence.profiles for each in means.centre}))
+        names = dict(predictor.classes)
+        ticks = sorted({float(each) for means in predictor.profiles for each in means.centre})
+        axes.set_xticks(ticks, [names.get(tick, f"{tick:g}") for tick in ticks])
         axes.margins(x=0.2)
     else:
-        axes.set_xlabel(dependence.unit, fontsize=7, labelpad=1)
+        axes.set_xlabel(predictor.unit, fontsize=7, labelpad=1)
         low, high = axes.get_xlim()
         axes.set_xticks([tick for tick in axes.get_xticks() if low <= tick <= high])
     axes.tick_params(labelsize=7)
@@ -134,20 +136,20 @@ def _draw_dependence(axes: Axes, dependence: Carrier) -> None:
 
 
 def _broken(centre: FloatArray, mean_um: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Put a nan where a line should not be drawn."""
+    """Return the points with a nan wherever a line should not be drawn."""
     step = np.diff(centre)
     far = np.flatnonzero(step > GAP * np.median(step)) + 1 if len(step) > 2 else np.zeros(0, np.intp)
     return np.insert(centre, far, np.nan), np.insert(mean_um, far, np.nan)
 
 
-def _draw_both_ways(axes: Axes, circle: CircleComparison) -> None:
-    both = circle.both_ways
+def _draw_both_directions(axes: Axes, circle: CircleComparison) -> None:
+    both = circle.both_directions
     assert both is not None  # the page is made of circles that have both directions
     angle_deg = np.degrees(both.angle_rad)
     axes.axhline(0.0, color="0.6", linewidth=0.6)
     for values_mm, colour, label in (
-        (both.sum_mm, SUM_COLOUR, "(ccw + cw) / 2: the same both ways"),
-        (both.difference_mm, DIFFERENCE_COLOUR, "(ccw - cw) / 2: turns with direction"),
+        (both.half_sum_mm, SUM_COLOUR, "(ccw + cw) / 2: common part"),
+        (both.half_difference_mm, DIFFERENCE_COLOUR, "(ccw - cw) / 2: reversing part"),
     ):
         axes.plot(angle_deg, UM_PER_MM * values_mm, color=colour, linewidth=1.0, label=label)
     axes.set_title(f"circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min", fontsize=8)

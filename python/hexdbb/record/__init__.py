@@ -1,4 +1,4 @@
-"""Records of circular tests: in memory, as Parquet, as text (CSV and TOML), and as the journal of a running capture."""
+"""Records of circular tests: in memory, as Parquet, in text form (CSV and TOML), as journal of a running capture."""
 
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, TARGET_COLUMNS
 from hexdbb.record.formats import read_record, write_record

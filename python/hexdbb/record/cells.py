@@ -1,4 +1,4 @@
-"""Where in a CSV file the trouble is: only used once reading has failed, so slow and exact rather than fast."""
+"""Location of a fault in a CSV file. Used only after reading has failed, hence exact rather than fast."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hexdbb.errors import InputError
-from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Origin
-from hexdbb.validation import format_value
+from hexdbb.files.validation import format_value
+from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, RowSource
 
 
 def line_of_row(path: Path, row: int) -> int:
-    """Give the line of the file that holds a data row (from 0); empty lines are no rows."""
+    """Return the line of a CSV file that holds a data row (from 0); empty lines do not count as rows."""
     for index, (line, _) in enumerate(_rows(path)):
         if index == row:
             return line
@@ -21,7 +21,7 @@ def line_of_row(path: Path, row: int) -> int:
 
 
 def first_bad_cell(path: Path, names: list[str], reason: Exception) -> InputError:
-    """Make the error that names the first row with too few cells or with a cell that is not a number.
+    """Return the error that names the first row with too few cells or with a cell that is not a number.
 
     Parameters
     ----------
@@ -30,15 +30,15 @@ def first_bad_cell(path: Path, names: list[str], reason: Exception) -> InputErro
     names : list of str
         Its columns.
     reason : Exception
-        What the reader said; given back where the cells do not tell more.
+        Error of the CSV reader; its first line is used where no cell is found to be wrong.
     """
-    origin = Origin(str(path), lambda row: line_of_row(path, row))
+    source = RowSource(str(path), lambda row: line_of_row(path, row))
     for row, (_, cells) in enumerate(_rows(path)):
         if len(cells) != len(names):
-            return origin.bad(row, "cells", str(len(cells)), f"{len(names)}, as the first line has")
+            return source.bad_row(row, "cells", str(len(cells)), f"{len(names)}, as the first line has")
         for name, cell in zip(names, cells, strict=True):
             if name in COLUMN_TYPES and not _is_number(cell, may_be_empty=name not in REQUIRED_COLUMNS):
-                return origin.bad(row, name, format_value(cell), "a number")
+                return source.bad_row(row, name, format_value(cell), "a number")
     return InputError(f"{path}: {str(reason).splitlines()[0]}")
 
 

@@ -1,4 +1,7 @@
-"""Are the samples of a record what they claim to be? Every check gives the first row that fails it."""
+"""Check of a record's samples: finite, known ids, within travel and gauge range, ordered in time, constant per sweep.
+
+The check runs over all samples, and therefore once for each record read or written.
+"""
 
 from __future__ import annotations
 
@@ -8,41 +11,49 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Origin
+from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, RowSource
 from hexdbb.record.record import Record
 
 TRAVEL_MARGIN_MM = 1.0
-"""How far a slider may stand beyond its travel before its unit, its zero or its machine must be wrong."""
+"""Limits how far a slider coordinate may lie beyond the machine file's travel. Targets lie inside the travel and
+following errors on a circle stay well below 1 mm; more means a wrong unit, a wrong zero or another machine."""
 FEED_TOLERANCE = 1e-6
-"""Relative difference of two feeds taken as one."""
+"""Limits the relative difference of two feeds that count as equal inside a sweep: above the rounding of a feed written
+with 7 digits, below any step of a feed that a controller offers."""
 
-Bad = NDArray[np.bool_]
-Finding = tuple[str, Bad, str]
-"""Column, rows that are wrong, and what was expected; `{before}` stands for the value one row up."""
+Finding = tuple[str, NDArray[np.bool_], str]
+"""Column, wrong rows of shape (n,), and what was expected; `{before}` is replaced by the value one row earlier."""
 
 
-def check_record(record: Record, origin: Origin) -> None:
-    """Check every sample.
+def check_record(record: Record, source: RowSource) -> None:
+    """Check every sample of a record.
+
+    Parameters
+    ----------
+    record : Record
+    source : RowSource
+        Names the file, and the line of a row, in errors.
 
     Raises
     ------
     InputError
         There are no samples.
     BadRowError
-        Naming the first row that is wrong, its column, its value and what was expected.
+        Names the first wrong row, its column, its value and what was expected.
     """
     if len(record) == 0:
-        raise InputError(f"{origin.name}: holds no samples (expected at least one)")
+        raise InputError(f"{source.name}: holds no samples (expected at least one)")
     failed = [(int(np.argmax(bad)), column, expected) for column, bad, expected in _findings(record) if bad.any()]
     if not failed:
         return
     row, column, expected = min(failed, key=lambda finding: finding[0])
     values = record.columns[column]
     before = values[row - 1].item() if row > 0 else None
-    raise origin.bad(row, column, values[row].item(), expected.format(before=before))
+    raise source.bad_row(row, column, values[row].item(), expected.format(before=before))
 
 
 def _findings(record: Record) -> Iterator[Finding]:
+    """Yield every check with the rows that fail it; a row's result depends on itself and on earlier rows only."""
     columns = record.columns
     for name, kind in REQUIRED_COLUMNS.items():
         if kind is np.float64:
@@ -52,7 +63,7 @@ def _findings(record: Record) -> Iterator[Finding]:
     yield "circle", ~np.isin(columns["circle"], ids), "the id of a circle: " + ", ".join(map(str, ids))
     yield "feed_mm_min", ~(columns["feed_mm_min"] > 0.0), "a number > 0"
     range_um = record.gauge.range_um
-    within = f"a reading within the gauge's range of +-{range_um:g} um"
+    within = f"a reading within the gauge's range of ±{range_um:g} µm"
     yield "reading_um", np.abs(columns["reading_um"]) > range_um, within
     yield from _travel_findings(record)
     yield from _time_findings(record)
@@ -68,7 +79,7 @@ def _travel_findings(record: Record) -> Iterator[Finding]:
 
 
 def _time_findings(record: Record) -> Iterator[Finding]:
-    """Time runs forward inside a sweep, and does not go back from one sweep to the next."""
+    """Check that time increases inside a sweep and does not decrease from one sweep to the next."""
     time, sweep = record.columns["t_s"], record.columns["sweep"]
     step, inside = np.diff(time), np.diff(sweep) == 0
     yield "t_s", np.concatenate([[False], inside & (step <= 0.0)]), "a time after {before}, the row before"
@@ -76,11 +87,11 @@ def _time_findings(record: Record) -> Iterator[Finding]:
 
 
 def _sweep_findings(record: Record) -> Iterator[Finding]:
-    """Keep a sweep to one circle in one direction at one feed."""
+    """Check that a sweep has one circle, one direction and one feed: those of its first sample."""
     columns = record.columns
     _, first, member = np.unique(columns["sweep"], return_index=True, return_inverse=True)
     for name in ("circle", "direction", "feed_mm_min"):
         values = columns[name].astype(np.float64)
-        begun_with = values[first][member]
-        differs = np.abs(values - begun_with) > FEED_TOLERANCE * np.abs(begun_with)
+        of_sweep = values[first][member]
+        differs = np.abs(values - of_sweep) > FEED_TOLERANCE * np.abs(of_sweep)
         yield name, differs, "one value throughout its sweep; another begins with another sweep number"

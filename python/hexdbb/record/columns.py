@@ -1,19 +1,19 @@
-"""The columns of a record: names, types, units in the names, and the cast of whatever a file holds to them.
+"""Columns of a record: names, types and units, and the cast of a file's columns to them.
+
+The names end in their unit. Columns that are not in this table are kept as they are.
 
 | column | type | meaning |
 |---|---|---|
 | `t_s` | float64 | time of the sample |
-| `circle`, `sweep`, `lap` | int32 | circle's id; uninterrupted capture; turn inside it |
+| `circle`, `sweep`, `lap` | int32 | id of the circle; number of the uninterrupted capture; turn inside it |
 | `direction` | int8 | +1 counter-clockwise seen from above the circle's plane, -1 clockwise |
-| `angle_deg` | float64 | commanded polar angle |
+| `angle_deg` | float64 | commanded polar angle; 0 <= angle < 360 if written by hexdbb, any turns are read |
 | `feed_mm_min` | float64 | commanded feed |
 | `s1_mm` ... `s6_mm` | float64 | slider coordinates as the encoders report them |
 | `reading_um` | float64 | ball-bar length minus nominal length |
 | `temperature_c` | float64 | optional |
 | `target1_mm` ... `target6_mm` | float64 | optional: slider coordinates as commanded |
 | `status` | int32 | optional: state of the capture at the sample |
-
-Other columns are kept as they are.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.validation import format_name, format_value, without_unit
+from hexdbb.files.validation import format_name, format_value, without_unit
 
 Columns = dict[str, NDArray[Any]]
 
@@ -52,7 +52,15 @@ COLUMN_TYPES: dict[str, type[np.generic]] = {
 
 
 class BadRowError(InputError):
-    """A sample is wrong; `row` counts from 0, the message from 1."""
+    """Raised for the first wrong sample of a record.
+
+    Parameters
+    ----------
+    message : str
+        Names the file, the row (from 1), the column, the value and what was expected.
+    row : int
+        Row of the sample, from 0.
+    """
 
     def __init__(self, message: str, row: int) -> None:
         super().__init__(message)
@@ -60,68 +68,72 @@ class BadRowError(InputError):
 
 
 @dataclass(frozen=True)
-class Origin:
-    """Where rows come from, to name a bad one as its reader would look for it."""
+class RowSource:
+    """The file that rows were read from, for error messages that a reader of the file can follow."""
 
     name: str
-    """The file."""
+    """Path of the file."""
     line_of: Callable[[int], int] | None = None
-    """Line of the file a row (from 0) stands on, for files that have lines."""
+    """Line of the file that holds a row (from 0); None for files without lines."""
 
-    def bad(self, row: int, column: str, value: object, expected: str) -> BadRowError:
-        """Make the error of one cell."""
+    def bad_row(self, row: int, column: str, value: object, expected: str) -> BadRowError:
+        """Return the error of one cell: row from 0, the value found and what was expected."""
         line = f" (line {self.line_of(row)})" if self.line_of is not None else ""
         shown = value if isinstance(value, str) else format_value(value)
         return BadRowError(f"{self.name}: row {row + 1}{line}: {column}: {shown} (expected {expected})", row)
 
 
-def normalise(columns: Mapping[str, Any], origin: Origin) -> Columns:
-    """Cast columns to the types of a record, required ones first, other columns kept after them.
+def normalise(columns: Mapping[str, Any], source: RowSource) -> Columns:
+    """Cast columns to the types of a record: known columns first, in the order of `COLUMN_TYPES`, then the others.
 
     Parameters
     ----------
     columns : mapping of str to array_like, each of shape (n,)
-    origin : Origin
+    source : RowSource
         Names the file in errors.
+
+    Returns
+    -------
+    dict of str to ndarray, each of shape (n,)
 
     Raises
     ------
     InputError
-        A column is missing or of another length, or a value has no place in its column.
+        A required column is missing, a column has another length, or a value cannot be represented in its column.
     """
     missing = [name for name in REQUIRED_COLUMNS if name not in columns]
     if missing:
         for present in columns:
             if present not in COLUMN_TYPES and without_unit(present) == without_unit(missing[0]):
                 expected = f"expected {missing[0]}: the unit is part of the name"
-                raise InputError(f"{origin.name}: column {format_name(present)} ({expected})")
+                raise InputError(f"{source.name}: column {format_name(present)} ({expected})")
         present = ", ".join(map(format_name, columns)) or "none"
-        raise InputError(f"{origin.name}: missing column {', '.join(missing)} (columns present: {present})")
+        raise InputError(f"{source.name}: missing column {', '.join(missing)} (columns present: {present})")
     ordered = [*(name for name in COLUMN_TYPES if name in columns), *(n for n in columns if n not in COLUMN_TYPES)]
     arrays = {name: np.atleast_1d(np.asarray(columns[name])) for name in ordered}
     count = len(arrays["t_s"])
     for name, values in arrays.items():
         if values.shape != (count,):
             raise InputError(
-                f"{origin.name}: column {format_name(name)}: shape {values.shape} (expected ({count},), as t_s has)"
+                f"{source.name}: column {format_name(name)}: shape {values.shape} (expected ({count},), as t_s has)"
             )
-    return {name: _cast(name, values, origin) for name, values in arrays.items()}
+    return {name: _cast(name, values, source) for name, values in arrays.items()}
 
 
-def _cast(name: str, values: NDArray[Any], origin: Origin) -> NDArray[Any]:
+def _cast(name: str, values: NDArray[Any], source: RowSource) -> NDArray[Any]:
     kind = COLUMN_TYPES.get(name)
     if kind is None or values.dtype == kind:
         return values
     if not (np.issubdtype(values.dtype, np.number) or values.dtype == np.bool_):
-        raise InputError(f"{origin.name}: column {name}: of type {values.dtype} (expected numbers)")
+        raise InputError(f"{source.name}: column {name}: of type {values.dtype} (expected numbers)")
     if np.issubdtype(kind, np.integer):
-        _check_whole(name, values, np.iinfo(kind), origin)
+        _check_whole(name, values, np.iinfo(kind), source)
     return values.astype(kind)
 
 
-def _check_whole(name: str, values: NDArray[Any], limits: np.iinfo[Any], origin: Origin) -> None:
+def _check_whole(name: str, values: NDArray[Any], limits: np.iinfo[Any], source: RowSource) -> None:
     wrong = ~(np.isfinite(values) & (values >= limits.min) & (values <= limits.max))
     wrong[~wrong] = values[~wrong] != np.round(values[~wrong])
     if wrong.any():
         row = int(np.argmax(wrong))
-        raise origin.bad(row, name, values[row].item(), f"a whole number from {limits.min} to {limits.max}")
+        raise source.bad_row(row, name, values[row].item(), f"a whole number from {limits.min} to {limits.max}")

@@ -1,4 +1,4 @@
-"""The forms of a record on disk, by suffix."""
+"""File formats of a record, chosen by suffix: Parquet and the text form."""
 
 from __future__ import annotations
 
@@ -8,22 +8,28 @@ from pathlib import Path
 
 from hexdbb.errors import InputError
 from hexdbb.record.checks import check_record
-from hexdbb.record.columns import Origin
+from hexdbb.record.columns import RowSource
 from hexdbb.record.parquet import read_parquet, write_parquet
 from hexdbb.record.record import Record
 from hexdbb.record.text_form import read_text_form, write_text_form
 
 
 @dataclass(frozen=True)
-class Form:
-    """How one form of a record is read and written."""
+class FileFormat:
+    """Reader and writer of one file format of a record.
+
+    Attributes
+    ----------
+    read : reads and checks a record
+    write : writes a record without a check; arguments: record, path, overwrite
+    """
 
     read: Callable[[Path], Record]
     write: Callable[[Record, Path, bool], None]
 
 
-FORMS = {".parquet": Form(read_parquet, write_parquet), ".csv": Form(read_text_form, write_text_form)}
-"""Forms by suffix; another form is another entry."""
+FORMATS = {".parquet": FileFormat(read_parquet, write_parquet), ".csv": FileFormat(read_text_form, write_text_form)}
+"""Formats by suffix; a further format is a further entry."""
 
 
 def read_record(path: Path | str) -> Record:
@@ -44,14 +50,14 @@ def read_record(path: Path | str) -> Record:
         One line naming the file, the row and column or key, the value and what was expected.
     """
     path = Path(path)
-    form = _form_of(path)
+    file_format = _format_of(path)
     if not path.is_file():
         raise InputError(f"{path}: no such file")
-    return form.read(path)
+    return file_format.read(path)
 
 
-def write_record(record: Record, path: Path | str, overwrite: bool = False) -> None:
-    """Check and write a record, whole or not at all.
+def write_record(record: Record, path: Path | str, overwrite: bool = False, *, checked: bool = False) -> None:
+    """Check a record and write it whole or not at all.
 
     Parameters
     ----------
@@ -59,23 +65,26 @@ def write_record(record: Record, path: Path | str, overwrite: bool = False) -> N
     path : Path or str
         ``.parquet``, or ``.csv`` for the text form: ``NAME.csv``, ``NAME.toml`` and ``NAME.machine.toml``.
     overwrite : bool
-        Whether what stands there may be replaced.
+        Whether an existing file may be replaced.
+    checked : bool
+        True for a record unchanged since `read_record` or `recover` returned it: its samples are not checked again.
 
     Raises
     ------
     InputError
         The suffix is unknown, a sample is wrong, or the file exists.
     RunError
-        It could not be written.
+        The file could not be written.
     """
-    form = _form_of(Path(path))
-    check_record(record, Origin(record.name))
-    form.write(record, Path(path), overwrite)
+    file_format = _format_of(Path(path))
+    if not checked:
+        check_record(record, RowSource(record.name))
+    file_format.write(record, Path(path), overwrite)
 
 
-def _form_of(path: Path) -> Form:
+def _format_of(path: Path) -> FileFormat:
     if path.suffix == ".journal":
         raise InputError(f"{path}: the journal of a capture (expected a record; make one with: hexdbb recover {path})")
-    if path.suffix not in FORMS:
-        raise InputError(f"{path}: suffix {path.suffix!r} (expected a record: {' or '.join(FORMS)})")
-    return FORMS[path.suffix]
+    if path.suffix not in FORMATS:
+        raise InputError(f"{path}: suffix {path.suffix!r} (expected a record: {' or '.join(FORMATS)})")
+    return FORMATS[path.suffix]

@@ -1,8 +1,8 @@
-"""The journal of a running capture: an append-only Arrow IPC stream beside the record it becomes.
+"""Journal of a running capture: an append-only Arrow IPC stream beside the record it becomes.
 
-Samples are handed over in memory and written by a thread of the journal's own, because waiting for a disk takes longer
-than a cycle of the capture; they are on the disk (fsync) at most `SYNC_PERIOD_S` plus one write later. A crash of
-any kind loses no more than that: whole batches are read back, and a torn tail is left out.
+Samples are queued in memory and written by a thread of the journal, because a disk write may take longer than a cycle
+of the capture; they are on disk (fsync) at most `SYNC_PERIOD_S` plus one write later. A crash of any kind loses no
+more than that: whole batches are read back, and a torn tail is dropped.
 """
 
 from __future__ import annotations
@@ -19,36 +19,37 @@ from typing import Any, BinaryIO, Self
 import numpy as np
 import pyarrow as pa
 
-from hexdbb.atomic_file import refuse_existing, sync_directory
-from hexdbb.circle import Circle, Gauge, Mount
 from hexdbb.errors import InputError, RunError
+from hexdbb.files.atomic_file import refuse_existing, sync_directory
 from hexdbb.machine import MachineFile
-from hexdbb.record.columns import REQUIRED_COLUMNS, Columns, Origin, normalise
-from hexdbb.record.formats import write_record
+from hexdbb.plan import Circle, Gauge, Mount
+from hexdbb.record.columns import REQUIRED_COLUMNS, BadRowError, Columns, RowSource, normalise
+from hexdbb.record.parquet import write_parquet
 from hexdbb.record.record import Record
 from hexdbb.record.recovery import read_journal
 from hexdbb.record.tables import to_table
 
 SYNC_PERIOD_S = 0.5
-"""Longest time samples wait before they are written; half of what a crash may cost."""
+"""Limits how long samples wait in memory. A crash may cost at most one second of samples; half of it leaves the other
+half for the write itself."""
 
 
 def journal_path(record_path: Path | str) -> Path:
-    """Give the journal's place beside the record's: `demo.parquet.journal`."""
+    """Return the path of a record's journal, beside the record: `demo.parquet.journal`."""
     return Path(f"{record_path}.journal")
 
 
 class Journal:
-    """Samples of a running capture, on disk within a second.
+    """Samples of a running capture, on disk within one second.
 
     Parameters
     ----------
     path : Path or str
-        The Parquet record it will become; the journal stands beside it.
+        Parquet record to be written; the journal is created beside it.
     machine, gauge, mounts, circles, metadata
         As in `Record`.
     overwrite : bool
-        Whether a record or journal that stands there may be replaced.
+        Whether an existing record or journal may be replaced.
 
     Raises
     ------
@@ -77,11 +78,11 @@ class Journal:
             raise InputError(f"{self.journal_path}: left by an interrupted capture (expected {expected})")
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
         self._header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
-        to_table(self._header)  # metadata that JSON cannot hold are refused here, not by the writing thread
+        to_table(self._header)  # raises here, not in the writing thread, for metadata that JSON cannot hold
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
-        self._waiting: list[Columns] = []
+        self._queued: list[Columns] = []
         self._lock, self._stop = threading.Lock(), threading.Event()
         self._failure: Exception | None = None
         self._thread = threading.Thread(target=self._write_until_stopped, name="hexdbb-journal", daemon=True)
@@ -94,12 +95,12 @@ class Journal:
         self.close()
 
     def append(self, rows: Mapping[str, Any]) -> None:
-        """Hand over samples; returns at once.
+        """Queue samples for writing and return at once.
 
         Parameters
         ----------
         rows : mapping of str to array_like, each of shape (n,) or ()
-            The columns of a record; the same ones with every call.
+            Columns of a record; the same ones in every call.
 
         Raises
         ------
@@ -110,17 +111,17 @@ class Journal:
         """
         self._raise_failure()
         if self._stop.is_set():
-            raise RunError(f"{self.journal_path}: closed; no more samples can be kept")
-        columns = normalise(rows, Origin(str(self.journal_path)))
+            raise RunError(f"{self.journal_path}: closed; it takes no more samples")
+        columns = normalise(rows, RowSource(str(self.journal_path)))
         if self._names is None:
             self._names = tuple(columns)
         if tuple(columns) != self._names:
             raise InputError(f"{self.journal_path}: columns {', '.join(columns)} (expected {', '.join(self._names)})")
         with self._lock:
-            self._waiting.append(columns)
+            self._queued.append(columns)
 
     def close(self) -> None:
-        """Write what waits and leave the journal to be recovered; one without samples is removed."""
+        """Write the queued samples and close the journal, to be recovered; a journal without samples is removed."""
         if self._file.closed:
             return
         self._stop.set()
@@ -133,7 +134,7 @@ class Journal:
             self.journal_path.unlink()
 
     def finish(self, complete: bool = True, reason: str | None = None) -> Record:
-        """Make the Parquet record and remove the journal.
+        """Write the Parquet record and remove the journal; the samples are checked once.
 
         Parameters
         ----------
@@ -145,15 +146,19 @@ class Journal:
         Raises
         ------
         RunError
-            The journal or the record could not be written, and the journal stays; or there are no samples.
+            The journal or the record could not be written or the first sample is wrong, and the journal is kept; or
+            there are no samples.
         """
         self.close()
         self._raise_failure()
         if self._stream is None:
             raise RunError(f"{self.path}: not written: no samples were captured")
-        record, dropped = read_journal(self.journal_path, complete, reason)
+        try:
+            record, dropped = read_journal(self.journal_path, complete, reason)
+        except BadRowError as error:
+            raise RunError(f"{self.path}: not written: {error}; the journal is kept") from None
         record.path = self.path
-        write_record(record, self.path, overwrite=self._overwrite)
+        write_parquet(record, self.path, self._overwrite)
         if not dropped:
             self.journal_path.unlink()
         return record
@@ -166,21 +171,21 @@ class Journal:
     def _write_until_stopped(self) -> None:
         try:
             while not self._stop.wait(SYNC_PERIOD_S):
-                self._write_waiting()
-            self._write_waiting()
+                self._write_queued()
+            self._write_queued()
             if self._stream is not None:
                 self._stream.close()
                 self._sync()
         except (OSError, pa.ArrowException) as error:
             self._failure = error
 
-    def _write_waiting(self) -> None:
-        """Write what waits as one batch, and wait for the disk."""
+    def _write_queued(self) -> None:
+        """Write the queued samples as one batch and wait for the disk."""
         with self._lock:
-            waiting, self._waiting = self._waiting, []
-        if not waiting:
+            queued, self._queued = self._queued, []
+        if not queued:
             return
-        columns = {name: np.concatenate([rows[name] for rows in waiting]) for name in waiting[0]}
+        columns = {name: np.concatenate([rows[name] for rows in queued]) for name in queued[0]}
         table = to_table(replace(self._header, columns=columns))
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
@@ -193,7 +198,7 @@ class Journal:
 
 
 def _open_alone(path: Path) -> BinaryIO:
-    """Open a journal for this process alone, and empty it once that is sure."""
+    """Open a journal under an exclusive lock and empty it."""
     try:
         file = path.open("ab")
     except OSError as error:
@@ -202,7 +207,7 @@ def _open_alone(path: Path) -> BinaryIO:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         file.close()
-        raise InputError(f"{path}: a running capture writes it (expected another record name)") from None
+        raise InputError(f"{path}: in use by a running capture (expected another record name)") from None
     file.truncate(0)
     sync_directory(path.parent)
     return file

@@ -1,4 +1,4 @@
-"""Laps counted from the angle, for records of programs that do not count them."""
+"""Laps counted from the polar angle, for records of programs that do not count them."""
 
 from __future__ import annotations
 
@@ -8,13 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-ALMOST = 1e-6
-"""Of a turn: a sample meant to be the first of a lap must not fall into the one before it by rounding."""
+ROUNDING_TURNS = 1e-6
+"""Limits by how much of a turn a sample may lie before the start of a lap and still belong to it: above the rounding
+of angles written with 4 decimals (3e-7 turns), below the distance of two samples at 100,000 samples per lap."""
 NEEDED = ("sweep", "direction", "angle_deg")
 
 
 def counted_laps(columns: Mapping[str, Any]) -> NDArray[np.float64] | None:
-    """Count the turns since each sweep began; neighbouring samples lie less than half a turn apart.
+    """Count the turns completed since the first sample of each sweep.
+
+    Assumes that consecutive samples of a sweep lie less than half a turn apart; angles may be wrapped or not.
 
     Parameters
     ----------
@@ -23,8 +26,8 @@ def counted_laps(columns: Mapping[str, Any]) -> NDArray[np.float64] | None:
     Returns
     -------
     ndarray, shape (n,), or None
-        None where sweep, direction or angle are missing too. Where these are no numbers laps are 0: what is wrong with
-        them is said when they are checked.
+        None where `sweep`, `direction` or `angle_deg` are missing too. Laps are 0 where these are not numbers: the
+        check of the record names what is wrong with them.
     """
     if any(name not in columns for name in NEEDED):
         return None
@@ -34,5 +37,5 @@ def counted_laps(columns: Mapping[str, Any]) -> NDArray[np.float64] | None:
         rows = np.flatnonzero(sweep == each)
         steps = np.diff(angle_deg[rows], prepend=angle_deg[rows[0]])
         turned = np.cumsum(((steps + 180.0) % 360.0 - 180.0) * direction[rows]) / 360.0
-        laps[rows] = np.floor(np.nan_to_num(turned) + ALMOST)
+        laps[rows] = np.floor(np.nan_to_num(turned) + ROUNDING_TURNS)
     return np.maximum(laps, 0.0)

@@ -1,4 +1,4 @@
-"""The TOML beside a text-form record: the machine, the gauge, the mounts and the circles the samples refer to."""
+"""Measurement file, the TOML beside a CSV: machine, gauge, mounts and circles that the samples refer to."""
 
 from __future__ import annotations
 
@@ -6,22 +6,25 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from hexdbb.circle import Gauge
-from hexdbb.plan import Circles, Mounts, check_ids
-from hexdbb.validation import FileModel
+from hexdbb.files.validation import FileModel
+from hexdbb.plan import Circles, Gauge, Mounts, check_ids
 
 
 class Measurement(FileModel):
-    """A measurement file, validated; constructed and read under the file's own keys (`mount`, `circle`)."""
+    """A validated measurement file; constructed and read under the file's own keys (`mount`, `circle`)."""
 
     schema_id: Literal["hexdbb.measurement/1"] = Field(default="hexdbb.measurement/1", alias="schema")
+    """Kind and version of the file."""
     machine: Annotated[str, Field(min_length=1)]
-    """Machine file relative to this one, or the name of the shipped one."""
+    """Path of the machine file relative to this file, or the name of the shipped one, `sp120`."""
     complete: bool | None = None
-    """False where the capture was interrupted; not set means complete."""
+    """False where the capture was interrupted; absent means complete."""
     gauge: Gauge
+    """Ball bar and length gauge."""
     mounts: Mounts = Field(alias="mount")
+    """Set-ups of the cup, one table each."""
     circles: Circles = Field(alias="circle")
+    """Circles that the samples refer to, one table each."""
 
     @model_validator(mode="after")
     def _consistent(self) -> Measurement:

@@ -1,4 +1,4 @@
-"""A record in memory: samples by column, and all that is needed to understand them."""
+"""Record in memory: samples by column, with the gauge, mounts, circles and machine they refer to."""
 
 from __future__ import annotations
 
@@ -12,28 +12,30 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.circle import Circle, Gauge, Mount
 from hexdbb.errors import InputError
+from hexdbb.files.frames import to_frame
+from hexdbb.files.validation import dump_toml, format_value
 from hexdbb.machine import MachineFile
-from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, Origin, normalise
+from hexdbb.plan import Circle, Gauge, Mount
+from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, RowSource, normalise
 from hexdbb.record.measurement import Measurement
-from hexdbb.validation import dump_toml, format_value
+from hexdbb.record.summary import summary_html, summary_line
 
 DIMENSIONS = ("base", "platform", "legs", "sliders")
-"""Sections of a machine file that make it this machine and no other."""
+"""Sections of a machine file that identify a machine; its name and CAN set-up do not."""
 
 
-@dataclass
+@dataclass(repr=False)
 class Record:
     """Samples of one or more circular tests of one machine.
 
-    Columns are cast to their types (`hexdbb.record.columns`) when a record is made; their values are checked when it is
-    read or written.
+    Columns are cast to their types (`hexdbb.record.columns`) on construction; their values are checked on reading and
+    on writing. A notebook shows a record as a table of its sweeps.
 
     Raises
     ------
     InputError
-        A column is missing or of another length, or a value has no place in its column.
+        A column is missing, has another length than `t_s`, or holds a value that its type cannot represent.
     """
 
     columns: Columns
@@ -43,69 +45,85 @@ class Record:
     circles: tuple[Circle, ...]
     machine: MachineFile
     metadata: dict[str, Any] = field(default_factory=dict)
-    """What else is known, as JSON can hold it: software version, CAN set-up, why a capture stopped."""
+    """Further facts that JSON can represent: software version, CAN set-up, why a capture stopped."""
     path: Path | None = None
     """The file it was read from or written to."""
     complete: bool = True
     """False where the capture was interrupted."""
     whole_hash: str | None = None
-    """Content hash of the record that this is a part of; None for a whole one."""
+    """Content hash of the whole record that this one is a part of; None for a whole record."""
     origin: tuple[float, float] | None = None
-    """Time, s, and temperature, °C (nan where not measured), from which drift counts: those of the first sample, which
-    a part of a record keeps (`part`)."""
+    """Zero of drift: time (s) and temperature (°C, nan where not measured) of the whole record's first sample; kept by
+    `part`."""
 
     def __post_init__(self) -> None:
-        self.columns = normalise(self.columns, Origin(self.name))
+        self.columns = normalise(self.columns, RowSource(self.name))
         if self.origin is None:
             self.origin = _first_time_and_temperature(self.columns)
 
     def __len__(self) -> int:
         return len(self.columns["t_s"])
 
+    def __repr__(self) -> str:
+        return summary_line(self)
+
+    def _repr_html_(self) -> str:
+        return summary_html(self)
+
     @property
     def name(self) -> str:
-        """What errors call it: its path, or ``record`` for one that is in memory only."""
+        """Name in error messages: the path, or ``record`` for a record in memory only."""
         return str(self.path) if self.path is not None else "record"
 
     @property
     def sliders_mm(self) -> NDArray[np.float64]:
-        """Slider coordinates as the encoders report them, shape (n, 6)."""
+        """Slider coordinates as the encoders report them, mm, shape (n, 6)."""
         return np.column_stack([self.columns[name] for name in SLIDER_COLUMNS])
 
     @property
     def reading_mm(self) -> NDArray[np.float64]:
-        """Ball-bar length minus nominal length, shape (n,)."""
+        """Ball-bar length minus nominal length, mm, shape (n,)."""
         reading_mm: NDArray[np.float64] = self.columns["reading_um"] / 1000.0
         return reading_mm
 
     def circle(self, identity: int) -> Circle:
-        """Give the circle of an id."""
+        """Return the circle with this id."""
         return next(circle for circle in self.circles if circle.id == identity)
 
     def mount(self, identity: int) -> Mount:
-        """Give the mount of an id."""
+        """Return the mount with this id."""
         return next(mount for mount in self.mounts if mount.id == identity)
 
+    def to_frame(self) -> Any:
+        """Return the samples as a ``pandas.DataFrame`` of n rows, its columns those of the record's file.
+
+        Raises
+        ------
+        InputError
+            pandas is not installed.
+        """
+        return to_frame(self.columns)
+
     def sweeps(self) -> list[NDArray[np.intp]]:
-        """Give the rows of each uninterrupted capture, in the order in which the captures begin."""
+        """Return the rows of each sweep (uninterrupted capture), in the order in which the sweeps begin."""
         _, first, member = np.unique(self.columns["sweep"], return_index=True, return_inverse=True)
         return [np.flatnonzero(member == which) for which in np.argsort(first)]
 
     def measurement(self, machine: str) -> Measurement:
-        """Give gauge, mounts and circles as the file that names its machine `machine`."""
+        """Return gauge, mounts and circles as a measurement file that names its machine `machine`."""
         complete = None if self.complete else False
         return Measurement(machine=machine, complete=complete, gauge=self.gauge, mount=self.mounts, circle=self.circles)
 
     def part(self, rows: NDArray[np.bool_]) -> Record:
-        """Give some of the samples, rows of shape (n,), as a record that counts as the same one: its set-ups are known.
+        """Return the samples selected by a mask of shape (n,) as a record with the identity of the whole one.
 
-        Its `content_hash` is that of the whole record.
+        Its `content_hash` and its `origin` are those of the whole record, so a model knows its set-ups.
         """
         columns = {name: column[rows] for name, column in self.columns.items()}
         return replace(self, columns=columns, whole_hash=self.content_hash())
 
     def content_hash(self) -> str:
-        """SHA-256 of required columns, gauge, mounts, circles and machine; the same in every form of the record."""
+        """Return the SHA-256 (hex) of required columns, gauge, mounts, circles and machine; equal in every format."""
         return self.whole_hash if self.whole_hash is not None else self._own_hash
 
     @cached_property
@@ -119,14 +137,14 @@ class Record:
         return digest.hexdigest()
 
     def require_machine(self, machine: MachineFile, origin: str) -> None:
-        """Refuse a machine of other dimensions than the record's own.
+        """Check that a machine has the dimensions of the record's own machine.
 
         Parameters
         ----------
         machine : MachineFile
             For example the machine of a model.
         origin : str
-            File the machine comes from, for the error.
+            File that the machine was read from, for the error.
 
         Raises
         ------
@@ -144,7 +162,7 @@ class Record:
 
 
 def _first_time_and_temperature(columns: Columns) -> tuple[float, float]:
-    """Time of the first sample; first measured temperature, nan where there is none."""
+    """Return the time of the first sample, s, and the first measured temperature, °C, nan where there is none."""
     if len(columns["t_s"]) == 0:
         return 0.0, math.nan
     temperature = columns.get("temperature_c", np.full(1, np.nan))

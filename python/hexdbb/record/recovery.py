@@ -1,4 +1,4 @@
-"""What a journal holds, read back: every whole batch, up to a torn tail or to the first sample that is wrong."""
+"""Records read back from journals: every whole batch, up to a torn tail or to the first wrong sample."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ import pyarrow as pa
 
 from hexdbb.errors import InputError
 from hexdbb.record.checks import check_record
-from hexdbb.record.columns import BadRowError, Origin
+from hexdbb.record.columns import BadRowError, RowSource
 from hexdbb.record.record import Record
 from hexdbb.record.tables import from_table
 
 
 def recover(path: Path | str) -> Record:
-    """Make a record, marked incomplete, of what an interrupted capture left.
+    """Read the record of an interrupted capture from its journal; it is checked and marked incomplete.
 
     Parameters
     ----------
     path : Path or str
-        The journal; it stays.
+        The journal; it is kept.
 
     Returns
     -------
     Record
-        Of every whole batch, up to the first sample that is wrong; its metadata say why it is incomplete.
+        Every whole batch up to the first wrong sample; its metadata hold the reason under ``incomplete_because``.
 
     Raises
     ------
     InputError
-        There is no such journal, it holds no samples, or a running capture is writing it.
+        There is no such journal, it holds no right sample, or a running capture is writing it.
     """
     path = Path(path)
     if not path.is_file():
@@ -42,12 +42,12 @@ def recover(path: Path | str) -> Record:
         try:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise InputError(f"{path}: a running capture writes it (expected one that has ended)") from None
+            raise InputError(f"{path}: in use by a running capture (expected one that has ended)") from None
     return read_journal(path, complete=False, reason="the capture was interrupted")[0]
 
 
 def read_journal(path: Path, complete: bool, reason: str | None) -> tuple[Record, int]:
-    """Read a journal.
+    """Read and check a journal.
 
     Parameters
     ----------
@@ -56,23 +56,29 @@ def read_journal(path: Path, complete: bool, reason: str | None) -> tuple[Record
     complete : bool
         Whether the capture ran to its end.
     reason : str or None
-        Why it did not.
+        Why it did not; None for a complete one.
 
     Returns
     -------
     record : Record
-        Its path is the journal's. Not complete if rows were left out.
+        Its path is the journal's. Incomplete if rows were dropped.
     dropped : int
-        Rows left out, because one of them is wrong and those after it cannot be trusted.
+        Rows dropped: the first wrong one and all after it, since what made it wrong may have affected them.
+
+    Raises
+    ------
+    InputError
+        The journal holds no samples, or the first one is wrong.
     """
     record = _whole_batches(path)
     try:
-        check_record(record, Origin(str(path)))
+        check_record(record, RowSource(str(path)))
     except BadRowError as error:
+        if error.row == 0:
+            raise
+        # The rows before the first wrong one need no second check: a row is judged by itself and by earlier rows only.
         dropped, complete, reason = len(record) - error.row, False, str(error)
-        good = {name: values[: error.row] for name, values in record.columns.items()}
-        record = replace(record, columns=good)
-        check_record(record, Origin(str(path)))
+        record = replace(record, columns={name: values[: error.row] for name, values in record.columns.items()})
     else:
         dropped = 0
     because = {} if reason is None else {"incomplete_because": reason}
@@ -88,7 +94,7 @@ def _whole_batches(path: Path) -> Record:
 
 
 def _batches(file: BinaryIO) -> Iterator[pa.RecordBatch]:
-    """Yield batches until the stream ends, as it should or by a torn tail."""
+    """Yield batches until the stream ends, regularly or in a torn tail."""
     try:
         with pa.ipc.open_stream(file) as stream:
             for batch in stream:

@@ -1,7 +1,7 @@
-"""The text form of a record, which other programs write and read: `NAME.csv` and `NAME.toml`.
+"""Text form of a record, for exchange with other programs: `NAME.csv` and `NAME.toml`.
 
-Columns stand in any order, extra ones are kept; floats are written so that they read back to the last bit. `lap` may be
-left out and is counted from the angle then.
+Columns may come in any order and further ones are kept; floats are written so that they read back to the last bit.
+A missing column `lap` is counted from the angle.
 """
 
 from __future__ import annotations
@@ -12,31 +12,37 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.csv
 
-from hexdbb.atomic_file import refuse_existing, replacing
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import refuse_existing, replacing
+from hexdbb.files.validation import dump_toml, format_name, load_toml
 from hexdbb.machine import machine_beside
 from hexdbb.record.cells import first_bad_cell, line_of_row
 from hexdbb.record.checks import check_record
-from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, Origin, normalise
+from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, RowSource, normalise
 from hexdbb.record.laps import counted_laps
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
 from hexdbb.record.tables import to_columns
-from hexdbb.validation import dump_toml, format_name, load_toml
 
 
 def read_text_form(path: Path) -> Record:
-    """Read and check `NAME.csv` with the `NAME.toml` beside it; `InputError` names what is wrong."""
+    """Read and check `NAME.csv` with the `NAME.toml` beside it.
+
+    Raises
+    ------
+    InputError
+        One line naming the file, the row, line and column or the key, the value and what was expected.
+    """
     measurement_path = path.with_suffix(".toml")
     if not measurement_path.is_file():
         raise InputError(f"{path}: no such file {measurement_path} (expected gauge, mounts and circles beside the CSV)")
     measurement = load_toml(measurement_path, Measurement)
-    origin = Origin(str(path), lambda row: line_of_row(path, row))
+    source = RowSource(str(path), lambda row: line_of_row(path, row))
     columns = _read_columns(path)
     if "lap" not in columns and (laps := counted_laps(columns)) is not None:
         columns["lap"] = laps
     record = Record(
-        columns=normalise(columns, origin),
+        columns=normalise(columns, source),
         gauge=measurement.gauge,
         mounts=measurement.mounts,
         circles=measurement.circles,
@@ -44,7 +50,7 @@ def read_text_form(path: Path) -> Record:
         path=path,
         complete=measurement.complete is not False,
     )
-    check_record(record, origin)
+    check_record(record, source)
     return record
 
 
@@ -58,13 +64,13 @@ def _read_columns(path: Path) -> Columns:
             convert_options=pa.csv.ConvertOptions(column_types=types, null_values=[""]),
         )
     except pa.ArrowInvalid as error:
-        # Arrow says what is wrong, but not where.
+        # Arrow's message names the fault, not its place.
         raise first_bad_cell(path, names, error) from None
     return to_columns(table)
 
 
 def _header(path: Path) -> list[str]:
-    """Read the names of the columns, and refuse a file whose first line does not have them."""
+    """Read the column names; raise `InputError` where the first line does not hold them."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             names = [name.strip() for name in next(csv.reader(file), [])]
@@ -74,14 +80,22 @@ def _header(path: Path) -> list[str]:
         raise InputError(f"{path}: empty file (expected a first line of column names: {', '.join(REQUIRED_COLUMNS)})")
     for index, name in enumerate(names):
         if name in names[:index]:
-            raise InputError(f"{path}: column {format_name(name)}: stands twice (expected each name once)")
+            raise InputError(f"{path}: column {format_name(name)}: occurs twice (expected each name once)")
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         raise InputError(f"{path}: line 1: one column {names[0]!r} (expected columns separated by commas)")
     return names
 
 
 def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
-    """Write `NAME.csv`, `NAME.toml` and `NAME.machine.toml`, the CSV last."""
+    """Write `NAME.csv`, `NAME.toml` and `NAME.machine.toml`, the CSV last; the samples are not checked.
+
+    Raises
+    ------
+    InputError
+        One of the files exists and `overwrite` is False, or their directory does not exist.
+    RunError
+        A file could not be written.
+    """
     measurement_path, machine_path = path.with_suffix(".toml"), path.with_suffix(".machine.toml")
     for file in (path, measurement_path, machine_path):
         refuse_existing(file, overwrite)

@@ -1,10 +1,10 @@
 """The rig: nodes, machine and faults on one bus, clocked by SYNC.
 
-Model of one SYNC: every node samples this instant and sends its TPDO; the frames leave at once; then every drive takes
-its last target and moves for one communication cycle, and the true machine follows, while the controller is already at
-work on the frames.
-Assumption: between SYNCs time stands still. Where drives must stop and no SYNC comes any more, their ramps are run
-through at once.
+Model of one SYNC: every node samples its values and sends its TPDO; all frames leave together; then every drive takes
+over its last target and moves for one communication cycle, and the true machine follows, while the controller already
+processes the frames.
+Assumption: no physical time passes between SYNCs. If drives must stop and no SYNC arrives any more, their stopping
+ramps are completed at once.
 Source: CiA 301 (predefined connection set, SYNC, NMT).
 """
 
@@ -30,8 +30,10 @@ from hexdbb.rig.truth import TruthFile
 log = logging.getLogger(__name__)
 
 COAST_AFTER_S = 0.1
-"""A drive that must stop waits this long for a SYNC to move in."""
+"""Wall-clock time without a SYNC after which the ramps of stopping drives are completed, s: the RPDO timeout of the
+shipped machine file, long after the last SYNC of a controller that still runs."""
 COAST_LIMIT_S = 10.0
+"""Longest simulated time of these ramps, s. It only bounds the loop: the shipped quick stop ramp needs 0.1 s."""
 
 
 class Rig:
@@ -42,23 +44,23 @@ class Rig:
     machine : MachineFile
         Nominal machine and bus set-up.
     truth : TruthFile
-        What it really is.
+        Errors of the true machine.
     injections : list of Injection
-        Faults to come.
+        Faults to be injected.
     stall_tolerance_s : float
-        See `Node`.
+        Added to wall-clock timeouts, s; see `Node`.
 
     Attributes
     ----------
     transmit : callable
-        Takes a list of frames for the bus, all at once; set by what carries the bus.
+        Called with a list of frames that are to be sent together; set by the server of the bus.
     on_bus_lost : callable
-        Breaks the connection to the bus.
+        Breaks the connection to the bus; set by the server of the bus.
 
     Raises
     ------
     InputError
-        An EDS is not there, the start pose is out of reach, a fault names a node that is not there.
+        An EDS does not exist, the start pose is out of reach, or a fault names an unknown node.
     """
 
     def __init__(
@@ -112,7 +114,7 @@ class Rig:
         return GaugeNode(can.gauge_node, machine.eds_path(can.gauge_eds), self._send, setup, stall_tolerance_s)
 
     def receive(self, cob_id: int, data: bytes) -> None:
-        """Take one frame from the bus."""
+        """Process one frame from the bus."""
         if cob_id == SYNC:
             self._on_sync()
         elif (node := self._rpdo_nodes.get(cob_id)) is not None:
@@ -121,13 +123,13 @@ class Rig:
             self._on_nmt(data)
         elif HEARTBEAT_BASE < cob_id <= HEARTBEAT_BASE + 127:
             for listener in self.nodes.values():
-                listener.heard_heartbeat(cob_id - HEARTBEAT_BASE, time.monotonic())
+                listener.handle_heartbeat(cob_id - HEARTBEAT_BASE, time.monotonic())
         elif (node := self.nodes.get(cob_id - SDO_REQUEST_BASE)) is not None:
             node.handle_sdo(data)
         self.flush()
 
     def flush(self) -> None:
-        """Put what the nodes have sent on the bus."""
+        """Transmit the frames that the nodes have sent."""
         if self._outbox:
             frames, self._outbox = self._outbox, []
             self.transmit(frames)
@@ -158,7 +160,7 @@ class Rig:
 
     @property
     def running_s(self) -> float | None:
-        """SYNC time since all six drives were first enabled; None before."""
+        """SYNC time since all six drives were first enabled, s; None before."""
         return None if self.enabled_s is None else self.plant.time_s - self.enabled_s
 
     def _advance(self) -> None:
@@ -193,7 +195,7 @@ class Rig:
             injection.apply(self)
 
     def poll(self, now_s: float) -> None:
-        """Do what wall-clock time asks for; call every few milliseconds."""
+        """Run everything that depends on wall-clock time (`now_s`, monotonic); call every few milliseconds."""
         for node in self.nodes.values():
             node.poll(now_s)
         if now_s - self._last_sync_s > COAST_AFTER_S and any(drive.stopping for drive in self.drives):
@@ -201,14 +203,14 @@ class Rig:
         self.flush()
 
     def controller_gone(self) -> None:
-        """Nobody is on the bus any more: drives stop by themselves."""
+        """React to the disconnection of the last client: enabled drives stop on their own."""
         for drive in self.drives:
-            drive.on_connection_lost("nobody on the bus")
+            drive.on_connection_lost("no client on the bus")
         self.coast()
         self._outbox.clear()
 
     def coast(self) -> None:
-        """Run the stops through without SYNC, and say where the drives stand."""
+        """Complete the stops without SYNC, and log the positions of the drives."""
         moving = [drive for drive in self.drives if drive.stopping]
         begun_s = self.plant.time_s
         while any(drive.stopping for drive in self.drives) and self.plant.time_s - begun_s < COAST_LIMIT_S:
@@ -217,16 +219,30 @@ class Rig:
                     drive.on_cycle(self.dt_s)
             self._step_plant(self.dt_s)
         for drive in moving:
-            log.warning("node %d: stands at %.4f mm, %s", drive.node_id, drive.axis.position_mm, drive.state.name)
+            log.warning("node %d: stopped at %.4f mm, %s", drive.node_id, drive.axis.position_mm, drive.state.name)
 
 
 def start_sliders_mm(machine: MachineFile, position_mm: Array, rotation: Array) -> Array:
-    """Give the nominal slider coordinates of a start pose, shape (6,).
+    """Return the nominal slider coordinates of a start pose.
+
+    Parameters
+    ----------
+    machine : MachineFile
+        Nominal machine.
+    position_mm : numpy.ndarray
+        Platform position in the base frame, mm, shape (3,).
+    rotation : numpy.ndarray
+        Platform rotation, shape (3, 3).
+
+    Returns
+    -------
+    numpy.ndarray
+        Slider coordinates, mm, shape (6,).
 
     Raises
     ------
     InputError
-        It is out of reach or of travel.
+        The pose is out of reach or out of travel.
     """
     try:
         sliders = true_geometry(machine).sliders_for(position_mm, rotation)

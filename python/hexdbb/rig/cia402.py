@@ -1,8 +1,9 @@
 """The power drive state machine of CiA 402 as a table.
 
-Model: a controlword is decoded into one command; each row of `TRANSITIONS` takes one state and command to the next
-state. Commands that skip a state (shutdown straight to enable) run through the table once per state. Transitions 13 to
-15 (fault, end of its reaction, reset by a rising edge of bit 7) are made by no command and stand with the drive.
+Model: a controlword is decoded into one command; each row of `TRANSITIONS` maps one state and command to the next
+state. A command that skips a state (ready to switch on, then enable operation) passes through the table once per state.
+Transitions 13 to 15 (fault, end of its reaction, reset by a rising edge of bit 7) follow from no command and are part
+of `DriveNode`.
 Source: CiA 402-2, state machine with transitions 0 to 16, coding of controlword 6040h and statusword 6041h.
 """
 
@@ -11,8 +12,8 @@ from __future__ import annotations
 from enum import Enum
 
 
-class State(Enum):
-    """States; the value is the statusword's coding (bits 0-3, 5 and 6)."""
+class DriveState(Enum):
+    """States; the value is their coding in the statusword (bits 0-3, 5 and 6)."""
 
     NOT_READY = 0x0000
     SWITCH_ON_DISABLED = 0x0040
@@ -24,10 +25,7 @@ class State(Enum):
     FAULT = 0x0008
 
 
-STATUS_MASK = 0x006F
-"""Bits of the statusword that code the state."""
-
-VOLTAGE_ENABLED, REMOTE, INTERNAL_LIMIT, FOLLOWS_COMMAND, FOLLOWING_ERROR, REFERENCED = (
+VOLTAGE_ENABLED, REMOTE, INTERNAL_LIMIT, FOLLOWS_COMMAND, FOLLOWING_ERROR, HOMED = (
     1 << 4,
     1 << 9,
     1 << 11,
@@ -40,7 +38,7 @@ FAULT_RESET_BIT, HALT_BIT = 1 << 7, 1 << 8
 
 
 class Command(Enum):
-    """Device control commands as (mask, value) of the controlword, in the order they are tried."""
+    """Device control commands as (mask, value) of the controlword, in the order in which they are matched."""
 
     DISABLE_VOLTAGE = (0x0002, 0x0000)
     QUICK_STOP = (0x0006, 0x0002)
@@ -49,8 +47,8 @@ class Command(Enum):
     ENABLE_OPERATION = (0x000F, 0x000F)
 
 
-_S, _C = State, Command
-TRANSITIONS: dict[tuple[State, Command], tuple[int, State]] = {
+_S, _C = DriveState, Command
+TRANSITIONS: dict[tuple[DriveState, Command], tuple[int, DriveState]] = {
     (_S.SWITCH_ON_DISABLED, _C.SHUTDOWN): (2, _S.READY_TO_SWITCH_ON),
     (_S.READY_TO_SWITCH_ON, _C.SWITCH_ON): (3, _S.SWITCHED_ON),
     (_S.READY_TO_SWITCH_ON, _C.ENABLE_OPERATION): (3, _S.SWITCHED_ON),
@@ -67,7 +65,7 @@ TRANSITIONS: dict[tuple[State, Command], tuple[int, State]] = {
     (_S.QUICK_STOP_ACTIVE, _C.DISABLE_VOLTAGE): (12, _S.SWITCH_ON_DISABLED),
     (_S.QUICK_STOP_ACTIVE, _C.ENABLE_OPERATION): (16, _S.OPERATION_ENABLED),
 }
-"""(state, command) -> (number of the transition in CiA 402, next state); what is not named is no transition."""
+"""(state, command) -> (number of the transition in CiA 402, next state); other pairs are no transition."""
 
 _COMMANDS: list[Command | None] = [
     next((command for command in Command if word & command.value[0] == command.value[1]), None) for word in range(16)
@@ -75,12 +73,12 @@ _COMMANDS: list[Command | None] = [
 
 
 def decode(controlword: int) -> Command | None:
-    """Give the command a controlword's bits 0 to 3 make; None where they make none."""
+    """Return the command coded in bits 0 to 3 of a controlword, or None."""
     return _COMMANDS[controlword & 0x0F]
 
 
-def next_state(state: State, controlword: int) -> State | None:
-    """Give the state one transition further on, or None where the controlword moves nothing in this state."""
+def next_state(state: DriveState, controlword: int) -> DriveState | None:
+    """Return the state after one transition, or None if the controlword causes no transition in this state."""
     command = decode(controlword)
     if command is None:
         return None

@@ -1,7 +1,7 @@
-"""The object dictionary of a simulated node: every entry of an EDS with its present value.
+"""The object dictionary of a simulated node: every entry of its EDS with its present value.
 
-Model: `canopen` parses the EDS; each entry keeps its value as a Python number, so that PDOs are packed without going
-through bytes.
+Model: `canopen` parses the EDS; each entry keeps its value as a Python number, so that PDOs are packed without a
+detour through bytes.
 Source: CiA 301 (data types, SDO abort codes), CiA 306 (EDS).
 """
 
@@ -37,11 +37,11 @@ ABORT_VALUE_LOW = 0x06090032
 ABORT_DEVICE_STATE = 0x08000022
 
 _STRUCT_CODES = {1: "?", 2: "b", 3: "h", 4: "i", 5: "B", 6: "H", 7: "I", 8: "f", 0x11: "d", 0x15: "q", 0x1B: "Q"}
-"""struct code per CiA 301 data type; types not named here (strings, domains) are kept as bytes."""
+"""struct code of each CiA 301 data type; other types (strings, domains) are kept as bytes."""
 
 
 class Entry:
-    """One entry of the dictionary: what the EDS says of it, and its value."""
+    """One entry of the dictionary: its properties in the EDS, and its value."""
 
     __slots__ = ("_codec", "access", "code", "high", "index", "low", "mappable", "name", "size", "subindex", "value")
 
@@ -61,27 +61,27 @@ class Entry:
 
     @property
     def readable(self) -> bool:
-        """Whether an SDO may read it."""
+        """Whether an SDO may read the entry."""
         return self.access != "wo"
 
     @property
     def writable(self) -> bool:
-        """Whether an SDO may write it."""
+        """Whether an SDO may write the entry."""
         return self.access in ("rw", "rww", "rwr", "wo")
 
     def encode(self) -> bytes:
-        """Give the value as it travels on the bus."""
+        """Return the value as bytes on the bus (little-endian)."""
         if self._codec is None:
             return self.value if isinstance(self.value, bytes) else b""
         return self._codec.pack(self.value)
 
     def decode(self, data: bytes) -> Value:
-        """Read a value from the bus.
+        """Return the value of bytes from the bus.
 
         Raises
         ------
         SdoAbortedError
-            Wrong length, or a value outside the limits the EDS states.
+            The length is wrong, or the value is outside the limits in the EDS.
         """
         if self._codec is None:
             return bytes(data)
@@ -106,14 +106,15 @@ class Dictionary:
     node_id : int
         Resolves ``$NODEID`` in the defaults.
     required : tuple of (index, sub-index)
-        Objects without which the device cannot be what it is.
+        Objects that a device of this kind must have.
     assumed : mapping of (index, sub-index) to value
-        Objects a device may lack; where the EDS does, the device works with this value and nobody sees it on the bus.
+        Objects that a device may lack. If the EDS lacks one, the device works with this value, which is not visible on
+        the bus.
 
     Raises
     ------
     InputError
-        The file is not there, or lacks a required object.
+        The file does not exist, or lacks a required object.
     """
 
     def __init__(
@@ -140,26 +141,26 @@ class Dictionary:
         return key in self._entries
 
     def entry(self, index: int, subindex: int = 0) -> Entry:
-        """Give one entry to the device itself: of the EDS, or assumed."""
+        """Return one entry for use by the device itself: of the EDS, or assumed."""
         return self._inner[index, subindex]
 
     def number(self, index: int, subindex: int = 0) -> int:
-        """Give the value of an integer entry."""
+        """Return the value of an integer entry."""
         return int(self.entry(index, subindex).value)
 
     def real(self, index: int, subindex: int = 0) -> float:
-        """Give the value of a number entry as a float."""
+        """Return the value of a numeric entry as a float."""
         return float(self.entry(index, subindex).value)
 
     def upload(self, index: int, subindex: int) -> bytes:
-        """Answer an SDO upload; raises `SdoAbortedError` where it is not allowed."""
+        """Return the data of an SDO upload; raises `SdoAbortedError` if it is not allowed."""
         entry = self._seen(index, subindex)
         if not entry.readable:
             raise SdoAbortedError(ABORT_READ_WRITE_ONLY)
         return entry.encode()
 
     def download(self, index: int, subindex: int, data: bytes) -> None:
-        """Take an SDO download; raises `SdoAbortedError` where it is not allowed."""
+        """Store the data of an SDO download; raises `SdoAbortedError` if it is not allowed."""
         entry = self._seen(index, subindex)
         if not entry.writable:
             raise SdoAbortedError(ABORT_WRITE_READ_ONLY)

@@ -1,9 +1,9 @@
 """A CiA 402 drive of one slider: state machine, cyclic synchronous position mode, limits, following error, stops.
 
-Model: every cycle the drive obeys the controlword, watches its limits and moves its servo axis for one communication
-cycle. Enabled in mode 8 it follows the target; in every other state it brakes to a stand and holds.
-Assumption: absolute encoder, so the drive is referenced at power-on; only mode 8 is offered.
-Source: CiA 402-2; reactions by 6007h, 605Ah, 605Eh; EMCY codes by CiA 402's error code table.
+Model: in every cycle the drive obeys the controlword, supervises its limits and moves its servo axis for one
+communication cycle. Enabled in mode 8 it follows the target; in every other state it brakes to a standstill and holds.
+Assumption: the encoder is absolute, so the drive is homed at power-on; mode 8 is the only mode offered.
+Source: CiA 402-2: reactions by 6007h, 605Ah and 605Eh, EMCY codes of the error code table.
 """
 
 from __future__ import annotations
@@ -16,29 +16,44 @@ from typing import ClassVar
 from canopen.sdo import SdoAbortedError
 
 from hexdbb.rig import cia402
-from hexdbb.rig.cia402 import State
+from hexdbb.rig.cia402 import DriveState
 from hexdbb.rig.dictionary import ABORT_VALUE_RANGE, Key, Value
 from hexdbb.rig.node import CURRENT, GENERIC, PROFILE, Node, Send
 from hexdbb.rig.servo import ServoAxis
 
 log = logging.getLogger(__name__)
 
-CSP_MODE = 8
+CYCLIC_SYNCHRONOUS_POSITION = 8
+"""Mode of operation, objects 6060h and 6061h."""
 ERROR_OVERCURRENT, ERROR_FOLLOWING, ERROR_LIMIT_SWITCH = 0x2310, 0x8611, 0x8612
+"""EMCY error codes of CiA 402."""
 NEGATIVE_LIMIT, POSITIVE_LIMIT = 1, 2
 """Bits of the digital inputs 60FDh."""
 STAY_IN_QUICK_STOP = (5, 6)
 """Quick stop option codes 605Ah that end in quick stop active; the others end in switch on disabled."""
 ABORT_FAULT, ABORT_DISABLE, ABORT_QUICK_STOP = 1, 2, 3
 """Abort connection option codes 6007h."""
-_POWERED = (State.OPERATION_ENABLED, State.QUICK_STOP_ACTIVE, State.FAULT_REACTION_ACTIVE)
+_POWERED = (DriveState.OPERATION_ENABLED, DriveState.QUICK_STOP_ACTIVE, DriveState.FAULT_REACTION_ACTIVE)
 
 
 @dataclass(frozen=True)
 class DriveSetup:
-    """What a drive does not learn from its EDS.
+    """Properties of a drive that are not in its EDS.
 
-    `counts_per_mm` may be negative; `travel_mm` becomes the software position limit 607Dh.
+    Attributes
+    ----------
+    counts_per_mm : float
+        Encoder scale; negative if the encoder counts the other way.
+    travel_mm : tuple of float
+        Ends of travel, mm; become the software position limit 607Dh.
+    screw_lead_mm : float
+        Travel per turn of the screw, mm.
+    start_mm : float
+        Position at power-on, mm.
+    lag_s : float
+        Time constant of the position loop, s.
+    feedforward : float
+        Velocity feed-forward, 0 to 1.
     """
 
     counts_per_mm: float
@@ -50,7 +65,7 @@ class DriveSetup:
 
 
 class DriveNode(Node):
-    """One drive on the bus; see `Node` for the parameters not named here.
+    """One drive on the bus; the parameters not named here are those of `Node`.
 
     Parameters
     ----------
@@ -87,13 +102,13 @@ class DriveNode(Node):
     def __init__(self, node_id: int, eds: Path, send: Send, setup: DriveSetup, stall_tolerance_s: float = 0.0) -> None:
         self.setup = setup
         self.axis = ServoAxis(setup.start_mm, setup.lag_s, setup.feedforward)
-        self.referenced = True
+        self.homed = True
         super().__init__(node_id, eds, send, stall_tolerance_s)
 
     def on_power_up(self) -> None:
-        """Set up scale, limits and target for where the axis stands."""
+        """Set scale, limits and target for the present position of the axis."""
         entry = self.dictionary.entry
-        self.state = State.SWITCH_ON_DISABLED
+        self.state = DriveState.SWITCH_ON_DISABLED
         self.limit_inputs = 0
         self._limited = False
         self._previous_controlword = 0
@@ -119,7 +134,7 @@ class DriveNode(Node):
     @property
     def enabled(self) -> bool:
         """Whether the drive follows or may follow targets."""
-        return self.state is State.OPERATION_ENABLED
+        return self.state is DriveState.OPERATION_ENABLED
 
     @property
     def _halted(self) -> bool:
@@ -127,44 +142,44 @@ class DriveNode(Node):
 
     @property
     def stopping(self) -> bool:
-        """Whether the drive is on its way to a stand of its own accord."""
-        return not self.enabled and (not self.axis.standing or self._after_stop() is not None)
+        """Whether the drive is stopping on its own."""
+        return not self.enabled and (not self.axis.at_standstill or self._after_stop() is not None)
 
     def on_sample(self) -> None:
-        """Write the values of this instant."""
+        """Write the values of this SYNC."""
         self.refresh()
 
     def refresh(self) -> None:
-        """Write position, velocity, following error and statusword of this instant."""
+        """Write the present position, velocity, following error and statusword."""
         scale = self.setup.counts_per_mm
         self._position.value = round(self.axis.position_mm * scale)
         self._velocity.value = round(self.axis.velocity_mm_s * scale)
         self._error.value = round(self.axis.following_error_mm * scale)
         self._inputs.value = self.limit_inputs
         word = self.state.value | cia402.VOLTAGE_ENABLED | cia402.REMOTE
-        if self.referenced:
-            word |= cia402.REFERENCED
+        if self.homed:
+            word |= cia402.HOMED
         if self._limited or self.limit_inputs:
             word |= cia402.INTERNAL_LIMIT
         if self._late_s > 0.0:
             word |= cia402.FOLLOWING_ERROR
-        following = self.enabled and self._mode_display.value == CSP_MODE
+        following = self.enabled and self._mode_display.value == CYCLIC_SYNCHRONOUS_POSITION
         if following and not self._limited and not self._halted:
             word |= cia402.FOLLOWS_COMMAND
         self._statusword.value = word
 
     def on_cycle(self, dt_s: float) -> None:
-        """Obey the controlword, move, watch the following error."""
+        """Obey the controlword, move, supervise the following error."""
         self._obey_controlword()
-        if self._mode.value in (0, CSP_MODE):
+        if self._mode.value in (0, CYCLIC_SYNCHRONOUS_POSITION):
             self._mode_display.value = self._mode.value
-        if self.enabled and self._mode_display.value == CSP_MODE and not self._halted:
+        if self.enabled and self._mode_display.value == CYCLIC_SYNCHRONOUS_POSITION and not self._halted:
             self._follow(dt_s)
         else:
             self._limited = False
             self.axis.brake(dt_s, self.dictionary.number(0x6085) / abs(self.setup.counts_per_mm))
             self._end_stop()
-        self._watch_following_error(dt_s)
+        self._supervise_following_error(dt_s)
 
     def _follow(self, dt_s: float) -> None:
         scale = self.setup.counts_per_mm
@@ -180,30 +195,34 @@ class DriveNode(Node):
         word = int(self._controlword.value)
         rising, changed = word & ~self._previous_controlword, word != self._previous_controlword
         self._previous_controlword = word
-        if self.state is State.FAULT and rising & cia402.FAULT_RESET_BIT:
-            self._enter(State.SWITCH_ON_DISABLED)
+        if self.state is DriveState.FAULT and rising & cia402.FAULT_RESET_BIT:
+            self._enter(DriveState.SWITCH_ON_DISABLED)
             self._error_code.value = 0
             self.emergency(0)
         for _ in range(2):  # ready to switch on -> switched on -> operation enabled in one command
             following = cia402.next_state(self.state, word)
             if following is None:
                 return
-            if self.state is State.QUICK_STOP_ACTIVE and following is State.OPERATION_ENABLED and not changed:
-                return  # a stop of the drive's own is not undone by a controller that has not noticed it
-            if following is State.OPERATION_ENABLED and self.state is State.SWITCHED_ON and not self._bumpless():
+            if self.state is DriveState.QUICK_STOP_ACTIVE and following is DriveState.OPERATION_ENABLED and not changed:
+                return  # a stop of the drive's own is not undone by an unchanged controlword
+            if (
+                following is DriveState.OPERATION_ENABLED
+                and self.state is DriveState.SWITCHED_ON
+                and not self._bumpless()
+            ):
                 self.trip(ERROR_FOLLOWING, PROFILE)
                 return
             self._enter(following)
 
     def _bumpless(self) -> bool:
-        """Whether enabling would move nothing by more than the following error window."""
-        if self._mode.value != CSP_MODE:
+        """Whether the target is within the following error window, so that enabling moves nothing."""
+        if self._mode.value != CYCLIC_SYNCHRONOUS_POSITION:
             return True
         position = round(self.axis.position_mm * self.setup.counts_per_mm)
         return abs(int(self._target.value) - position) <= int(self._window.value)
 
-    def _enter(self, state: State) -> None:
-        if state is State.OPERATION_ENABLED:
+    def _enter(self, state: DriveState) -> None:
+        if state is DriveState.OPERATION_ENABLED:
             self.axis.hold_here()
         if state is not self.state:
             log.debug("node %d: %s -> %s", self.node_id, self.state.name, state.name)
@@ -211,18 +230,18 @@ class DriveNode(Node):
 
     def _end_stop(self) -> None:
         following = self._after_stop()
-        if following is not None and self.axis.standing:
+        if following is not None and self.axis.at_standstill:
             self._enter(following)
 
-    def _after_stop(self) -> State | None:
-        """Give the state a stop ends in by itself; None where no stop is under way or it ends where it is."""
-        if self.state is State.FAULT_REACTION_ACTIVE:
-            return State.FAULT
-        if self.state is State.QUICK_STOP_ACTIVE and self.dictionary.number(0x605A) not in STAY_IN_QUICK_STOP:
-            return State.SWITCH_ON_DISABLED
+    def _after_stop(self) -> DriveState | None:
+        """Return the state that a stop leads to; None without a stop, or if it ends in the present state."""
+        if self.state is DriveState.FAULT_REACTION_ACTIVE:
+            return DriveState.FAULT
+        if self.state is DriveState.QUICK_STOP_ACTIVE and self.dictionary.number(0x605A) not in STAY_IN_QUICK_STOP:
+            return DriveState.SWITCH_ON_DISABLED
         return None
 
-    def _watch_following_error(self, dt_s: float) -> None:
+    def _supervise_following_error(self, dt_s: float) -> None:
         scale = abs(self.setup.counts_per_mm)
         outside = abs(self.axis.following_error_mm) * scale > int(self._window.value)
         self._late_s = self._late_s + dt_s if outside and self.enabled else 0.0
@@ -230,29 +249,29 @@ class DriveNode(Node):
             self.trip(ERROR_FOLLOWING, PROFILE)
 
     def trip(self, code: int = ERROR_OVERCURRENT, register: int = CURRENT) -> None:
-        """Fault: EMCY, stop, state fault."""
+        """Enter the fault reaction with an EMCY of this error code and error register bit."""
         self._error_code.value = code
         self.emergency(code, register)
-        self._enter(State.FAULT_REACTION_ACTIVE if self.state in _POWERED else State.FAULT)
+        self._enter(DriveState.FAULT_REACTION_ACTIVE if self.state in _POWERED else DriveState.FAULT)
 
     def quick_stop(self) -> None:
-        """Stop on the quick stop ramp, as the controlword command does."""
+        """Stop on the quick stop ramp, as on the controlword command."""
         if self.enabled:
-            self._enter(State.QUICK_STOP_ACTIVE)
+            self._enter(DriveState.QUICK_STOP_ACTIVE)
 
     def disable(self) -> None:
-        """Take the power away: switch on disabled."""
-        if self.state in (State.READY_TO_SWITCH_ON, State.SWITCHED_ON, *_POWERED):
-            self._enter(State.SWITCH_ON_DISABLED)
+        """Remove the power: switch on disabled."""
+        if self.state in (DriveState.READY_TO_SWITCH_ON, DriveState.SWITCHED_ON, *_POWERED):
+            self._enter(DriveState.SWITCH_ON_DISABLED)
 
     def hit_limit_switch(self, inputs: int) -> None:
-        """Report a limit switch and stop."""
+        """Report limit switches (bits of 60FDh) and stop."""
         self.limit_inputs |= inputs
         self.emergency(ERROR_LIMIT_SWITCH, PROFILE)
         self.quick_stop()
 
     def on_connection_lost(self, reason: str) -> None:
-        """React as the abort connection option code 6007h says."""
+        """React according to the abort connection option code 6007h."""
         if not self.enabled:
             return
         log.warning("node %d: %s, stopping at %.4f mm", self.node_id, reason, self.axis.position_mm)
@@ -266,5 +285,5 @@ class DriveNode(Node):
         self.trip(int(self.dictionary.entry(0x1003, 1).value) & 0xFFFF or ERROR_OVERCURRENT, GENERIC)
 
     def _check_mode(self, value: Value) -> None:
-        if int(value) not in (0, CSP_MODE):
+        if int(value) not in (0, CYCLIC_SYNCHRONOUS_POSITION):
             raise SdoAbortedError(ABORT_VALUE_RANGE)

@@ -1,7 +1,7 @@
 """Faults to inject: a table of kinds, each a function on the rig.
 
-Model: ``KIND[:node][@time_s][=value]``. Without a time the fault is there from power-on; with one it comes that long
-after all six drives were first enabled, in SYNC time, so that it hits the same sample in every run.
+Form: ``KIND[:node][@time_s][=value]``. Without a time the fault is present from power-on; with a time it occurs that
+long after all six drives were first enabled, in SYNC time, so that it hits the same sample in every run.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from hexdbb.errors import InputError
-from hexdbb.rig.cia402 import State
+from hexdbb.rig.cia402 import DriveState
 from hexdbb.rig.drive import ERROR_OVERCURRENT, NEGATIVE_LIMIT, POSITIVE_LIMIT, DriveNode
 from hexdbb.rig.node import NmtState
 
@@ -22,19 +22,32 @@ if TYPE_CHECKING:
 SPEC = re.compile(r"(?P<kind>[a-z-]+)(:(?P<node>\d+))?(@(?P<time>[0-9.]+))?(=(?P<value>[-+0-9a-fA-Fx.]+))?")
 Apply = Callable[["Rig", int, float], None]
 FOREVER = 10**12
+"""Cycles that no run reaches."""
 WITHOUT_NODE = ("gauge", "bus")
+"""Subjects of faults that are given no node."""
 MILLIMETRE_UNIT = 0xFD010000
-"""Object 6131h for a value in mm: prefix 10^-3 (FDh), metre (01h)."""
+"""Unit code of mm in object 6131h (CiA 303-2): prefix 10^-3 (FDh), metre (01h)."""
 
 
 @dataclass(frozen=True)
 class FaultKind:
-    """One row of the table: what it does, to which nodes, with which value where none is given."""
+    """One row of the table.
+
+    Attributes
+    ----------
+    text : str
+        Description in the help.
+    apply : callable
+        Called with rig, node id and value.
+    on : str
+        Subject: ``drive`` or ``any``, which are given a node; ``gauge`` or ``bus``, which are not.
+    value : float
+        Value if the user gives none.
+    """
 
     text: str
     apply: Apply
     on: str = "drive"
-    """`drive` or `any`, which are given a node; `gauge` or `bus`, which are not."""
     value: float = 0.0
 
 
@@ -78,12 +91,12 @@ def _switch(rig: Rig, node: int, value: float) -> None:
     _drive(rig, node).hit_limit_switch(NEGATIVE_LIMIT if value < 0 else POSITIVE_LIMIT)
 
 
-def _unreferenced(rig: Rig, node: int, value: float) -> None:
-    _drive(rig, node).referenced = False
+def _lose_homing(rig: Rig, node: int, value: float) -> None:
+    _drive(rig, node).homed = False
 
 
 def _lose_enable(rig: Rig, node: int, value: float) -> None:
-    _drive(rig, node).state = State.SWITCH_ON_DISABLED
+    _drive(rig, node).state = DriveState.SWITCH_ON_DISABLED
 
 
 def _lose_mode(rig: Rig, node: int, value: float) -> None:
@@ -112,38 +125,43 @@ def _unit(rig: Rig, node: int, value: float) -> None:
 
 FAULTS: dict[str, FaultKind] = {
     "node-missing": FaultKind("the node is not on the bus", _vanish, on="any"),
-    "drive-fault": FaultKind(
-        "the drive trips with this error code",
-        lambda rig, node, v: _drive(rig, node).trip(int(v)),
-        value=ERROR_OVERCURRENT,
-    ),
-    "following-error": FaultKind("the slider jams, its drive runs into a following error", _jam),
+    "drive-fault": FaultKind("the drive trips with this error code", _trip, value=ERROR_OVERCURRENT),
+    "following-error": FaultKind("the slider jams and its drive has a following error", _jam),
     "limit-switch": FaultKind("a limit switch trips (positive; -1: negative), the drive stops", _switch, value=1),
-    "enable-lost": FaultKind("the drive drops out of operation enabled (safe torque off)", _lose_enable),
+    "enable-lost": FaultKind("the drive leaves operation enabled (safe torque off)", _lose_enable),
     "mode-lost": FaultKind("the drive leaves mode 8", _lose_mode),
-    "not-homed": FaultKind("the drive is not referenced", _unreferenced),
-    "emcy": FaultKind(
-        "an EMCY of this code, nothing else",
-        lambda rig, node, v: rig.nodes[node].emergency(int(v)),
-        on="any",
-        value=0xFF00,
-    ),
-    "heartbeat-lost": FaultKind("no heartbeats any more", _mute_heartbeat, on="any"),
-    "tpdo-missing": FaultKind("no TPDO for this many cycles (0: for good)", _mute_tpdo, on="any"),
+    "not-homed": FaultKind("the drive is not homed", _lose_homing),
+    "emcy": FaultKind("an EMCY of this code without any other effect", _emcy, on="any", value=0xFF00),
+    "heartbeat-lost": FaultKind("the node sends no more heartbeats", _mute_heartbeat, on="any"),
+    "tpdo-missing": FaultKind("no TPDO for this number of cycles (0: for ever)", _mute_tpdo, on="any"),
     "boot-up": FaultKind("the node resets itself", _reset, on="any"),
     "nmt-change": FaultKind("the node goes pre-operational by itself", _leave_operational, on="any"),
     "bus-lost": FaultKind("the connection to the bus breaks", _lose_bus, on="bus"),
-    "gauge-out-of-range": FaultKind("the reading jumps by this many um", _offset, on="gauge", value=3000.0),
+    "gauge-out-of-range": FaultKind("the reading jumps by this value, µm", _offset, on="gauge", value=3000.0),
     "gauge-frozen": FaultKind("the reading no longer changes", _freeze, on="gauge"),
-    "gauge-break": FaultKind("sensor break: the status says not valid", _break, on="gauge"),
+    "gauge-break": FaultKind("sensor break: the status reports not valid", _break, on="gauge"),
     "gauge-unit": FaultKind("the gauge reads in another unit (object 6131h)", _unit, on="gauge", value=MILLIMETRE_UNIT),
 }
-"""All kinds `--fault` knows."""
+"""All kinds of `--fault`; another kind is another entry."""
 
 
 @dataclass(frozen=True)
 class Injection:
-    """One fault to come."""
+    """One fault to be injected.
+
+    Attributes
+    ----------
+    kind : str
+        Key of `FAULTS`.
+    node : int
+        Node id; 0 for a fault without node.
+    time_s : float or None
+        SYNC time after all drives were first enabled, s; None from power-on.
+    value : float
+        Value of the fault.
+    spec : str
+        The text it was parsed from.
+    """
 
     kind: str
     node: int
@@ -155,16 +173,16 @@ class Injection:
         return self.spec
 
     def due(self, running_s: float | None) -> bool:
-        """Whether its time has come, `running_s` after all drives were enabled (None: not yet)."""
+        """Return whether the fault is due `running_s` after all drives were first enabled (None: not yet)."""
         return self.time_s is None or (running_s is not None and running_s >= self.time_s - 1e-9)
 
     def check(self, rig: Rig) -> None:
-        """See that the rig has the node.
+        """Check that the rig has the node.
 
         Raises
         ------
         InputError
-            It has not, or the node is not of the kind this fault is for.
+            There is no such node, or the fault does not apply to it.
         """
         if FAULTS[self.kind].on in WITHOUT_NODE:
             return
@@ -174,17 +192,17 @@ class Injection:
             raise InputError(f"--fault {self.spec}: node {self.node} (expected one of {known})")
 
     def apply(self, rig: Rig) -> None:
-        """Make it happen."""
+        """Inject the fault."""
         FAULTS[self.kind].apply(rig, self.node, self.value)
 
 
 def parse_fault(spec: str) -> Injection:
-    """Read ``KIND[:node][@time_s][=value]``.
+    """Parse ``KIND[:node][@time_s][=value]``.
 
     Raises
     ------
     InputError
-        Not of this form, or no such kind.
+        The text has another form, or the kind is unknown.
     """
     match = SPEC.fullmatch(spec)
     if match is None:
@@ -193,7 +211,7 @@ def parse_fault(spec: str) -> Injection:
     if kind is None:
         raise InputError(f"--fault {spec}: no fault {match['kind']} (expected one of {', '.join(FAULTS)})")
     if (match["node"] is None) != (kind.on in WITHOUT_NODE):
-        wanted = f"no node, it is the {kind.on}'s" if kind.on in WITHOUT_NODE else f"a node, {match['kind']}:NODE"
+        wanted = f"no node, a fault of the {kind.on}" if kind.on in WITHOUT_NODE else f"a node, {match['kind']}:NODE"
         raise InputError(f"--fault {spec}: expected {wanted}")
     return Injection(
         match["kind"],
@@ -208,4 +226,4 @@ def _number(spec: str, text: str) -> float:
     try:
         return float(int(text, 16)) if text.lower().startswith("0x") else float(text)
     except ValueError:
-        raise InputError(f"--fault {spec}: {text} is not a number") from None
+        raise InputError(f"--fault {spec}: {text} cannot be parsed (expected a number)") from None

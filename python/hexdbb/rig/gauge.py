@@ -1,8 +1,8 @@
 """The CiA 404 length gauge of the ball bar.
 
-Model: reading = true length minus nominal length plus noise, rounded to the resolution, in micrometres; outside the
-measuring range the value is clamped and the status says so. Object 2100h tells which set-up the operator has mounted;
-without one there is nothing to read.
+Model: reading = true length minus nominal length plus noise, rounded to the resolution, in µm. Outside the measuring
+range the value is clamped and the status reports it. Object 2100h holds the set-up that the operator has mounted;
+without a set-up the reading is not valid.
 Source: CiA 404 (6130h, 6131h, 6132h, 6150h, 9130h); CiA 303-2 for the unit.
 """
 
@@ -24,7 +24,19 @@ NOT_VALID, POSITIVE_OVERLOAD, NEGATIVE_OVERLOAD = 1, 2, 4
 
 @dataclass(frozen=True)
 class GaugeSetup:
-    """Properties of the gauge itself."""
+    """Properties of the gauge itself.
+
+    Attributes
+    ----------
+    noise_um : float
+        Standard deviation of one reading, µm.
+    resolution_um : float
+        Step of the reading, µm; 0 for none.
+    range_um : float
+        Measuring range to either side, µm.
+    seed : int
+        Seed of the noise.
+    """
 
     noise_um: float
     resolution_um: float
@@ -33,12 +45,25 @@ class GaugeSetup:
 
 
 class GaugeNode(Node):
-    """The gauge on the bus; see `Node` for the parameters not named here.
+    """The gauge on the bus; the parameters not named here are those of `Node`.
 
     Parameters
     ----------
     setup : GaugeSetup
-        Noise, resolution, range, seed of the noise.
+        Noise, resolution and range.
+
+    Attributes
+    ----------
+    true_reading_um : float or None
+        Length minus nominal length at this SYNC, µm; None without a bar. Set by the rig.
+    mounted : Mounted or None
+        The set-up written to 2100h.
+    moving : bool
+        Whether any drive moves; selects the noise sequence.
+    frozen, broken : bool
+        Injected faults.
+    offset_um : float
+        Injected offset of the reading, µm.
     """
 
     device_name = b"simulated CiA 404 ball bar gauge"
@@ -62,7 +87,7 @@ class GaugeNode(Node):
         super().__init__(node_id, eds, send, stall_tolerance_s)
 
     def on_power_up(self) -> None:
-        """Nothing is mounted; the noise starts from its seed."""
+        """Start without a set-up and with the noise at its seed."""
         entry = self.dictionary.entry
         self.mounted: Mounted | None = None
         self._set_ups = 0
@@ -81,16 +106,16 @@ class GaugeNode(Node):
         self._restart_noise()
 
     def _restart_noise(self) -> None:
-        """Give every announcement of a set-up noise of its own, one sequence at rest and one in motion.
+        """Start new noise for a set-up: one sequence at rest and one in motion.
 
-        So the samples of a path do not depend on the number of cycles spent waiting before it, and no two paths share
-        theirs.
+        The samples of a path then do not depend on the number of cycles spent waiting before it, and no two paths share
+        their noise.
         """
         self._noise = [np.random.default_rng([self.setup.seed, self._set_ups, moving]) for moving in (0, 1)]
         self._set_ups += 1
 
     def on_sample(self) -> None:
-        """Write reading and status of this instant."""
+        """Write reading (6130h) and status (6150h) of this SYNC."""
         if self.frozen:
             return
         if self.true_reading_um is None or self.broken:

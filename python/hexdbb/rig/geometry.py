@@ -1,11 +1,11 @@
-"""The true machine's points: guideways, joints and leg lengths under geometric errors, as exact point transforms.
+"""Points of the true machine: guideways, joints and leg lengths with geometric errors, as exact point transforms.
 
 Model: a guideway is a line of slider joint centres. In the guideway's local axes (x outward from the base centre, y
 towards the vertex V_i, z up, origin at its midpoint) its points are (0, sqrt(3) BR - s, 0). Errors move them in this
 order: rotation about local z (xy), rotation about local x (yz), both through the midpoint; rotation about z through
 the base centre; translation in local axes. The joint triangle gets its three true sides, keeps its centroid, and is
 turned in its plane so that it fits the nominal triangle best (Procrustes).
-Source: thesis section 3.2, transforms instead of its linearised equations.
+Source: thesis section 3.2, with exact transforms instead of its linearised equations.
 Units: mm, rad. Frames: base frame for guideways, platform frame for joints.
 """
 
@@ -23,28 +23,29 @@ from hexdbb.machine import MachineFile
 Array = NDArray[np.float64]
 SQRT3 = math.sqrt(3.0)
 STANDARD_GRAVITY_M_S2 = 9.80665
+"""Standard acceleration of free fall (3rd CGPM, 1901)."""
 
 
 def rotation_x(angle_rad: float) -> Array:
-    """Rotation about x, shape (3, 3)."""
+    """Return the rotation matrix about x, shape (3, 3)."""
     c, s = math.cos(angle_rad), math.sin(angle_rad)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def rotation_y(angle_rad: float) -> Array:
-    """Rotation about y, shape (3, 3)."""
+    """Return the rotation matrix about y, shape (3, 3)."""
     c, s = math.cos(angle_rad), math.sin(angle_rad)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
 def rotation_z(angle_rad: float) -> Array:
-    """Rotation about z, shape (3, 3)."""
+    """Return the rotation matrix about z, shape (3, 3)."""
     c, s = math.cos(angle_rad), math.sin(angle_rad)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def rotation_rpy(roll_rad: float, pitch_rad: float, yaw_rad: float) -> Array:
-    """R = Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3)."""
+    """Return R = Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3)."""
     return rotation_z(yaw_rad) @ rotation_y(pitch_rad) @ rotation_x(roll_rad)
 
 
@@ -54,7 +55,7 @@ def _zeros(*shape: int) -> Array:
 
 @dataclass(frozen=True)
 class GeometryErrors:
-    """The 33 error parameters; mm and rad, zero where not given."""
+    """The 33 geometric error parameters, mm and rad; those not given are zero."""
 
     leg_length_mm: Array = field(default_factory=lambda: _zeros(6))
     slider_offset_mm: Array = field(default_factory=lambda: _zeros(6))
@@ -64,25 +65,25 @@ class GeometryErrors:
     guideway_rotation_yz_rad: Array = field(default_factory=lambda: _zeros(3))
     guideway_rotation_centre_rad: Array = field(default_factory=lambda: _zeros(3))
     platform_side_mm: Array = field(default_factory=lambda: _zeros(3))
-    """|Q1Q2|, |Q2Q3|, |Q3Q1| longer by this."""
+    """Added to |Q1Q2|, |Q2Q3|, |Q3Q1|."""
 
 
 @dataclass(frozen=True)
 class TrueGeometry:
-    """Points of a machine.
+    """Points of the true machine.
 
     Attributes
     ----------
     anchors_mm : (6, 3) array
-        Where slider joint k stands at slider coordinate 0, base frame (slider offset included).
+        Joint of slider k at slider coordinate 0, base frame, slider offset included.
     directions : (6, 3) array
-        Unit vectors of growing slider coordinate.
+        Unit vectors of increasing slider coordinate, base frame.
     lengths_mm : (6,) array
         Distance between the joints of leg k.
     joints_mm : (6, 3) array
         Ball joint at the platform end of leg k, platform frame.
     weight_n : float
-        Of platform and tool, at the platform's reference point.
+        Weight of platform and tool, acting at the platform's reference point, N.
     """
 
     anchors_mm: Array
@@ -92,11 +93,23 @@ class TrueGeometry:
     weight_n: float
 
     def slider_joints_mm(self, sliders_mm: Array) -> Array:
-        """Slider joint centres, shape (..., 6, 3), for slider coordinates of shape (..., 6)."""
+        """Return slider joint centres in the base frame, mm, shape (..., 6, 3), of slider coordinates, mm, (..., 6)."""
         return self.anchors_mm + sliders_mm[..., None] * self.directions
 
     def sliders_for(self, position_mm: Array, rotation: Array) -> Array:
-        """Slider coordinates that hold poses of shapes (..., 3) and (..., 3, 3), shape (..., 6).
+        """Compute the slider coordinates of poses.
+
+        Parameters
+        ----------
+        position_mm : numpy.ndarray
+            Platform positions in the base frame, mm, shape (..., 3).
+        rotation : numpy.ndarray
+            Platform rotations, shape (..., 3, 3).
+
+        Returns
+        -------
+        numpy.ndarray
+            Slider coordinates, mm, shape (..., 6).
 
         Raises
         ------
@@ -116,7 +129,15 @@ class TrueGeometry:
 
 
 def true_geometry(machine: MachineFile, errors: GeometryErrors | None = None) -> TrueGeometry:
-    """Apply errors to a nominal machine."""
+    """Compute the points of a machine with geometric errors.
+
+    Parameters
+    ----------
+    machine : MachineFile
+        Nominal machine.
+    errors : GeometryErrors, optional
+        Zero if not given.
+    """
     errors = errors if errors is not None else GeometryErrors()
     anchors, directions = np.empty((6, 3)), np.empty((6, 3))
     for i in range(3):
@@ -134,7 +155,7 @@ def true_geometry(machine: MachineFile, errors: GeometryErrors | None = None) ->
 
 
 def _guideway(inradius_mm: float, i: int, errors: GeometryErrors) -> tuple[Array, Array]:
-    """Point at slider coordinate 0 and direction of guideway i (0 to 2), base frame."""
+    """Return the point at slider coordinate 0 and the direction of guideway i (0 to 2), base frame."""
     local_to_base = rotation_z(2.0 * math.pi / 3.0 * i)
     turn = rotation_x(errors.guideway_rotation_yz_rad[i]) @ rotation_z(errors.guideway_rotation_xy_rad[i])
     swing = rotation_z(errors.guideway_rotation_centre_rad[i])
@@ -144,7 +165,7 @@ def _guideway(inradius_mm: float, i: int, errors: GeometryErrors) -> tuple[Array
 
 
 def _joint_triangle(machine: MachineFile, longer_mm: Array) -> Array:
-    """Ball joints Q1, Q2, Q3 in the platform frame, shape (3, 3)."""
+    """Return the ball joints Q1, Q2, Q3 in the platform frame, mm, shape (3, 3)."""
     radius, height = machine.platform.circumradius_mm, machine.platform.joint_plane_height_mm
     angles = 2.0 * math.pi / 3.0 * np.arange(3)
     nominal = radius * np.column_stack([np.cos(angles), np.sin(angles)])

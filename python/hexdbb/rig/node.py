@@ -1,9 +1,9 @@
 """A CANopen node: NMT state machine, boot-up, heartbeats, SDO server, synchronous PDOs, EMCY.
 
-Model: frames come in through `handle`, `on_sync` and `heard_heartbeat`, go out through the bus callback. Process data
-live in SYNC time; heartbeats and RPDO deadlines live in wall-clock time, as on a real bus.
+Model: frames arrive through the methods `handle_...` and leave through the bus callback; a SYNC is `sample`, then
+`apply`. Process data run in SYNC time; heartbeats and RPDO deadlines run in wall-clock time, as on a real bus.
 Assumption: predefined connection set, 11-bit identifiers, one SDO server.
-Source: CiA 301.
+Source: CiA 301 (NMT, heartbeat 1016h and 1017h, SDO, PDO, EMCY 1001h and 1003h, error behaviour 1029h).
 """
 
 from __future__ import annotations
@@ -23,9 +23,11 @@ from hexdbb.rig.pdo import MAX_SYNC_TYPE, Pdo
 log = logging.getLogger(__name__)
 
 Send = Callable[[int, bytes], None]
+"""Puts a frame (identifier, data) on the bus."""
 
 ERROR_HEARTBEAT, ERROR_RPDO_TIMEOUT, ERROR_PDO_LENGTH = 0x8130, 0x8250, 0x8210
-GENERIC, CURRENT, VOLTAGE, COMMUNICATION, PROFILE = 0x01, 0x02, 0x04, 0x10, 0x20
+"""EMCY error codes."""
+GENERIC, CURRENT, COMMUNICATION, PROFILE = 0x01, 0x02, 0x10, 0x20
 """Bits of the error register 1001h."""
 
 
@@ -39,13 +41,15 @@ class NmtState(IntEnum):
 
 
 NMT_COMMANDS = {0x01: NmtState.OPERATIONAL, 0x02: NmtState.STOPPED, 0x80: NmtState.PRE_OPERATIONAL}
+"""NMT command specifiers and the states they lead to."""
 NMT_RESETS = (0x81, 0x82)
+"""Reset node, reset communication."""
 ERROR_BEHAVIOUR = {0: NmtState.PRE_OPERATIONAL, 2: NmtState.STOPPED}
-"""Object 1029h:01, what a communication error leads to; 1 is no change."""
+"""Object 1029h:01: state after a communication error; 1 is no change."""
 
 
 class _SdoOwner:
-    """What canopen's SDO server needs of its node, over our dictionary."""
+    """The interface that canopen's SDO server needs of its node, over our dictionary."""
 
     def __init__(self, dictionary: Dictionary) -> None:
         self.dictionary, self.object_dictionary = dictionary, dictionary.od
@@ -58,7 +62,7 @@ class _SdoOwner:
 
 
 class _SdoNetwork:
-    """What canopen's SDO server needs of its network."""
+    """The interface that canopen's SDO server needs of its network."""
 
     def __init__(self, send: Send) -> None:
         self._send = send
@@ -68,7 +72,7 @@ class _SdoNetwork:
 
 
 class Node:
-    """One device on the bus; drive and gauge add their application by overriding the hooks at the end.
+    """One device on the bus; drive and gauge override the hooks at the end of the class.
 
     Parameters
     ----------
@@ -77,15 +81,26 @@ class Node:
     eds : Path
         Its EDS file.
     send : callable
-        Puts a frame (identifier, data) on the bus.
+        Called with identifier and data of a frame to be sent.
     stall_tolerance_s : float
-        Added to every wall-clock supervision time: a desktop kernel may hold a controller up for longer than a
-        real-time one would.
+        Added to every timeout in wall-clock time, s, because a desktop kernel may stall a controller for longer than a
+        real-time kernel would.
+
+    Attributes
+    ----------
+    present : bool
+        Whether the node is on the bus.
+    muted_tpdo_cycles : int
+        TPDOs still to be suppressed by an injected fault.
+    muted_heartbeat : bool
+        Whether an injected fault suppresses heartbeats.
+    on_routes_changed : callable
+        Called when an RPDO identifier has changed.
     """
 
     device_name = b"simulated node"
     required: tuple[Key, ...] = ((0x1000, 0), (0x1800, 1), (0x1A00, 0))
-    """Objects its EDS must have."""
+    """Objects that the EDS must have."""
     assumed: ClassVar[dict[Key, int]] = {
         (0x1001, 0): 0,
         (0x1006, 0): 0,
@@ -96,7 +111,7 @@ class Node:
         (0x1029, 1): 0,
         **{(0x1003, subindex): 0 for subindex in range(5)},
     }
-    """What it works with where its EDS lacks an object."""
+    """Values used for objects that the EDS lacks."""
 
     def __init__(self, node_id: int, eds: Path, send: Send, stall_tolerance_s: float = 0.0) -> None:
         self.node_id = node_id
@@ -108,11 +123,11 @@ class Node:
         self._power_up()
 
     def _power_up(self) -> None:
-        """Set everything to its power-on state (also NMT reset)."""
+        """Set everything to its state at power-on (also after an NMT reset)."""
         self.dictionary = Dictionary(self._eds, self.node_id, self.required, self.assumed)
         self.dictionary.entry(0x1008).value = self.device_name
         self.dictionary.entry(0x1018, 4).value = self.node_id
-        self.dictionary.hooks[0x1016, 1] = self._watch_heartbeat
+        self.dictionary.hooks[0x1016, 1] = self._restart_heartbeat_consumer
         self.nmt_state = NmtState.PRE_OPERATIONAL
         self._sdo = SdoServer(
             SDO_REQUEST_BASE + self.node_id, SDO_RESPONSE_BASE + self.node_id, _SdoOwner(self.dictionary)
@@ -139,18 +154,18 @@ class Node:
         )
 
     def send(self, cob_id: int, data: bytes) -> None:
-        """Put a frame on the bus, unless the node is not there."""
+        """Send a frame, if the node is on the bus."""
         if self.present:
             self._bus(cob_id, data)
 
     def boot(self) -> None:
-        """Reset and announce the node."""
+        """Reset the node and send its boot-up message."""
         self._power_up()
         self.on_routes_changed()
         self.send(HEARTBEAT_BASE + self.node_id, bytes([NmtState.BOOT_UP]))
 
     def handle_nmt(self, command: int) -> None:
-        """Obey an NMT command addressed to this node or to all."""
+        """Execute an NMT command (its specifier) addressed to this node or to all."""
         if not self.present:
             return
         if command in NMT_RESETS:
@@ -159,7 +174,7 @@ class Node:
             self.change_nmt_state(NMT_COMMANDS[command])
 
     def change_nmt_state(self, state: NmtState) -> None:
-        """Enter an NMT state; leaving operational is a lost connection for the application."""
+        """Enter an NMT state; for the application, leaving operational is a lost connection."""
         left_operational = self.nmt_state is NmtState.OPERATIONAL and state is not NmtState.OPERATIONAL
         self.nmt_state = state
         self._rpdo_seen_s = None
@@ -167,13 +182,13 @@ class Node:
             self.on_connection_lost(f"NMT state {state.name.lower().replace('_', '-')}")
 
     def handle_sdo(self, data: bytes) -> None:
-        """Answer an SDO request."""
+        """Answer an SDO request of 8 bytes."""
         if self.present and self.nmt_state is not NmtState.STOPPED and len(data) == 8:
             self.refresh()
             self._sdo.on_request(SDO_REQUEST_BASE + self.node_id, data, 0.0)
 
     def handle_rpdo(self, data: bytes, now_s: float) -> None:
-        """Take a received PDO: synchronous ones wait for the SYNC."""
+        """Receive a PDO at monotonic time `now_s`; a synchronous one takes effect at the SYNC."""
         if self.rpdo is None or self.nmt_state is not NmtState.OPERATIONAL or not self.present:
             return
         if len(data) < self.rpdo.size:
@@ -186,7 +201,7 @@ class Node:
             self.rpdo.unpack(data)
 
     def sample(self) -> None:
-        """First half of a SYNC: send the synchronous TPDO with the values of this instant."""
+        """Run the first half of a SYNC: send the synchronous TPDO with the present values."""
         if self.nmt_state is not NmtState.OPERATIONAL or not self.present:
             return
         self.on_sample()
@@ -198,23 +213,23 @@ class Node:
             self._bus(self.tpdo.cob_id, self.tpdo.pack())
 
     def apply(self, dt_s: float) -> None:
-        """Second half of a SYNC: act on the last RPDO for the coming cycle of `dt_s`."""
+        """Run the second half of a SYNC: take over the last RPDO for the coming cycle of `dt_s` seconds."""
         if self._latched is not None and self.rpdo is not None:
             self.rpdo.unpack(self._latched)
             self._latched = None
         self._rpdo_age_s += dt_s
         self.on_cycle(dt_s)
 
-    def _watch_heartbeat(self, value: object) -> None:
+    def _restart_heartbeat_consumer(self, value: object) -> None:
         self._heartbeat_seen_s = None  # monitoring starts with the first heartbeat received after configuration
 
-    def heard_heartbeat(self, producer: int, now_s: float) -> None:
-        """Note a heartbeat of another node."""
+    def handle_heartbeat(self, producer: int, now_s: float) -> None:
+        """Receive a heartbeat of node `producer` at monotonic time `now_s`."""
         if self.dictionary.number(0x1016, 1) >> 16 & 0x7F == producer:
             self._heartbeat_seen_s = now_s
 
     def poll(self, now_s: float) -> None:
-        """Do what wall-clock time asks for: own heartbeat, watched heartbeat, RPDO deadline."""
+        """Run everything that depends on wall-clock time: own heartbeat, heartbeat consumer, RPDO deadline."""
         if not self.present:
             return
         period_s = self.dictionary.number(0x1017) / 1000.0
@@ -237,7 +252,7 @@ class Node:
             self.lose_connection(ERROR_RPDO_TIMEOUT, "RPDO timed out")
 
     def lose_connection(self, error: int, reason: str) -> None:
-        """React to a controller that has gone: EMCY, application's reaction, NMT state by 1029h."""
+        """React to the loss of the controller: EMCY, reaction of the application, NMT state by 1029h."""
         self._heartbeat_seen_s = self._rpdo_seen_s = None
         self.emergency(error, COMMUNICATION)
         self.on_connection_lost(reason)
@@ -246,7 +261,7 @@ class Node:
             self.nmt_state = behaviour
 
     def emergency(self, code: int, register: int = GENERIC) -> None:
-        """Send an EMCY, enter it in the error field 1003h; code 0 clears the error register."""
+        """Send an EMCY and enter it in the error field 1003h; code 0 clears the error register."""
         entry = self.dictionary.entry(0x1001)
         entry.value = int(entry.value) | register | GENERIC if code else 0
         if code:
@@ -260,16 +275,16 @@ class Node:
             self.send(EMCY_BASE + self.node_id, code.to_bytes(2, "little") + bytes([int(entry.value)]) + bytes(5))
 
     def on_power_up(self) -> None:
-        """Set up the application after the dictionary has its defaults."""
+        """Initialise the application; the dictionary has its defaults."""
 
     def refresh(self) -> None:
-        """Bring the dictionary up to date for a reader between SYNCs."""
+        """Update the dictionary for an SDO request between SYNCs."""
 
     def on_sample(self) -> None:
-        """Write the values of this instant into the dictionary, for the TPDO."""
+        """Write the present values into the dictionary, for the TPDO."""
 
     def on_cycle(self, dt_s: float) -> None:
-        """Advance the application by one cycle."""
+        """Advance the application by one cycle of `dt_s` seconds."""
 
     def on_connection_lost(self, reason: str) -> None:
         """React to the loss of the controller."""

@@ -1,6 +1,6 @@
-"""PDOs of a simulated node: communication parameters, mapping, packing, and the re-mapping procedure.
+"""PDOs of a simulated node: communication parameters, mapping, packing, and the procedure to change a mapping.
 
-Model: a PDO is the struct of its mapped entries, rebuilt whenever its parameters change.
+Model: a PDO is a struct of its mapped entries, rebuilt whenever its parameters change.
 Source: CiA 301, objects 1400h, 1600h, 1800h, 1A00h; dummy entries 0001h-0007h for RPDOs.
 """
 
@@ -23,10 +23,11 @@ from hexdbb.rig.dictionary import (
 )
 
 NOT_VALID = 1 << 31
-RTR_NOT_ALLOWED = 1 << 30
+"""Bit 31 of a COB-ID: the PDO is disabled."""
 MAX_SYNC_TYPE = 240
+"""Largest synchronous transmission type."""
 DUMMY_PAD = {2: "b", 3: "h", 4: "i", 5: "B", 6: "H", 7: "I"}
-"""Dummy entries an RPDO may skip bytes with, by index (CiA 301: the index is that of the data type)."""
+"""struct code of the dummy entries with which an RPDO skips bytes; the index is that of the data type (CiA 301)."""
 
 
 class Pdo:
@@ -35,13 +36,13 @@ class Pdo:
     Parameters
     ----------
     dictionary : Dictionary
-        The node's dictionary; write hooks for the PDO's objects are put into it.
+        The node's dictionary; write hooks for the objects of the PDO are added to it.
     communication, mapping : int
         Indices of the communication and mapping records.
     receive : bool
-        RPDO or TPDO.
+        Whether it is an RPDO.
     may_change : callable
-        Says whether NMT permits a change now.
+        Returns whether the NMT state permits a change.
     on_change : callable
         Called after every change of identifier or mapping.
     """
@@ -56,7 +57,7 @@ class Pdo:
         may_change: Callable[[], bool],
         on_change: Callable[[], None],
     ) -> None:
-        self._dictionary, self._communication, self._mapping = dictionary, communication, mapping
+        self._dictionary, self._mapping = dictionary, mapping
         self._receive, self._may_change, self._on_change = receive, may_change, on_change
         self.cob_id = 0
         self.valid = False
@@ -77,7 +78,7 @@ class Pdo:
         return self._codec.size
 
     def pack(self) -> bytes:
-        """Give the frame's data from the mapped entries' values."""
+        """Return the data of the frame, packed from the values of the mapped entries."""
         return self._codec.pack(*[entry.value for entry in self.entries if entry is not None])
 
     def unpack(self, data: bytes) -> None:

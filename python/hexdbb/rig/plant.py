@@ -1,10 +1,10 @@
-"""The true machine: from where the drives stand to what the ball bar reads, stepped in time.
+"""The true machine: from drive positions to ball-bar readings, stepped in time.
 
-Model: y = (1 + gain) (|p + R ball - cup| - (L0 + bar length error)) + what is added to the reading, with p, R from the
-pose solver under the true geometry, displaced by mechanisms; ball and cup are the nominal set-up plus its errors. Where
-legs give way, pose and leg forces are brought into balance.
-`Machine` computes any number of instants at once and keeps no state but that of its mechanisms; `Plant` leads it cycle
-by cycle, as the rig's clock does. Both give the same readings.
+Model: y = (1 + gain) (|p + R ball - cup| - (L0 + bar length error)) + reading offset, with p, R from the pose solver
+for the true geometry displaced by mechanisms; ball and cup are the nominal set-up plus its errors. With compliant legs,
+pose and leg forces are brought into equilibrium.
+`Machine` computes any number of instants at once and has no state but that of its mechanisms; `Plant` advances it cycle
+by cycle with the clock of the rig. Both give the same readings.
 Units: mm, s, N.
 """
 
@@ -23,12 +23,25 @@ from hexdbb.rig.pose_solver import Hexapod, NoPoseError, Poses, leg_forces_n, so
 Point = tuple[float, float, float]
 
 BALANCE_ROUNDS = 3
-"""Each round divides the error of sag by more than 1000 (leg over sag), so that three leave less than 1e-9 mm."""
+"""Iterations of the equilibrium. Each divides the error by leg length over sag, more than 1000: three leave less than
+1e-9 mm."""
 
 
 @dataclass(frozen=True)
 class Mounted:
-    """What the operator says is mounted, nominal: mount id, cup (base frame), ball (platform frame), bar length; mm."""
+    """The nominal set-up that the operator has mounted.
+
+    Attributes
+    ----------
+    mount : int
+        Mount id.
+    cup_mm : tuple of float
+        Cup in the base frame, mm.
+    ball_offset_mm : tuple of float
+        Ball in the platform frame, mm.
+    bar_length_mm : float
+        Nominal length of the bar, mm.
+    """
 
     mount: int
     cup_mm: Point
@@ -38,7 +51,7 @@ class Mounted:
 
 @dataclass(frozen=True)
 class SetupErrors:
-    """Errors of the set-up: cup by mount id (absent: none), ball, bar; mm."""
+    """Errors of the set-up, true minus nominal, mm: cup by mount id (a missing mount has none), ball, bar length."""
 
     cup_mm: Mapping[int, Point]
     ball_offset_mm: Point
@@ -47,7 +60,7 @@ class SetupErrors:
 
 @dataclass(frozen=True)
 class Machine:
-    """What the machine really is."""
+    """The true machine: geometry, errors of the set-up, mechanisms."""
 
     geometry: TrueGeometry
     setup_errors: SetupErrors
@@ -55,19 +68,28 @@ class Machine:
     """In the order in which they act."""
 
     def displaced(self, motion: Motion) -> Push:
-        """Take the mechanisms through a stretch of n instants."""
+        """Advance the mechanisms through a stretch of n instants; return their displacements."""
         push = Push(len(motion.time_s))
         for mechanism in self.mechanisms:
             mechanism.act(motion, push)
         return push
 
     def poses(self, drive_mm: Array, push: Push, guess: Poses) -> Poses:
-        """Find where the platform stands with drives at (n, 6) mm.
+        """Compute the poses of the platform.
+
+        Parameters
+        ----------
+        drive_mm : numpy.ndarray
+            Drive positions, mm, shape (n, 6).
+        push : Push
+            Displacements of the mechanisms at the same n instants.
+        guess : Poses
+            Start of the iteration at n instants.
 
         Raises
         ------
         RunError
-            The machine has no pose there.
+            The machine has no pose for these positions.
         """
         sliders_mm = drive_mm + push.slider_mm
         hexapod = Hexapod(
@@ -93,7 +115,22 @@ class Machine:
         return poses
 
     def reading_mm(self, mounted: Mounted, push: Push, poses: Poses) -> Array:
-        """Give the mounted bar's length minus its nominal length as the gauge shows it, before noise; (n,)."""
+        """Return length minus nominal length of the mounted bar as the gauge shows it, without noise.
+
+        Parameters
+        ----------
+        mounted : Mounted
+            The bar.
+        push : Push
+            Displacements of the mechanisms at n instants.
+        poses : Poses
+            At n instants.
+
+        Returns
+        -------
+        numpy.ndarray
+            Readings, mm, shape (n,).
+        """
         ball = np.add(mounted.ball_offset_mm, self.setup_errors.ball_offset_mm) + push.ball_mm
         cup = np.add(mounted.cup_mm, self.setup_errors.cup_mm.get(mounted.mount, (0.0, 0.0, 0.0))) + push.cup_mm
         bar = poses.position_mm + np.einsum("nij,nj->ni", poses.rotation, ball) - cup
@@ -104,14 +141,14 @@ class Machine:
 
 
 class Plant:
-    """The machine at work, cycle by cycle.
+    """The true machine, advanced cycle by cycle.
 
     Parameters
     ----------
     machine : Machine
-        What it is.
+        The true machine.
     position_mm, rotation : (3,) and (3, 3) arrays
-        Pose near which it stands at power-on.
+        Approximate pose at power-on: base frame, mm.
     """
 
     def __init__(self, machine: Machine, position_mm: Array, rotation: Array) -> None:
@@ -122,12 +159,21 @@ class Plant:
         self._before = (self._push, self.poses, 0.0)
 
     def step(self, drive_mm: Array, dt_s: float, mounted: Mounted | None = None) -> None:
-        """Advance by one cycle to drive positions `drive_mm`, shape (6,), with a bar mounted or none.
+        """Advance by one cycle.
+
+        Parameters
+        ----------
+        drive_mm : numpy.ndarray
+            Drive positions at its end, mm, shape (6,).
+        dt_s : float
+            Cycle, s.
+        mounted : Mounted, optional
+            The bar, if one is mounted.
 
         Raises
         ------
         RunError
-            The machine has no pose there.
+            The machine has no pose for these positions.
         """
         self.time_s += dt_s
         mount = mounted.mount if mounted is not None else None
@@ -137,10 +183,10 @@ class Plant:
         self.poses = self.machine.poses(motion.drive_mm, self._push, self.poses)
 
     def reading_mm(self, mounted: Mounted) -> float:
-        """Give the mounted bar's length minus its nominal length as the gauge shows it, before noise.
+        """Return length minus nominal length of the mounted bar as the gauge shows it, without noise, mm.
 
-        A gauge that is read earlier or later than the encoders is followed along the straight line through this cycle's
-        reading and the one before: what comes after this cycle has not happened yet.
+        A gauge read earlier or later than the encoders is extrapolated linearly through the readings of this cycle and
+        the one before, because the next cycle has not happened yet.
         """
         now = float(self.machine.reading_mm(mounted, self._push, self.poses)[0])
         push, poses, dt_s = self._before

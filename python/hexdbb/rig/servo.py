@@ -1,9 +1,9 @@
-"""One servo axis: a position demand, and a slider drive that follows it.
+"""One servo axis: a position demand, and a drive that follows it.
 
 Model: the demand moves linearly to each new target over the interpolation period. The position x follows the demand d
 as a first-order lag with velocity feed-forward k: tau x' = (d - x) + k tau d'. For a demand of constant velocity v the
-error e = d - x is e(t) = e_v + (e(0) - e_v) exp(-t/tau), e_v = (1 - k) tau v, which is stepped exactly: results do not
-depend on a step size.
+error e = d - x is e(t) = e_v + (e(0) - e_v) exp(-t/tau), e_v = (1 - k) tau v. Each step is exact: results do not
+depend on the step size.
 Assumption: stops (quick stop, fault reaction, power off with brake) are ramps of constant deceleration of the demand.
 Units: mm, s.
 """
@@ -13,20 +13,29 @@ from __future__ import annotations
 import math
 
 STANDSTILL_MM = 1e-4
-"""Distance from the demand below which a stopped axis stands."""
+"""Following error below which a stopped axis is at standstill, mm: one count of the shipped encoder scale."""
 
 
 class ServoAxis:
-    """Motion of one slider drive.
+    """Motion of one axis.
 
     Parameters
     ----------
     position_mm : float
-        Where it stands at power-on.
+        Position at power-on, mm.
     lag_s : float
-        Time constant tau of the position loop, greater than 0.
+        Time constant tau of the position loop, s, greater than 0.
     feedforward : float
-        Velocity feed-forward k, 0 none, 1 no lag at constant velocity.
+        Velocity feed-forward k: 0 for none, 1 for no lag at constant velocity.
+
+    Attributes
+    ----------
+    position_mm, velocity_mm_s : float
+        Position and mean velocity of the last cycle.
+    demand_mm, demand_velocity_mm_s : float
+        Position demand and its velocity.
+    jammed : bool
+        Whether an injected fault blocks the slider.
     """
 
     def __init__(self, position_mm: float, lag_s: float, feedforward: float) -> None:
@@ -38,25 +47,36 @@ class ServoAxis:
 
     @property
     def following_error_mm(self) -> float:
-        """Demand minus position."""
+        """Demand minus position, mm."""
         return self.demand_mm - self.position_mm
 
     @property
-    def standing(self) -> bool:
-        """Whether nothing moves any more."""
+    def at_standstill(self) -> bool:
+        """Whether neither demand nor slider moves."""
         return self.demand_velocity_mm_s == 0.0 and (self.jammed or abs(self.following_error_mm) < STANDSTILL_MM)
 
     def hold_here(self) -> None:
-        """Take the present position as demand: nothing jumps at the next command."""
+        """Set the demand to the present position, so that nothing jumps at the next command."""
         self.demand_mm, self.demand_velocity_mm_s = self.position_mm, 0.0
 
     def follow(self, target_mm: float, interpolation_s: float, dt_s: float, limit_mm_s: float) -> bool:
         """Move towards a target for one cycle.
 
+        Parameters
+        ----------
+        target_mm : float
+            Target position, mm.
+        interpolation_s : float
+            Interpolation period (60C2h), s; 0 or less for the cycle.
+        dt_s : float
+            Cycle, s.
+        limit_mm_s : float
+            Velocity limit (607Fh), mm/s.
+
         Returns
         -------
         bool
-            Whether the velocity limit held the demand back.
+            Whether the velocity limit was in force.
         """
         ramp_s = min(interpolation_s, dt_s) if interpolation_s > 0.0 else dt_s
         wanted_mm_s = (target_mm - self.demand_mm) / (interpolation_s if interpolation_s > 0.0 else dt_s)
@@ -72,7 +92,7 @@ class ServoAxis:
         return velocity_mm_s != wanted_mm_s
 
     def brake(self, dt_s: float, deceleration_mm_s2: float) -> None:
-        """Run the demand's velocity down for one cycle."""
+        """Decelerate the demand for one cycle of `dt_s` seconds at `deceleration_mm_s2`."""
         speed, start_mm = abs(self.demand_velocity_mm_s), self.position_mm
         ramp_s = min(dt_s, speed / deceleration_mm_s2)
         if ramp_s > 0.0:
@@ -86,7 +106,7 @@ class ServoAxis:
         self.velocity_mm_s = (self.position_mm - start_mm) / dt_s
 
     def _advance(self, velocity_mm_s: float, dt_s: float) -> None:
-        """Step the lag exactly for a demand of constant velocity."""
+        """Advance the lag exactly, for a demand of constant velocity."""
         steady_mm = (1.0 - self._feedforward) * self._lag_s * velocity_mm_s
         error_mm = steady_mm + (self.following_error_mm - steady_mm) * math.exp(-dt_s / self._lag_s)
         self.demand_mm += velocity_mm_s * dt_s

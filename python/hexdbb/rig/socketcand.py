@@ -1,11 +1,11 @@
 """A CAN bus served as socketcand over TCP on the loopback interface.
 
-Model: clients speak socketcand's text protocol in raw mode; what one client sends, the rig and all other clients
-receive; what the rig sends, all clients receive. Frames of one burst leave in one segment, so that clients do not see
-them torn.
+Model: clients use the text protocol of socketcand in raw mode. A frame of one client reaches the rig and all other
+clients; a frame of the rig reaches all clients. The frames of one burst leave in one segment, so that clients do not
+receive parts of a frame.
 Assumption: trusted local clients; 11-bit data frames only.
 Source: socketcand protocol description (github.com/linux-can/socketcand); python-can's client expects `< hi >` and
-each `< ok >` in a read of its own, which holds because nothing is sent to a client before its answers.
+each `< ok >` in a read of its own, which holds because nothing else is sent to a client before these answers.
 """
 
 from __future__ import annotations
@@ -22,11 +22,14 @@ from hexdbb.rig.frame import Frame
 log = logging.getLogger(__name__)
 
 POLL_S = 0.002
+"""Time between two polls with a client, s: half a cycle at 250 Hz, short against every timeout of the nodes."""
 RECEIVE_BYTES = 65536
 LONGEST_MESSAGE = 200
+"""Bytes without an end of message after which a client is disconnected; a frame message has less than 60."""
 SETTLE_S = 0.02
-"""Silence after the handshake: python-can expects its last answer in a read of its own."""
+"""Silence after the handshake, s, because python-can expects the last `< ok >` in a read of its own."""
 IDLE_S = 0.1
+"""Time between two polls without a client, s."""
 
 
 class _Client:
@@ -38,13 +41,13 @@ class _Client:
         self.raw_since_s: float | None = None
 
     @property
-    def hears(self) -> bool:
-        """Whether frames may be sent to it: once it has spoken or some time has passed, not glued to the handshake."""
+    def may_receive(self) -> bool:
+        """Whether frames may be sent to it: after its first frame or `SETTLE_S`, apart from the handshake."""
         return self.raw_since_s is not None and time.monotonic() - self.raw_since_s > SETTLE_S
 
 
 class SocketcandServer:
-    """Serves one bus.
+    """Server of one bus.
 
     Parameters
     ----------
@@ -55,7 +58,7 @@ class SocketcandServer:
     on_poll : callable
         Called with the monotonic time every few milliseconds.
     on_last_client_gone : callable
-        Called when nobody is connected any more.
+        Called when the last client has disconnected.
 
     Raises
     ------
@@ -86,21 +89,21 @@ class SocketcandServer:
 
     @property
     def port(self) -> int:
-        """The port it listens on."""
+        """The TCP port it listens on."""
         return int(self._listener.getsockname()[1])
 
     def stop(self) -> None:
-        """Make `serve` return; may be called from a signal handler or a callback."""
+        """End `serve`; may be called from a signal handler or a callback."""
         self._running = False
 
     def stop_when_alone(self) -> None:
-        """Make `serve` return once no client is connected; asked twice, at once."""
+        """End `serve` when no client is connected; at once if called twice."""
         if self._ending or not self._clients:
             self.stop()
         self._ending = True
 
     def serve(self) -> None:
-        """Serve until told to stop."""
+        """Serve until stopped."""
         next_poll_s = 0.0
         while self._running:
             for key, _ in self._selector.select(POLL_S if self._clients else IDLE_S):
@@ -123,16 +126,16 @@ class SocketcandServer:
         self._selector.close()
 
     def transmit(self, frames: list[Frame]) -> None:
-        """Send frames to all clients, in one piece."""
+        """Send frames to all clients, in one segment."""
         self._broadcast(frames, None)
 
     def disconnect_all(self) -> None:
-        """Break all connections; new clients may come."""
+        """Break all connections; new clients are accepted."""
         for client in list(self._clients.values()):
             self._drop(client)
 
     def _broadcast(self, frames: list[Frame], but: _Client | None) -> None:
-        listening = [client for client in self._clients.values() if client.hears and client is not but]
+        listening = [client for client in self._clients.values() if client.may_receive and client is not but]
         if listening:
             stamp = f"{time.time():.6f}"
             text = "".join(f"< frame {cob_id:03X} {stamp} {data.hex().upper()} >" for cob_id, data in frames).encode()

@@ -1,9 +1,9 @@
-"""The truth file: what the simulated rig really is; and the seeded random machine hidden in it where no file is given.
+"""The truth file: the errors of the simulated machine; and the seeded random machine used if no file is given.
 
-Model: TOML of schema ``hexdbb.truth/1`` in um, urad, s and deg, converted once to the core's mm and rad. Error
-parameters carry the names and signs of the effects they belong to; what is left out is zero.
-Source: sizes of the random machine as assumed for a machine tool of this size: joints, guideways and offsets 50 um,
-rotations 0.2 mrad, platform sides 30 um, cup 0.1 mm (one standard deviation each).
+Model: TOML of schema ``hexdbb.truth/1`` in µm, µrad, s and degrees, converted once to mm and rad. Error parameters have
+the names and signs of the effects they belong to; those left out are zero.
+Assumption: sizes of the random machine are those expected of a machine tool of this size: joints, guideways and offsets
+50 µm, rotations 0.2 mrad, platform sides 30 µm, cup 0.1 mm (one standard deviation each).
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from pydantic import (
     model_validator,
 )
 
+from hexdbb.files.validation import BadValueError, FileModel, NotNegative, Number, Positive, StrictModel, Vector3
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array, GeometryErrors, true_geometry
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
 from hexdbb.rig.plant import Machine, Point, SetupErrors
-from hexdbb.validation import BadValueError, FileModel, NotNegative, Number, Positive, StrictModel, Vector3
 
 Vector6 = Annotated[tuple[Number, Number, Number, Number, Number, Number], Field(strict=False)]
 Matrix3 = Annotated[tuple[Vector3, Vector3, Vector3], Field(strict=False)]
 ZERO3, ZERO6 = (0.0,) * 3, (0.0,) * 6
 
 RANDOM_MOUNTS = 8
-"""Fixings of the cup for which a random machine has an error of its own."""
+"""Mounts for which a random machine has a cup error of its own: the shipped plans use one, proposed plans a few."""
 RANDOM_SEED = 1
-"""Seed of the machine hidden in the rig when neither file nor seed is given."""
+"""Seed of the random machine if neither file nor seed is given."""
 
 
 class Geometry(StrictModel):
@@ -50,7 +50,7 @@ class Geometry(StrictModel):
     platform_side_um: Vector3 = ZERO3
 
     def errors(self) -> GeometryErrors:
-        """Give the parameters in mm and rad."""
+        """Return the parameters in mm and rad."""
         return GeometryErrors(
             leg_length_mm=_scaled(self.leg_length_um, 1e-3),
             slider_offset_mm=_scaled(self.slider_offset_um, 1e-3),
@@ -63,7 +63,7 @@ class Geometry(StrictModel):
 
 
 class Setup(StrictModel):
-    """Errors of the set-up: true minus nominal."""
+    """Errors of the set-up, true minus nominal."""
 
     cup_error_um: Annotated[tuple[Vector3, ...], Field(strict=False)] = ()
     """One per mount, in order of mount id; a mount beyond the list has none."""
@@ -71,7 +71,7 @@ class Setup(StrictModel):
     bar_length_error_um: Number = 0.0
 
     def errors(self) -> SetupErrors:
-        """Give the errors in mm."""
+        """Return the errors in mm."""
         return SetupErrors(
             cup_mm={mount: _point(error) for mount, error in enumerate(self.cup_error_um)},
             ball_offset_mm=_point(self.ball_offset_error_um),
@@ -80,7 +80,7 @@ class Setup(StrictModel):
 
 
 class GaugeTruth(StrictModel):
-    """The gauge."""
+    """Noise, resolution and range of the gauge."""
 
     noise_um: NotNegative = 0.5
     resolution_um: NotNegative = 0.1
@@ -95,28 +95,28 @@ class DriveTruth(StrictModel):
 
 
 class Start(StrictModel):
-    """Nominal pose in which the machine stands at power-on; below the thesis' circle, so that no bar is mounted yet."""
+    """Nominal pose at power-on; below the circle of the thesis, where no bar is mounted yet."""
 
     position_mm: Vector3 = (0.0, 0.0, 260.0)
     rpy_deg: Vector3 = ZERO3
 
 
 class TruthFile(FileModel):
-    """A truth file, validated."""
+    """A validated truth file."""
 
     schema_id: Literal["hexdbb.truth/1"] = Field(default="hexdbb.truth/1", alias="schema")
     seed: Annotated[int, Field(ge=0)] = RANDOM_SEED
-    """Of the gauge's noise."""
+    """Seed of the gauge's noise."""
     geometry: Geometry = Geometry()
     setup: Setup = Setup()
     gauge: GaugeTruth = GaugeTruth()
     drive: DriveTruth = DriveTruth()
     start: Start = Start()
     mechanism: Annotated[tuple[SerializeAsAny[MechanismTable], ...], Field(strict=False)] = ()
-    """In the order in which they act."""
+    """Mechanisms in the order in which they act."""
 
     def true_machine(self, machine: MachineFile) -> Machine:
-        """Give the machine that this truth makes of a nominal one, its mechanisms at rest."""
+        """Return the true machine of a nominal one, with its mechanisms at rest."""
         return Machine(
             true_geometry(machine, self.geometry.errors()),
             self.setup.errors(),
@@ -125,7 +125,7 @@ class TruthFile(FileModel):
 
     @model_serializer(mode="wrap")
     def _without_empty_list(self, to_dict: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """Leave out an empty list: `[[mechanism]]` can then be appended to the file."""
+        """Leave out an empty list, so that `[[mechanism]]` can be appended to the file."""
         return {key: value for key, value in to_dict(self).items() if key != "mechanism" or value}
 
     @model_validator(mode="before")
@@ -137,7 +137,7 @@ class TruthFile(FileModel):
 
 
 def random_truth(seed: int) -> TruthFile:
-    """Make up a machine; the same seed gives the same machine."""
+    """Return a random machine; equal seeds give equal machines."""
     draw = np.random.default_rng(seed)
 
     def some(sigma: float, *shape: int) -> Any:

@@ -1,7 +1,7 @@
-"""A plan's circles as a table of slider targets, one row per SYNC, computed and checked before anything moves.
+"""Cyclic table of slider targets for a plan, one row per SYNC, computed and checked before anything moves.
 
-Feed-in, overshoot, capture laps, overshoot, retract; limits on velocity, acceleration and jerk of every slider. The
-time law is ruckig's, the kinematics the engine's; `Targets` says where the sliders go for a pose.
+A sweep is feed-in, overshoot, captured laps, overshoot, retract, within velocity, acceleration and jerk limits of every
+slider. Time laws are computed by ruckig, kinematics by the engine; `Targets` maps poses to slider targets.
 """
 
 from hexdbb.trajectory.approach import approach

@@ -1,9 +1,9 @@
-"""The way from where the sliders stand to where a programme begins.
+"""Approach: the path from the sliders' actual positions to the beginning of a programme.
 
-Model: straight in position and in roll, pitch and yaw, at rest at both ends, every pose checked. It begins with the
-pose that would have brought the sliders to where they stand, compensation included, so that nothing jumps, and ends
-with every slider coming from the side on which the programme begins.
-Assumption users get wrong: no bar is mounted on this way.
+Model: straight in position and in roll, pitch and yaw, at rest at both ends, every pose checked. It begins at the pose
+whose targets, compensation included, are the actual positions, so that no target jumps, and ends with the direction of
+travel of every slider that the programme begins with.
+Assumption users get wrong: the bar is not mounted during the approach.
 """
 
 from __future__ import annotations
@@ -12,60 +12,70 @@ import numpy as np
 
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
-from hexdbb.trajectory.limits import TRAVEL_SHARES, path_limits, slow_enough
-from hexdbb.trajectory.poses import Array, Poses, straight
-from hexdbb.trajectory.programme import Phase, Programme, Stretch, Table, Tabulator
+from hexdbb.trajectory.limits import LIMIT_FRACTIONS, fastest_within_limits, path_limits
+from hexdbb.trajectory.poses import Array, Poses, straight_path
+from hexdbb.trajectory.programme import Phase, Programme, Segment, Table, Tabulator
 from hexdbb.trajectory.runs import SAME_POSE_MM, SETTLE_S
 from hexdbb.trajectory.time_law import rest_to_rest
 
 START_TOLERANCE_MM = 1e-3
-"""The table's first row may be this far from where a slider stands."""
-NO_SIDE = np.zeros(6)
-"""Nobody knows from which side a slider came to where it stands."""
+"""Limits the distance of the first row from the actual slider coordinates: ten encoder steps of the shipped machine,
+so that no target jumps when the axes are enabled."""
+UNKNOWN_TRAVEL = np.zeros(6)
+"""Direction of travel of sliders whose earlier motion is not known."""
 
 
-def approach(sliders_mm: Array, programme: Programme, machine: MachineFile, origin: str) -> Table:
-    """Compute the targets from where the sliders stand to the first row of a programme, at rest there.
+def approach(sliders_mm: Array, programme: Programme, machine: MachineFile, plan_name: str) -> Table:
+    """Compute the targets from the actual slider positions to the first row of a programme.
 
     Parameters
     ----------
-    sliders_mm : (6,) where the sliders stand
-    programme : what comes next
-    machine : its motion limits
-    origin : names the plan in errors
+    sliders_mm : ndarray, shape (6,)
+        Actual slider coordinates.
+    programme : Programme
+        Programme that follows.
+    machine : MachineFile
+        Its motion limits hold.
+    plan_name : str
+        Name of the plan in errors.
+
+    Returns
+    -------
+    Table
+        Begins and ends at rest.
 
     Raises
     ------
     InputError
-        The sliders stand where the machine has no pose, or the straight way is out of reach.
+        The machine has no pose for the actual positions, or the straight path is out of reach.
     """
-    here, nowhere = programme.targets.pose(sliders_mm)
-    if nowhere is not None:
-        raise InputError(f"{_stand(sliders_mm)}: {nowhere}")
-    first = programme.targets.sliders(*here, programme.cycle_s, NO_SIDE, NO_SIDE)
+    here, no_pose = programme.targets.pose(sliders_mm)
+    if no_pose is not None:
+        raise InputError(f"{_positions(sliders_mm)}: {no_pose}")
+    first = programme.targets.sliders(*here, programme.cycle_s, UNKNOWN_TRAVEL, UNKNOWN_TRAVEL)
     if first.refused is not None or np.abs(first.sliders_mm[0] - sliders_mm).max() > START_TOLERANCE_MM:
         why = first.refused[1] if first.refused is not None else "another pose (expected one within travel and gap)"
-        raise InputError(f"{_stand(sliders_mm)}: {why}")
-    path = straight(here, programme.first_pose)
-    tabulator = Tabulator(programme.runs, machine, programme.cycle_s, origin, programme.targets)
+        raise InputError(f"{_positions(sliders_mm)}: {why}")
+    path = straight_path(here, programme.first_pose)
+    tabulator = Tabulator(programme.runs, machine, programme.cycle_s, plan_name, programme.targets)
 
-    def made(share: float) -> Table:
+    def approach_at(limit_fraction: float) -> Table:
         poses = here
         if path.length_mm > SAME_POSE_MM:
-            limits = path_limits(path, machine, share, lambda _: f"{origin}: approach")
+            limits = path_limits(path, machine, limit_fraction, lambda _: f"{plan_name}: approach")
             poses = path.poses(rest_to_rest(path.length_mm, limits, programme.cycle_s))
-        move = Stretch.uncaptured(Phase.APPROACH, -1, poses)
-        ways = [_rest(here, programme.cycle_s), move, _rest(move.end, programme.cycle_s)]
-        return tabulator.tabulate(ways, before=NO_SIDE, after=programme.first_side)[0]
+        move = Segment.uncaptured(Phase.APPROACH, -1, poses)
+        segments = [_rest(here, programme.cycle_s), move, _rest(move.end, programme.cycle_s)]
+        return tabulator.tabulate(segments, before=UNKNOWN_TRAVEL, after=programme.first_travel)[0]
 
-    return slow_enough([share for share in TRAVEL_SHARES if share <= programme.share], made)
+    return fastest_within_limits([each for each in LIMIT_FRACTIONS if each <= programme.limit_fraction], approach_at)
 
 
-def _rest(pose: Poses, cycle_s: float) -> Stretch:
+def _rest(pose: Poses, cycle_s: float) -> Segment:
     position_mm, rpy_rad = pose
     rows = max(1, round(SETTLE_S / cycle_s))
-    return Stretch.uncaptured(Phase.SETTLE, -1, (np.tile(position_mm, (rows, 1)), np.tile(rpy_rad, (rows, 1))))
+    return Segment.uncaptured(Phase.SETTLE, -1, (np.tile(position_mm, (rows, 1)), np.tile(rpy_rad, (rows, 1))))
 
 
-def _stand(sliders_mm: Array) -> str:
+def _positions(sliders_mm: Array) -> str:
     return "sliders stand at " + ", ".join(f"{s:.3f}" for s in sliders_mm) + " mm"

@@ -1,6 +1,6 @@
 """The cyclic target table: one row per SYNC, computed before anything moves.
 
-Model: a programme is a sequence of stretches (approach, feed-in, arc, ...); the poses of all of them become slider
+Model: a programme is a sequence of segments (approach, feed-in, arc, ...); the poses of all of them become slider
 targets in one call (`Targets`: inverse kinematics, nominal or compensated), and every row is checked for reach,
 velocity, acceleration and jerk of each slider.
 """
@@ -23,7 +23,7 @@ from hexdbb.trajectory.targets import TargetRows, Targets
 
 
 class Phase(enum.IntEnum):
-    """What a row of the table belongs to."""
+    """Phase of the motion that a row of the table belongs to."""
 
     APPROACH = 0
     TRANSFER = 1
@@ -34,17 +34,17 @@ class Phase(enum.IntEnum):
 
 
 @dataclass(frozen=True)
-class Stretch:
-    """Poses of one piece of motion, one per cycle.
+class Segment:
+    """Poses of one segment of the motion, one per cycle.
 
     Attributes
     ----------
-    phase : what the piece is
+    phase : phase of the motion
     run : index of the run it belongs to, -1 for none
     position_mm, rpy_rad : (n, 3) poses
-    angle_deg : (n,) commanded polar angle, 0 <= angle < 360; NaN where the ball is on no circle
+    angle_deg : (n,) commanded polar angle, 0 <= angle < 360; NaN off the circle
     lap : (n,) turns completed inside the capture, -1 outside it
-    capture : (n,) bool, rows whose samples go into the record
+    capture : (n,) bool, True where the sample is recorded
     """
 
     phase: Phase
@@ -58,20 +58,20 @@ class Stretch:
     @classmethod
     def uncaptured(
         cls, phase: Phase, run: int, poses: tuple[Array, Array], angle_deg: float | Array = np.nan
-    ) -> Stretch:
-        """Give a piece of which nothing is recorded."""
+    ) -> Segment:
+        """Return a segment of which nothing is recorded."""
         n = len(poses[0])
         angles = np.broadcast_to(np.asarray(angle_deg, dtype=float), (n,))
         return cls(phase, run, *poses, angles, np.full(n, -1), np.zeros(n, dtype=bool))
 
     @property
     def begin(self) -> tuple[Array, Array]:
-        """First pose, (1, 3) and (1, 3)."""
+        """First pose: position (1, 3) mm, roll, pitch, yaw (1, 3) rad."""
         return self.position_mm[:1], self.rpy_rad[:1]
 
     @property
     def end(self) -> tuple[Array, Array]:
-        """Last pose, (1, 3) and (1, 3)."""
+        """Last pose: position (1, 3) mm, roll, pitch, yaw (1, 3) rad."""
         return self.position_mm[-1:], self.rpy_rad[-1:]
 
 
@@ -81,10 +81,10 @@ class Table:
 
     Attributes
     ----------
-    sliders_mm : (n, 6) targets
+    sliders_mm : (n, 6) slider targets, mm
     phase : (n,) `Phase`
     run : (n,) index into the programme's runs, -1 for none
-    angle_deg : (n,) commanded polar angle, NaN where the ball is on no circle
+    angle_deg : (n,) commanded polar angle, 0 <= angle < 360, NaN off the circle
     lap : (n,) turns completed inside the capture, -1 outside it
     capture : (n,) bool
     """
@@ -100,111 +100,110 @@ class Table:
         return len(self.capture)
 
     def then(self, other: Table) -> Table:
-        """Give this table followed by another."""
+        """Return this table followed by another."""
         return Table(*(np.concatenate([getattr(self, f.name), getattr(other, f.name)]) for f in fields(Table)))
 
 
 @dataclass(frozen=True)
 class Programme:
-    """Runs in order and the table of targets that makes them.
+    """Runs in order and the table of targets that drives them.
 
     Attributes
     ----------
-    runs : what the table's run indices mean
-    table : begins and ends at rest
-    cycle_s : time between two rows
+    runs : the runs that `table.run` indexes
+    table : targets; begins and ends at rest
+    cycle_s : time between two rows, s
     first_pose : pose of the first row
-    first_side : (6,) side from which each slider is taken to come at the first row
-    targets : what the table was computed with
-    share : share of the sliders' limits that the ways use
+    first_travel : (6,) assumed direction of travel of each slider at the first row, -1 to 1
+    targets : computes the targets of further poses
+    limit_fraction : fraction of the sliders' limits used between captures
     """
 
     runs: tuple[CircleRun, ...]
     table: Table
     cycle_s: float
     first_pose: Poses
-    first_side: Array
+    first_travel: Array
     targets: Targets
-    share: float
+    limit_fraction: float
 
     @property
     def duration_s(self) -> float:
-        """Time from the first to the last row."""
+        """Time from the first to the last row, s."""
         return (len(self.table) - 1) * self.cycle_s
 
-    def after(self, way: Table) -> Programme:
-        """Give this programme with a way to its beginning put before it."""
-        return replace(self, table=way.then(self.table))
+    def after(self, approach: Table) -> Programme:
+        """Return this programme with an approach before it."""
+        return replace(self, table=approach.then(self.table))
 
 
 @dataclass(frozen=True)
 class Tabulator:
-    """Turns stretches into checked rows.
+    """Converts segments to checked rows of targets.
 
     Attributes
     ----------
-    runs : what the stretches' run indices mean
-    machine : its motion limits
-    cycle_s : time between two rows
-    origin : names the plan in errors
-    targets : what gives the sliders' targets
+    runs : the runs that `Segment.run` indexes
+    machine : its motion limits hold
+    cycle_s : time between two rows, s
+    plan_name : name of the plan in errors
+    targets : computes slider targets of poses
     """
 
     runs: Sequence[CircleRun]
     machine: MachineFile
     cycle_s: float
-    origin: str
+    plan_name: str
     targets: Targets
 
     def tabulate(
-        self, stretches: Sequence[Stretch], before: Array | None = None, after: Array | None = None
+        self, segments: Sequence[Segment], before: Array | None = None, after: Array | None = None
     ) -> tuple[Table, TargetRows]:
-        """Compute the targets of all stretches in one call, and check every row.
+        """Compute the targets of all segments in one call and check every row.
 
         Parameters
         ----------
-        stretches : pieces of motion in order, each beginning where the one before ended
-        before, after : (6,) sides as in `Targets.sliders`
+        segments : segments in order, each beginning where the previous one ends
+        before, after : (6,) directions of travel as in `Targets.sliders`
 
         Raises
         ------
         InputError
-            A pose cannot be reached or a slider would be too fast: names origin, circle, angle and the limit.
+            A pose cannot be reached or a slider would be too fast: names plan, circle, angle and the limit.
         TooFastError
-            A slider would be too fast on a way between captures.
+            A slider would be too fast between captures.
         """
-        position_mm = np.concatenate([s.position_mm for s in stretches])
-        rpy_rad = np.concatenate([s.rpy_rad for s in stretches])
-        lengths = [len(s.position_mm) for s in stretches]
-        phase = np.repeat([int(s.phase) for s in stretches], lengths)
-        run = np.repeat([s.run for s in stretches], lengths)
-        angle_deg = np.concatenate([s.angle_deg for s in stretches])
+        position_mm = np.concatenate([s.position_mm for s in segments])
+        rpy_rad = np.concatenate([s.rpy_rad for s in segments])
+        lengths = [len(s.position_mm) for s in segments]
+        phase = np.repeat([int(s.phase) for s in segments], lengths)
+        run = np.repeat([s.run for s in segments], lengths)
+        angle_deg = np.concatenate([s.angle_deg for s in segments])
 
-        def where(row: int) -> str:
-            return describe(self.origin, self.runs, Phase(int(phase[row])), int(run[row]), float(angle_deg[row]))
+        def row_name(row: int) -> str:
+            return describe(self.plan_name, self.runs, Phase(int(phase[row])), int(run[row]), float(angle_deg[row]))
 
         rows = self.targets.sliders(position_mm, rpy_rad, self.cycle_s, before, after)
         if rows.refused is not None:
             row, why = rows.refused
-            raise InputError(f"{where(row)}: {why}")
-        lap = np.concatenate([s.lap for s in stretches])
-        capture = np.concatenate([s.capture for s in stretches])
+            raise InputError(f"{row_name(row)}: {why}")
+        lap = np.concatenate([s.lap for s in segments])
+        capture = np.concatenate([s.capture for s in segments])
         try:
-            check_motion(rows.sliders_mm, self.cycle_s, self.machine.can_setup.limits, where)
+            check_motion(rows.sliders_mm, self.cycle_s, self.machine.can_setup.limits, row_name)
         except TooFastError as error:
             if not capture[error.row]:
                 raise
-            raise InputError(str(error)) from None  # at its feed: slower ways would not help
+            raise InputError(str(error)) from None  # too fast at its feed: a smaller fraction would not help
         return Table(rows.sliders_mm, phase, run, angle_deg, lap, capture), rows
 
 
-def describe(origin: str, runs: Sequence[CircleRun], phase: Phase, run: int, angle_deg: float) -> str:
-    """Name a place in a programme for an error message."""
+def describe(plan_name: str, runs: Sequence[CircleRun], phase: Phase, run: int, angle_deg: float) -> str:
+    """Return the name of a place in a programme for an error message."""
     name = phase.name.lower().replace("_", " ")
     if run < 0:
-        return f"{origin}: {name}"
+        return f"{plan_name}: {name}"
     circle = runs[run]
-    place = (
-        f"{origin}: circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min, direction {circle.direction:+d}, {name}"
-    )
+    motion = f"{circle.feed_mm_min:g} mm/min, direction {circle.direction:+d}"
+    place = f"{plan_name}: circle {circle.circle.id}, {motion}, {name}"
     return place if np.isnan(angle_deg) else f"{place} at {angle_deg:.2f} deg"

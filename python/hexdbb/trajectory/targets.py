@@ -1,8 +1,8 @@
-"""Where the sliders must be told to go for the platform to take poses: what a table of targets is computed with.
+"""Mapping of platform poses to slider targets, as a table of targets needs it.
 
-`NominalTargets` is the machine as it should be: inverse kinematics in closed form. A controller that compensates is
-another (`hexdbb.compensated_targets`). Poses come in order of motion, a row a cycle, because what a slider must be told
-may depend on the side it comes from.
+`NominalTargets` is the nominal machine: inverse kinematics in closed form. A compensating controller is another
+(`hexdbb.compensation`). Poses come in order of motion, one row per cycle, because a compensated target may depend on
+the direction of travel.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ class TargetRows:
 
     Attributes
     ----------
-    sliders_mm : (n, 6)
-    refused : the first row that has no targets and why, in words; None where all have
-    first_side : (6,) side from which each slider is taken to come at the first row, -1 to 1
+    sliders_mm : (n, 6) targets, mm
+    refused : first row without a target and the reason in words; None where every row has one
+    first_travel : (6,) assumed direction of travel of each slider at the first row, -1 to 1
     """
 
     sliders_mm: Array
     refused: tuple[int, str] | None
-    first_side: Array
+    first_travel: Array
 
 
 class Targets(Protocol):
-    """From poses to slider targets and back."""
+    """Mapping of poses to slider targets and back."""
 
     def sliders(
         self,
@@ -45,21 +45,28 @@ class Targets(Protocol):
         before: Array | None = None,
         after: Array | None = None,
     ) -> TargetRows:
-        """Give the targets of poses (n, 3), (n, 3), one per cycle; the machine is at rest before and after them.
+        """Compute the targets of poses, one per cycle; the machine is at rest before and after them.
 
-        `before` and `after` (6,) are the sides from which each slider comes at the first row and at whatever follows
-        the last one; None: those of the first and of the last motion.
+        Parameters
+        ----------
+        position_mm, rpy_rad : ndarray, shape (n, 3)
+            Platform reference point, mm, and roll, pitch, yaw, rad.
+        cycle_s : float
+            Time between two rows, s.
+        before, after : ndarray, shape (6,), optional
+            Directions of travel of the sliders at the first row and after the last one; default: those of the first
+            and of the last motion.
         """
         ...
 
     def pose(self, sliders_mm: Array) -> tuple[Poses, str | None]:
-        """Give the pose (1, 3), (1, 3) whose targets are these (6,), and in words why there is none."""
+        """Return the pose (1, 3) mm, (1, 3) rad with these targets (6,), and the reason where there is none."""
         ...
 
 
 @dataclass(frozen=True)
 class NominalTargets:
-    """Targets of the nominal machine."""
+    """Slider targets of the nominal machine."""
 
     machine: MachineFile
 
@@ -71,7 +78,7 @@ class NominalTargets:
         before: Array | None = None,
         after: Array | None = None,
     ) -> TargetRows:
-        """See `Targets.sliders`; from which side a slider comes is all the same."""
+        """See `Targets.sliders`; the directions of travel make no difference."""
         sliders_mm, status = inverse(self.machine, position_mm, rpy_rad)
         return TargetRows(sliders_mm, first_refused(status), np.zeros(6))
 
@@ -83,7 +90,7 @@ class NominalTargets:
 
 
 def first_refused(status: NDArray[np.integer]) -> tuple[int, str] | None:
-    """Give the first row whose status (n,) is not ok, and what was expected."""
+    """Return the first row whose status (n,) is not 0, with the reason in words; None where all are 0."""
     failed = np.flatnonzero(status)
     if not failed.size:
         return None

@@ -1,4 +1,4 @@
-"""The time law of one path: how far along it the target is at every cycle.
+"""Time law of one path: the path length travelled at every cycle.
 
 Model: one coordinate u (mm along the path), bounded velocity, acceleration and jerk, at rest at both ends; ruckig
 finds the time-optimal profile. Sampled once per cycle, the first sample at u = 0.
@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from ruckig import ControlInterface, InputParameter, Ruckig, Trajectory
 
 ROUNDING = 1e-9
-"""Cycles and mm that are rounding, not time or way."""
+"""Limits what counts as rounding, in cycles and in mm: above the rounding of double precision over 1e6 cycles, far
+below one cycle and one encoder step (1e-4 mm)."""
 
 
 @dataclass(frozen=True)
 class PathLimits:
-    """What the motion along a path may not exceed: mm/s, mm/s², mm/s³."""
+    """Limits of the motion along a path: mm/s, mm/s², mm/s³."""
 
     velocity_mm_s: float
     acceleration_mm_s2: float
@@ -30,13 +31,13 @@ class PathLimits:
 
 @dataclass(frozen=True)
 class FeedLaw:
-    """A feed over a captured stretch, with the way to get up to speed and to stop.
+    """Constant feed over a captured length, with a lead before and after it to accelerate and to stop.
 
     Attributes
     ----------
     u_mm : (n,) path coordinate per cycle, 0 at the start of the capture, negative before it
     capture : (n,) bool, True from 0 up to, and not including, the captured length
-    lead_mm : length of the way before and of the way after the capture, stretched to whole cycles
+    lead_mm : length before and length after the capture, extended to whole cycles
     """
 
     u_mm: NDArray[np.float64]
@@ -45,19 +46,19 @@ class FeedLaw:
 
 
 def rest_to_rest(length_mm: float, limits: PathLimits, cycle_s: float) -> NDArray[np.float64]:
-    """Path coordinate per cycle from rest at 0 to rest at `length_mm`, both ends included; (n,) mm."""
+    """Compute the path coordinate per cycle from rest at 0 to rest at `length_mm`, both ends included; (n,) mm."""
     trajectory = _fastest(length_mm, limits)
     cycles = math.ceil(trajectory.duration / cycle_s)
     return _sampled(trajectory, cycles, cycle_s)
 
 
 def feed_law(overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s: float) -> FeedLaw:
-    """The time law of a capture: up to the feed, constant over overshoot, capture and overshoot, then to rest.
+    """Compute the time law of a capture: rest to feed, constant over overshoot, capture and overshoot, then to rest.
 
     Parameters
     ----------
-    overshoot_mm : way at full feed before and after the capture
-    capture_mm : captured way, run at exactly `limits.velocity_mm_s`
+    overshoot_mm : length at full feed before and after the capture
+    capture_mm : captured length, driven at exactly `limits.velocity_mm_s`
     limits : the feed, and the acceleration and jerk of the ramps
     cycle_s : time between two samples
     """
@@ -68,7 +69,7 @@ def feed_law(overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s
     lead_mm = ramp_mm + overshoot_mm + (lead_cycles * cycle_s - to_capture_s) * feed_mm_s
     trajectory = _fastest(capture_mm + 2 * lead_mm, limits)
     u_mm = _sampled(trajectory, math.ceil(trajectory.duration / cycle_s), cycle_s) - lead_mm
-    u_mm[lead_cycles] = 0.0  # where it is but for rounding
+    u_mm[lead_cycles] = 0.0  # exact but for rounding
     capture = (np.arange(len(u_mm)) >= lead_cycles) & (u_mm < capture_mm - ROUNDING)
     return FeedLaw(u_mm, capture, lead_mm)
 
@@ -88,13 +89,13 @@ def _fastest(length_mm: float, limits: PathLimits) -> Trajectory:
 
 
 def _ramp(limits: PathLimits) -> tuple[float, float]:
-    """Way (mm) and time (s) from rest to the limit velocity."""
+    """Return length (mm) and time (s) from rest to the limit velocity."""
     parameter = _input(limits)
     parameter.control_interface = ControlInterface.Velocity
     parameter.target_velocity = [limits.velocity_mm_s]
     trajectory = _calculated(parameter)
-    (way_mm,), _, _ = trajectory.at_time(trajectory.duration)
-    return way_mm, trajectory.duration
+    (length_mm,), _, _ = trajectory.at_time(trajectory.duration)
+    return length_mm, trajectory.duration
 
 
 def _calculated(parameter: InputParameter) -> Trajectory:
@@ -104,6 +105,6 @@ def _calculated(parameter: InputParameter) -> Trajectory:
 
 
 def _sampled(trajectory: Trajectory, cycles: int, cycle_s: float) -> NDArray[np.float64]:
-    """Position at cycle 0 .. `cycles`; beyond the end the trajectory rests."""
+    """Return the position at cycles 0 .. `cycles`, (n,) mm; beyond its end the trajectory rests."""
     end_s = trajectory.duration
     return np.array([trajectory.at_time(min(k * cycle_s, end_s))[0][0] for k in range(cycles + 1)])

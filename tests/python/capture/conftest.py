@@ -13,7 +13,7 @@ from pathlib import Path
 import can
 import pytest
 
-from hexdbb.capture.cia402 import State, state_of
+from hexdbb.capture.cia402 import DriveState, state_of
 
 PLAN = """
 schema = "hexdbb.plan/1"
@@ -29,14 +29,14 @@ circle = [{id = 0, mount = 0, radius_mm = 100, ball_offset_mm = [0, 0, 60]}]
 """One circle in four seconds; `RATE_HZ` keeps the number of cycles small."""
 
 EXACT = 'schema = "hexdbb.truth/1"\ndrive = {lag_s = 1e-9}\ngauge = {noise_um = 0, resolution_um = 0}\n'
-"""A machine without errors whose drives stand where they are told: what is recorded is known in advance."""
+"""A machine without errors whose drives reach their targets: the record is known in advance."""
 
 RATE_HZ = 100.0
 
 
 @pytest.fixture
 def command(plan: Path, tmp_path: Path) -> Callable[..., list[str]]:
-    """Give the command line of `hexdbb-run` with the small plan and a record named `run.parquet`."""
+    """Return the command line of `hexdbb-run` with the small plan and a record named `run.parquet`."""
 
     def line(*words: object) -> list[str]:
         program = str(Path(sys.executable).with_name("hexdbb-run"))
@@ -47,7 +47,7 @@ def command(plan: Path, tmp_path: Path) -> Callable[..., list[str]]:
 
 @pytest.fixture
 def run(command: Callable[..., list[str]]) -> Callable[..., subprocess.CompletedProcess[str]]:
-    """Run `hexdbb-run` in lockstep at `RATE_HZ`, or as told."""
+    """Run `hexdbb-run` in lockstep at `RATE_HZ` unless options say otherwise."""
 
     def finished(*words: object) -> subprocess.CompletedProcess[str]:
         line = command("--lockstep", "--rate", RATE_HZ, *words)
@@ -73,7 +73,7 @@ def exact(tmp_path: Path) -> Path:
 class RigProcess:
     """A running rig.
 
-    Its objects are read after a run, over a connection of its own that nobody else reads.
+    Its objects are read after a run, over a connection of its own.
     """
 
     def __init__(self, process: subprocess.Popen[str], address: str, log: Path) -> None:
@@ -93,7 +93,7 @@ class RigProcess:
         return self._observer
 
     def read(self, node: int, index: int, code: str) -> int:
-        """Read an object of up to four bytes, as any CANopen tool would (expedited upload)."""
+        """Read an object of up to four bytes (expedited upload)."""
         request = struct.pack("<BHBi", 0x40, index, 0, 0)
         self.observer.send(can.Message(arbitration_id=0x600 + node, data=request, is_extended_id=False))
         while (message := self.observer.recv(5.0)) is not None:
@@ -111,7 +111,7 @@ class RigProcess:
         assert self.process.stdout is not None
         self.process.stdout.close()
 
-    def states(self, nodes: list[int]) -> list[State]:
+    def states(self, nodes: list[int]) -> list[DriveState]:
         return [state_of(self.read(node, 0x6041, "H")) for node in nodes]
 
     def velocities(self, nodes: list[int]) -> list[int]:
@@ -120,7 +120,7 @@ class RigProcess:
 
 @pytest.fixture
 def start_rig(tmp_path: Path) -> Callable[..., object]:
-    """Start a rig with options, end it by its own id."""
+    """Return a context that starts a rig with options and ends it."""
 
     @contextmanager
     def started(*options: object) -> Iterator[RigProcess]:

@@ -1,4 +1,4 @@
-"""What is known without a rig: bus arithmetic, layouts, bus names, cycle times, the statusword, deadlines."""
+"""Parts that need no rig: bus load, PDO layouts, bus names, cycle times, statusword, deadlines."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 import pytest
 
 from hexdbb.capture.bus_load import check_load, configured_frames, cycle_s, frame_bits
-from hexdbb.capture.cia402 import State, state_of
+from hexdbb.capture.cia402 import DriveState, state_of
 from hexdbb.capture.clock import Deadlines
 from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO
 from hexdbb.capture.settings import check_counts, interpolation_period
@@ -72,29 +72,29 @@ def test_scale_that_overflows_the_target_object_is_refused() -> None:
 @pytest.mark.parametrize(
     ("statusword", "state"),
     [
-        (0x0000, State.NOT_READY),
-        (0x0250, State.SWITCH_ON_DISABLED),
-        (0x0231, State.READY_TO_SWITCH_ON),
-        (0x0233, State.SWITCHED_ON),
-        (0x1237, State.OPERATION_ENABLED),
-        (0x0217, State.QUICK_STOP_ACTIVE),
-        (0x021F, State.FAULT_REACTION),
-        (0x0218, State.FAULT),
+        (0x0000, DriveState.NOT_READY),
+        (0x0250, DriveState.SWITCH_ON_DISABLED),
+        (0x0231, DriveState.READY_TO_SWITCH_ON),
+        (0x0233, DriveState.SWITCHED_ON),
+        (0x1237, DriveState.OPERATION_ENABLED),
+        (0x0217, DriveState.QUICK_STOP_ACTIVE),
+        (0x021F, DriveState.FAULT_REACTION),
+        (0x0218, DriveState.FAULT),
     ],
 )
-def test_state_of_statusword(statusword: int, state: State) -> None:
+def test_state_of_statusword(statusword: int, state: DriveState) -> None:
     assert state_of(statusword) is state
 
 
 @pytest.mark.parametrize(
     ("spec", "named"),
     [
-        ("socketcand", "not understood"),
-        ("nothing:can0", "not understood"),
+        ("socketcand", "cannot be parsed"),
+        ("nothing:can0", "cannot be parsed"),
         ("socketcand:127.0.0.1", "address 127.0.0.1 is not host:port"),
         ("socketcand:127.0.0.1:1", "Connection refused"),
-        ("socketcan:no-such-bus0", "not there"),
-        ("kvaser:0", "not there"),
+        ("socketcan:no-such-bus0", "cannot be opened"),
+        ("kvaser:0", "cannot be opened"),
         ("pcan:PCAN_USBBUS1@fast", "fast"),
     ],
 )

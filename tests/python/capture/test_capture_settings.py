@@ -97,7 +97,9 @@ def without(index: str) -> str:
     return re.sub(rf"(?m)^\d+=0x{index}\n", "", text)
 
 
-@pytest.mark.parametrize(("index", "meaning"), [("60C2", "interpolates over"), ("605A", "stops as its maker chose")])
+@pytest.mark.parametrize(
+    ("index", "meaning"), [("60C2", "interpolates over"), ("605A", "quick stop follows its factory setting")]
+)
 def test_missing_object_is_reported_with_its_consequence(index: str, meaning: str, tmp_path: Path) -> None:
     eds = tmp_path / "lean.eds"
     eds.write_text(without(index))
@@ -116,7 +118,7 @@ def test_drive_without_a_required_object_is_refused(tmp_path: Path) -> None:
     with can.Bus(interface="virtual", channel="required") as bus:
         device = RemoteDevice(Link(bus), 3, "slider 3", eds)
         mode = [setting for setting in drive_settings(shipped_machine(), CYCLE_S) if setting.index == 0x6060]
-        with pytest.raises(RunError, match=r"no object 6060:00 in lean\.eds: it cannot be driven"):
+        with pytest.raises(RunError, match=r"no object 6060:00 in lean\.eds: it cannot follow cyclic targets"):
             list(apply(device, mode))
 
 

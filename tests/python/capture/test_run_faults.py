@@ -1,7 +1,7 @@
 """Every fault stops all six axes together and keeps what was captured; seen in the rig itself, over its bus.
 
-The rig runs as one process, `hexdbb-run` as another. After the run the drives are asked where they are; a drive that
-had not been stopped by then would have been stopped by the rig when its controller left, which its log would say.
+The rig runs as one process, `hexdbb-run` as another. After the run the states of the drives are read; a drive that was
+not stopped by then is stopped by the rig when its controller disconnects, which its log shows.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 import pyarrow as pa
 import pytest
 
-from hexdbb.capture.cia402 import State
+from hexdbb.capture.cia402 import DriveState
 from hexdbb.record import Record, read_record, recover
 
 RATE_HZ = 100.0
@@ -26,9 +26,9 @@ FAULT_S = 6.0
 DRIVES = list(range(1, 7))
 
 STOPPED = "all six axes stopped"
-SILENT = "does not answer, not seen to have stopped"
+SILENT = "does not answer, standstill not confirmed"
 FAULTS = [
-    # kind of fault, its node, what names the cause, what is said of the axes
+    # kind of fault, its node, message of the cause, message about the axes
     ("drive-fault:3={time}=0x2310", 3, r"node 3 \(slider 3\): object 6041:00 is \w+h, fault.*EMCY 2310h", STOPPED),
     (
         "following-error:1",
@@ -45,15 +45,15 @@ FAULTS = [
     (
         "node-missing:5",
         5,
-        r"node 5 \(slider 5\): TPDO1 has stayed out 3 SYNCs in a row",
+        r"node 5 \(slider 5\): TPDO1 missing after 3 consecutive SYNCs",
         f"node 5 (slider 5): {SILENT}",
     ),
-    ("boot-up:2", 2, r"node 2 \(slider 2\): heartbeat says NMT state 0", f"node 2 (slider 2): {SILENT}"),
+    ("boot-up:2", 2, r"node 2 \(slider 2\): heartbeat reports NMT state 0", f"node 2 (slider 2): {SILENT}"),
 ]
 
 
 def incomplete(path: Path) -> Record:
-    """Read the record a fault left, and see that it holds good samples up to about the fault, and says that it ends."""
+    """Read the record after a fault; check that it holds good samples up to the fault and is marked incomplete."""
     record = read_record(path)
     assert not record.complete
     assert not path.with_name(path.name + ".journal").exists()
@@ -76,9 +76,9 @@ def test_fault_while_capturing(
     with start_rig("--fault", f"{kind}@{FAULT_S}{value}") as rig:
         done = run("--bus", rig.bus, "--yes")
         others = [drive for drive in DRIVES if drive != node]
-        assert rig.states(others) == [State.QUICK_STOP_ACTIVE] * len(others)
+        assert rig.states(others) == [DriveState.QUICK_STOP_ACTIVE] * len(others)
         assert rig.velocities(others) == [0] * len(others)
-        assert "nobody on the bus" not in re.sub(rf"node {node}: .*", "", rig.log.read_text())
+        assert "no client on the bus" not in re.sub(rf"node {node}: .*", "", rig.log.read_text())
     assert done.returncode == 1, done.stderr
     message = done.stderr.splitlines()[-1]
     assert re.match(f"error: {cause}", message)
@@ -96,7 +96,7 @@ def test_fault_is_handed_on_to_the_rig_that_is_started_for_the_run(
 ) -> None:
     done = run("--fault", f"node-missing:5@{FAULT_S}", "--seed", 2)
     assert done.returncode == 1
-    assert done.stderr.splitlines()[-1].startswith("error: node 5 (slider 5): TPDO1 has stayed out 3 SYNCs in a row")
+    assert done.stderr.splitlines()[-1].startswith("error: node 5 (slider 5): TPDO1 missing after 3 consecutive SYNCs")
     incomplete(tmp_path / "run.parquet")
 
 
@@ -163,9 +163,9 @@ def test_interrupted_run_stops_and_keeps(
         wait_for_samples(process, tmp_path / "run.parquet")
         process.send_signal(number)
         _, said = process.communicate(timeout=30)
-        assert rig.states(DRIVES) == [State.QUICK_STOP_ACTIVE] * 6
+        assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
         assert rig.velocities(DRIVES) == [0] * 6
-        assert "nobody on the bus" not in rig.log.read_text()
+        assert "no client on the bus" not in rig.log.read_text()
     assert process.returncode == 1
     assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
     record = read_record(tmp_path / "run.parquet")
@@ -193,8 +193,8 @@ def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
         # No file beyond 1000 blocks: the system's own limit stands in for a full disk.
         limited = ["bash", "-c", 'ulimit -f 1000; exec "$@"', "bash", *line]
         done = subprocess.run(limited, capture_output=True, text=True, timeout=120)
-        assert rig.states(DRIVES) == [State.QUICK_STOP_ACTIVE] * 6
-        assert "nobody on the bus" not in rig.log.read_text()
+        assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
+        assert "no client on the bus" not in rig.log.read_text()
     assert done.returncode == 1
     journal = tmp_path / "run.parquet.journal"
     said = done.stderr.splitlines()[-1]
@@ -213,8 +213,8 @@ def test_killed_controller_leaves_standing_axes_and_a_journal_to_recover(
         wait_for_samples(process, tmp_path / "run.parquet")
         process.kill()
         process.wait(timeout=10)
-        assert rig.states(DRIVES) == [State.QUICK_STOP_ACTIVE] * 6
-        assert len(re.findall(r"node \d: stands at .* QUICK_STOP_ACTIVE", rig.log.read_text())) == 6
+        assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
+        assert len(re.findall(r"node \d: stopped at .* QUICK_STOP_ACTIVE", rig.log.read_text())) == 6
     record = recover(tmp_path / "run.parquet.journal")
     assert not record.complete
     assert len(record) > 50
@@ -232,7 +232,7 @@ def test_rig_that_dies_ends_the_run_and_keeps_what_was_captured(
     assert process.returncode == 1
     message = said.splitlines()[-1]
     assert re.match(r"error: bus: ", message)
-    assert "the drives stop by themselves" in message or SILENT in message
+    assert "the drives stop on their own" in message or SILENT in message
     record = read_record(tmp_path / "run.parquet")
     assert not record.complete
     assert len(record) > 0

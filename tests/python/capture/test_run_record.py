@@ -1,4 +1,4 @@
-"""What a run records, from `hexdbb-run` through real CAN frames to the file: pairing, angles, times, both paces."""
+"""The record of a run, from `hexdbb-run` through real CAN frames to the file: pairing, angles, times, both paces."""
 
 from __future__ import annotations
 
@@ -86,14 +86,14 @@ def test_every_mount_is_announced_to_the_gauge(run: Run, plan: Path, exact: Path
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--bus", "socketcand:127.0.0.1:1"], "--bus socketcand:127.0.0.1:1: not there: "),
-        (["--bus", "can0"], "--bus can0: not understood (expected interface:channel"),
+        (["--bus", "socketcand:127.0.0.1:1"], "--bus socketcand:127.0.0.1:1: cannot be opened: "),
+        (["--bus", "can0"], "--bus can0: cannot be parsed (expected interface:channel"),
         (["--rate", "700"], "cycle rate 700 Hz at 1e+06 bit/s: bus load 112%"),
         (["--rate", "333"], "cycle rate 333 Hz: the period 3.003 ms does not fit object 60C2h"),
         (["--plan", "no-such-plan"], "no-such-plan: no such file"),
         (["--truth", "no-such-truth.toml"], "the simulated rig did not start: no-such-truth.toml: "),
         (["--fault", "no-such-fault"], "the simulated rig did not start: --fault no-such-fault: "),
-        (["--bus", "socketcan:can0", "--seed", "1"], "--seed: is an option of the simulated rig"),
+        (["--bus", "socketcan:can0", "--seed", "1"], "--seed: option of the simulated rig"),
     ],
 )
 def test_wrong_use_is_one_line_and_leaves_nothing(words: list[str], said: str, run: Run, tmp_path: Path) -> None:

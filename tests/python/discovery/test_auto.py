@@ -10,6 +10,7 @@ from hexdbb.discovery import AutoStep, Discovery, discover_all, is_needed, witho
 from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
 from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 PAIR = "lead_error+pitch_cyclic-x3-s5"
 ASKED = ["backlash", "lead_error", "pitch_cyclic", "servo_lag", "gravity_sag"]
@@ -18,7 +19,7 @@ ASKED = ["backlash", "lead_error", "pitch_cyclic", "servo_lag", "gravity_sag"]
 
 def test_a_pair_is_found_one_after_the_other(measured: Callable[[str], Record]) -> None:
     record = measured(PAIR)
-    *steps, last = discover_all([record], new_model(record.machine), ASKED)
+    *steps, last = discover_all(Samples.of([record]), new_model(record.machine), ASKED)
     assert all(isinstance(each, AutoStep) and each.what == "add" for each in steps)
     effects = {each.choice.partition(":")[0] for each in steps if isinstance(each, AutoStep)}
     assert effects == {hidden.kind for hidden in case(PAIR).hidden}
@@ -30,23 +31,23 @@ def test_a_pair_is_found_one_after_the_other(measured: Callable[[str], Record]) 
 
 def test_a_machine_that_lacks_nothing_gets_nothing(measured: Callable[[str], Record]) -> None:
     record = measured("none-s2")
-    (last,) = discover_all([record], new_model(record.machine))
+    (last,) = discover_all(Samples.of([record]), new_model(record.machine))
     assert isinstance(last, Discovery) and last.verdict == "none"
 
 
 def test_what_nobody_knows_is_not_added(measured: Callable[[str], Record]) -> None:
     record = measured("mains_pickup-x10-s1")
-    (last,) = discover_all([record], new_model(record.machine), ["backlash", "pitch_cyclic", "servo_lag"])
+    (last,) = discover_all(Samples.of([record]), new_model(record.machine), ["backlash", "pitch_cyclic", "servo_lag"])
     assert isinstance(last, Discovery) and last.verdict == "unknown"
 
 
 def test_what_is_needless_is_taken_out_and_what_is_needed_stays(measured: Callable[[str], Record]) -> None:
     record = measured("backlash-x3-s1")
-    model, _ = add_effect([record], new_model(record.machine), "reversal_spike:2")
-    model, _ = add_effect([record], model, "backlash:4")
-    assert not is_needed([record], model, "reversal_spike:2")
-    assert is_needed([record], model, "backlash:4")
-    (step,) = without_needless([record], model, ["reversal_spike:2", "backlash:4"])
+    model = add_effect(Samples.of([record]), new_model(record.machine), "reversal_spike:2").model
+    model = add_effect(Samples.of([record]), model, "backlash:4").model
+    assert not is_needed(Samples.of([record]), model, "reversal_spike:2")
+    assert is_needed(Samples.of([record]), model, "backlash:4")
+    (step,) = without_needless(Samples.of([record]), model, ["reversal_spike:2", "backlash:4"])
     assert (step.what, step.choice) == ("remove", "reversal_spike:2")
     left = step.diagnosis.model
     assert [each.what for each in left.ledger] == ["add", "add", "remove"]

@@ -12,8 +12,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from hexdbb.cli import cli
+from hexdbb.cli.schemas import json_schema
 from hexdbb.errors import InputError
-from hexdbb.json_schemas import json_schema
 from hexdbb.model import load_model, new_model, save_model
 from hexdbb.record import Record, write_record
 
@@ -21,9 +21,9 @@ MINE = """
 from hexdbb.effects import effect
 
 @effect(port="slider", unit="mm", prior_sigma=0.01, elements=6)
-def my_play(state):
+def my_play(samples):
     '''Play between slider and screw.'''
-    return 0.5 * state.side
+    return 0.5 * samples["side"]
 """
 
 
@@ -61,7 +61,8 @@ def test_what_is_missing_in_json_and_in_words(folder: Path) -> None:
     best = found["candidates"][0]
     assert (best["effect"], best["elements"]) == ("backlash", [4])
     assert [each["name"] for each in best["parameters"]] == ["play"]
-    assert found.keys() == json_schema("discover")["properties"].keys() - {"steps"}
+    assert found.keys() == json_schema("discover")["properties"].keys()
+    assert found["steps"] == []
     assert (folder / "model.toml").read_bytes() == before
 
 
@@ -70,7 +71,7 @@ def test_auto_adds_until_nothing_is_missing(folder: Path) -> None:
     jsonschema.validate(found, json_schema("discover"), jsonschema.Draft202012Validator)
     assert found["verdict"] == "none"
     (step,) = found["steps"]
-    jsonschema.validate(step, json_schema("add"), jsonschema.Draft202012Validator)
+    jsonschema.validate({"schema": "hexdbb.add/1", **step}, json_schema("add"), jsonschema.Draft202012Validator)
     assert step["effect"] == "backlash"
     model = load_model(folder / "model.toml")
     assert [each.what for each in model.ledger] == ["add"]

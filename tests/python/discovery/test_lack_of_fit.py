@@ -10,6 +10,7 @@ import pytest
 from hexdbb.diagnosis import Noise
 from hexdbb.discovery import FitTest
 from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 NOISE = Noise(0.5e-3, "stated")
 
@@ -17,7 +18,7 @@ NOISE = Noise(0.5e-3, "stated")
 @pytest.fixture(scope="module")
 def test_of_fit(measured: Callable[[str], Record]) -> tuple[FitTest, Record]:
     record = measured("none-s3")
-    return FitTest([record], NOISE), record
+    return FitTest(Samples.of([record]), NOISE), record
 
 
 def white(record: Record, seed: int) -> np.ndarray:

@@ -15,8 +15,8 @@ from hexdbb.kinematics import inverse
 from hexdbb.ledger import add_effect, undo
 from hexdbb.model import Model, load_model, new_model, save_model
 from hexdbb.plan import Circle
-from hexdbb.prediction import residual_mm
 from hexdbb.record import Record
+from hexdbb.samples import Samples, predict
 
 MINE = """
 import numpy as np
@@ -56,26 +56,28 @@ def knowing_mine(record: Record, mine: Path) -> Model:
 def test_what_is_wrong_is_named_and_the_rest_goes_on(measured: Callable[[str], Record], mine: Path) -> None:
     record = measured("none-s1")
     model = knowing_mine(record, mine)
-    failed = failing_effects([record], model, list(model.own_effects))
+    failed = failing_effects(Samples.of([record]), model, list(model.own_effects))
     assert {name: str(error).removeprefix(str(mine)) for name, error in failed.items()} == {
-        "broken": ":17: effect broken: AttributeError: 'SampleState' object has no attribute 'nothing'",
+        "broken": ":17: effect broken: AttributeError: 'Samples' object has no attribute 'nothing'",
         "constant": ":19: effect constant: size: the same in every sample (expected a push that depends on the state)",
     }
-    found = discover([record], model, ["dent", "late", "broken", "constant", "backlash"])
+    found = discover(Samples.of([record]), model, ["dent", "late", "broken", "constant", "backlash"])
     assert found.verdict == "none"
     assert [each.partition(":")[0] for each in found.remarks] == ["left out", "left out"]
     with pytest.raises(UserEffectError, match=r"mine.py:17: effect broken: AttributeError"):
-        add_effect([record], model, "broken")
+        add_effect(Samples.of([record]), model, "broken")
 
 
 def test_a_fault_no_known_effect_explains_is_found_and_kept(
     measured: Callable[[str], Record], mine: Path, tmp_path: Path
 ) -> None:
     record = measured("dent-x3-s1")  # guideway 3, sliders 5 and 6
-    found = discover([record], knowing_mine(record, mine), ["dent", "backlash", "straightness", "pitch_cyclic"])
+    found = discover(
+        Samples.of([record]), knowing_mine(record, mine), ["dent", "backlash", "straightness", "pitch_cyclic"]
+    )
     assert (found.verdict, found.best and found.best.effect) == ("effect", "dent")
     assert found.best is not None and set(found.best.elements) <= {"5", "6"}
-    model, _ = add_effect([record], knowing_mine(record, mine), found.best.choice)
+    model = add_effect(Samples.of([record]), knowing_mine(record, mine), found.best.choice).model
     step = model.ledger[-1]
     assert step.heldout_before_um is not None and step.heldout_after_um is not None
     assert step.heldout_after_um < 0.6 * step.heldout_before_um
@@ -87,7 +89,9 @@ def test_a_fault_no_known_effect_explains_is_found_and_kept(
         load_model(path)
     again = load_model(path, load_effects(mine))
     assert again.values == pytest.approx(model.values, rel=1e-12)
-    assert residual_mm([record], again) == pytest.approx(residual_mm([record], model), abs=1e-9)
+    assert predict(Samples.of([record]), again).residual_mm == pytest.approx(
+        predict(Samples.of([record]), model).residual_mm, abs=1e-9
+    )
     assert [term.effect for term in undo(again).terms] == [term.effect for term in new_model(record.machine).terms]
     with pytest.raises(InputError, match="dent: an effect of your own is known in measured samples only"):
         again.engine()
@@ -98,7 +102,7 @@ def test_alike_at_one_feed_told_apart_at_another(measured: Callable[[str], Recor
     feed = float(np.unique(whole.columns["feed_mm_min"])[-1])
     record = whole.part(whole.columns["feed_mm_min"] == feed)
     asked = ["servo_lag", "late", "backlash"]
-    found = discover([record], knowing_mine(record, mine), asked)
+    found = discover(Samples.of([record]), knowing_mine(record, mine), asked)
     assert found.verdict == "ambiguous"
     assert found.best is not None
     assert {found.best.effect, *found.ambiguous_with} == {"servo_lag", "late"}
@@ -109,5 +113,5 @@ def test_alike_at_one_feed_told_apart_at_another(measured: Callable[[str], Recor
     poses = circle.poses(np.linspace(0.0, 2.0 * np.pi, 90), record.mount(circle.mount).cup_mm)
     assert not inverse(record.machine, poses, circle.platform_rpy_rad)[1].any()
 
-    told = discover([whole], knowing_mine(whole, mine), asked)
+    told = discover(Samples.of([whole]), knowing_mine(whole, mine), asked)
     assert (told.verdict, told.best and told.best.effect) == ("effect", "servo_lag")

@@ -7,33 +7,31 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb import _core
 from hexdbb.diagnosis import Noise
 from hexdbb.discovery.screen import Screen, screen
 from hexdbb.discovery.search import absent_effects
 from hexdbb.model import Model, Parameter, new_model, new_term
-from hexdbb.prediction import knowing, samples_of
 from hexdbb.record import Record
+from hexdbb.samples import Samples, linearise
 
 NOISE = Noise(0.5e-3, "stated")
 TRIED = ("backlash", "pitch_cyclic", "straightness", "gravity_sag", "servo_lag", "sample_delay")
 
 
 def model_of(record: Record) -> Model:
-    return knowing(new_model(record.machine), [record])
+    return new_model(record.machine).with_mounts(Samples.of([record]).mounts)
 
 
 def fall_of_chi_square(record: Record, model: Model, effect: str, element: str) -> float:
     """By brute force: all rows of the Jacobian, the prior as rows more, two calls of lstsq."""
     full = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
-    samples = samples_of([record], full)
-    predicted = _core.predict(full.engine(samples), samples, True)
+    predicted = linearise(Samples.of([record]), full)
     parameters = full.parameters()
     own = np.flatnonzero(full.free)
     tried = [i for i, each in enumerate(parameters) if (each.effect, each.element) == (effect, element)]
     prior = np.array([parameters[column].prior_sigma for column in own])
     rows = np.vstack([predicted.jacobian[:, own] / NOISE.sigma_mm, np.diag(1.0 / prior)])
-    right = np.concatenate([(record.reading_mm - predicted.reading_mm) / NOISE.sigma_mm, -full.values[own] / prior])
+    right = np.concatenate([predicted.residual_mm / NOISE.sigma_mm, -full.values[own] / prior])
     more = np.vstack([predicted.jacobian[:, tried] / NOISE.sigma_mm, np.zeros((len(own), len(tried)))])
 
     def left(columns: np.ndarray) -> float:
@@ -47,7 +45,7 @@ def fall_of_chi_square(record: Record, model: Model, effect: str, element: str) 
 @pytest.mark.parametrize("effect", TRIED)
 def test_gains_are_those_of_brute_force(few: Record, effect: str) -> None:
     model = model_of(few)
-    screened = screen([few], model, absent_effects(model), NOISE, 1.0)
+    screened = screen(Samples.of([few]), model, absent_effects(model), NOISE, 1.0)
     element = screened.elements(effect)[-1]
     assert screened.gain(effect, [element]).gain == pytest.approx(
         fall_of_chi_square(few, model, effect, element), rel=1e-5
@@ -59,7 +57,7 @@ def test_effects_a_model_has_in_part_are_tried_with_the_rest(few: Record) -> Non
     term = replace(new_term("backlash", 6), free=np.arange(6) == 3, values=np.where(np.arange(6) == 3, 0.01, 0.0))
     partly = replace(model, terms=(*model.terms, term))
     assert "backlash" in absent_effects(partly)
-    assert screen([few], partly, ["backlash"], NOISE, 1.0).elements("backlash") == ["1", "2", "3", "5", "6"]
+    assert screen(Samples.of([few]), partly, ["backlash"], NOISE, 1.0).elements("backlash") == ["1", "2", "3", "5", "6"]
     wholly = replace(model, terms=(*model.terms, replace(term, free=np.ones(6, bool))))
     assert "backlash" not in absent_effects(wholly)
 

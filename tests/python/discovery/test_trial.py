@@ -11,8 +11,8 @@ from hexdbb.diagnosis import noise_of
 from hexdbb.discovery import Candidate
 from hexdbb.discovery.trial import fitted_base, holm, try_effect
 from hexdbb.model import new_model
-from hexdbb.prediction import knowing
 from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 
 def candidate(record: Record, p_value: float) -> Candidate:
@@ -34,7 +34,8 @@ def test_holm_never_turns_the_order(record: Record) -> None:
 
 def test_elements_that_hardly_contribute_are_left_out(measured: Callable[[str], Record]) -> None:
     record = measured("backlash-x3-s1")
-    base = fitted_base([record], knowing(new_model(record.machine), [record]), noise_of([record]))
+    samples = Samples.of([record])
+    base = fitted_base(samples, new_model(record.machine).with_mounts(samples.mounts), noise_of(samples))
     found, result = try_effect(base, "backlash", ("1", "4", "6"))
     assert found.elements == ("4",)
     assert [each.element for each in found.values] == ["4"]

@@ -15,13 +15,14 @@ from hexdbb.discovery import discover
 from hexdbb.errors import InputError
 from hexdbb.model import new_model
 from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 
 @pytest.mark.parametrize("name", ["backlash-x3-s1", "pitch_cyclic-x3-s3", "gravity_sag-x3-s2"])
 def test_the_hidden_effect_is_found(measured: Callable[[str], Record], name: str) -> None:
     (hidden,) = case(name).hidden
     record = measured(name)
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     assert found.verdict == "effect"
     assert found.best is not None
     assert found.best.effect == hidden.kind
@@ -34,7 +35,7 @@ def test_the_hidden_effect_is_found(measured: Callable[[str], Record], name: str
 @pytest.mark.parametrize("name", ["none-s1", "none-s2", "none-s3"])
 def test_a_clean_machine_lacks_nothing(measured: Callable[[str], Record], name: str) -> None:
     record = measured(name)
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     assert found.verdict == "none"
     assert (found.best, found.next_test, found.structure, found.remarks) == (None, None, (), ())
 
@@ -46,7 +47,7 @@ def test_a_clean_machine_lacks_nothing(measured: Callable[[str], Record], name: 
 )
 def test_a_fault_outside_the_catalogue_is_unknown(measured: Callable[[str], Record], name: str, carrier: str) -> None:
     record = measured(name)
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     assert found.verdict == "unknown"
     assert found.best is None
     first = found.structure[0]
@@ -61,18 +62,18 @@ def test_a_gauge_noisier_than_stated_is_no_fault_of_the_machine() -> None:
     gauge = hidden.truth.gauge.model_copy(update={"noise_um": 2.0})
     record = simulate(hidden.truth.model_copy(update={"gauge": gauge}), hidden.plan, pace=hidden.pace)
     assert record.gauge.noise_um == 0.5
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     assert found.best is not None and found.best.choice == "backlash:4"
     assert found.lack_of_fit.noise_um == pytest.approx(2.0, rel=0.05)
     (remark,) = found.remarks
     assert "the gauge is stated to have 0.50 um: it is noisier than stated" in remark
-    assert discover([record], found.best.model).verdict == "none"
+    assert discover(Samples.of([record]), found.best.model).verdict == "none"
 
 
 @pytest.mark.parametrize("name", ["loose_cup-x3-s0", "guideway_bend-x3-s2"])
 def test_what_fits_but_does_not_predict_is_not_named(measured: Callable[[str], Record], name: str) -> None:
     record = measured(name)
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     assert found.verdict == "unknown"
     # The best candidate takes most of it where it is fitted.
     assert found.candidates[0].share > 0.5
@@ -83,10 +84,10 @@ def test_two_faults_are_found_one_by_one_with_their_elements(measured: Callable[
     name = "backlash+servo_lag-x3-s4"
     record = measured(name)
     wanted = {f"{each.kind}:{each.element}" for each in case(name).hidden}
-    found = discover([record], new_model(record.machine))
+    found = discover(Samples.of([record]), new_model(record.machine))
     assert found.best is not None and found.best.choice in wanted
     assert found.remarks == ("something else is missing besides: look again once this effect is added",)
-    second = discover([record], found.best.model)
+    second = discover(Samples.of([record]), found.best.model)
     assert second.best is not None and {found.best.choice, second.best.choice} == wanted
     assert second.heldout_after_um is not None and second.heldout_after_um < 1.2 * record.gauge.noise_um
 
@@ -94,7 +95,7 @@ def test_two_faults_are_found_one_by_one_with_their_elements(measured: Callable[
 def test_two_circles_are_enough_where_they_tell_it(measured: Callable[[str], Record]) -> None:
     record = measured("backlash-x3-s1")
     few = record.part(record.columns["circle"] < 2)
-    found = discover([few], new_model(record.machine))
+    found = discover(Samples.of([few]), new_model(record.machine))
     assert found.best is not None and found.best.choice == "backlash:4"
 
 
@@ -104,8 +105,8 @@ def test_too_few_to_judge_is_said(measured: Callable[[str], Record]) -> None:
     one_sweep = np.isin(np.arange(len(record)), max(record.sweeps(), key=len))
     repeated = record.part(one_sweep)
     with pytest.raises(InputError, match=r"100 readings are too few to judge \(expected 200 at least\)"):
-        discover([record.part(np.arange(len(record)) < 100)], model)
+        discover(Samples.of([record.part(np.arange(len(record)) < 100)]), model)
     with pytest.raises(InputError, match=r"1 sweep is too few to judge \(expected 2 at least"):
-        discover([repeated], model)
+        discover(Samples.of([repeated]), model)
     with pytest.raises(InputError, match=r"no record to judge by \(expected at least one\)"):
-        discover([], model)
+        discover(Samples.of([]), model)

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from tests.truth.cases import case
 
-from hexdbb import _core, measured
+from hexdbb import _core
 from hexdbb.diagnosis import noise_of
 from hexdbb.discovery import discover
 from hexdbb.discovery.trial import Base, fitted_base, try_effect
 from hexdbb.model import new_model
-from hexdbb.prediction import knowing
+from hexdbb.samples import Samples, whole
 
 MOST_STEPS = 20
 
@@ -19,7 +19,8 @@ MOST_STEPS = 20
 @pytest.fixture(scope="module")
 def base() -> Base:
     record = case("joint_offset-x3-s1").record()
-    return fitted_base([record], knowing(new_model(record.machine), [record]), noise_of([record]))
+    samples = Samples.of([record])
+    return fitted_base(samples, new_model(record.machine).with_mounts(samples.mounts), noise_of(samples))
 
 
 @pytest.mark.parametrize("effect", ["joint_offset", "lead_error", "straightness", "bar_drift"])
@@ -29,14 +30,14 @@ def test_a_trial_takes_few_passes_and_ends_no_higher_than_a_long_fit(base: Base,
     assert result.iterations <= MOST_STEPS
     free = [bool(each) for each in candidate.model.free]
     long = _core.fit(
-        base.measured.engine(candidate.model),
-        base.measured.samples,
-        base.measured.reading_mm,
+        base.samples.engine(candidate.model),
+        base.samples.block(candidate.model),
+        base.samples.reading_mm,
         noise_mm=base.noise.sigma_mm,
         free=free,
         max_iterations=200,
     )
-    scale = np.array([each.prior_sigma for each in candidate.model.parameters()])[candidate.model.free]
+    scale = candidate.model.prior_sigma[candidate.model.free]
 
     def cost(residual_mm: np.ndarray, values: np.ndarray) -> float:
         prior = values[candidate.model.free] / scale
@@ -47,13 +48,13 @@ def test_a_trial_takes_few_passes_and_ends_no_higher_than_a_long_fit(base: Base,
 
 def test_records_are_prepared_once_for_all_fits(monkeypatch: pytest.MonkeyPatch) -> None:
     record = case("none-s1").record()
-    prepared: list[int] = []
-    prepare = measured.samples_of
+    derived: list[int] = []
+    complete = whole.state_columns
 
-    def counted(records, model):
-        prepared.append(len(records))
-        return prepare(records, model)
+    def counted(records):
+        derived.append(len(records))
+        return complete(records)
 
-    monkeypatch.setattr(measured, "samples_of", counted)
-    discover([record], new_model(record.machine))
-    assert prepared == [1]
+    monkeypatch.setattr(whole, "state_columns", counted)
+    discover(Samples.of([record]), new_model(record.machine))
+    assert derived == [1]

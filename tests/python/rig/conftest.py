@@ -44,12 +44,12 @@ class Controller:
         self._notifier: can.Notifier | None = None
 
     def talk(self) -> None:
-        """Let canopen have the bus: SDO, NMT states."""
+        """Let canopen receive: SDO, NMT states."""
         if self._notifier is None:
             self._notifier = can.Notifier(self.bus, self.network.listeners, 0.1)
 
     def loop(self) -> None:
-        """Take the bus back for cycles."""
+        """Receive in the loop again."""
         if self._notifier is not None:
             self._notifier.stop()
             self._notifier = None
@@ -65,7 +65,7 @@ class Controller:
         self.bus.send(can.Message(arbitration_id=cob_id, data=data, is_extended_id=False))
 
     def receive(self, wanted: Callable[[can.Message], bool], wait_s: float = WAIT_S) -> can.Message | None:
-        """Give the next wanted frame; others go to `other`."""
+        """Return the next wanted frame; others are appended to `other`."""
         end = time.monotonic() + wait_s
         while time.monotonic() < end:
             message = self.bus.recv(min(wait_s, 0.2))
@@ -124,7 +124,7 @@ class Controller:
         return [struct.unpack_from("<H", message.data)[0] for message in found]
 
     def ready(self) -> list[int]:
-        """Configure, start and enable; gives where the sliders stand, in counts."""
+        """Configure, start and enable; return the slider positions in counts."""
         self.configure()
         counts = self.positions()
         self.nmt(0x01)
@@ -137,7 +137,7 @@ Start = Callable[..., Controller]
 
 @contextmanager
 def _rig_process(*arguments: str) -> Iterator[tuple[int, subprocess.Popen[str]]]:
-    """A rig on a free port; gives port and process."""
+    """Run a rig on a free port; yield port and process."""
     command = [sys.executable, "-c", "from hexdbb.cli import main; main()", "rig", "--port", "0", "--exit-with-parent"]
     with subprocess.Popen([*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
@@ -152,13 +152,13 @@ def _rig_process(*arguments: str) -> Iterator[tuple[int, subprocess.Popen[str]]]
 
 @pytest.fixture
 def rig_process() -> Callable[..., AbstractContextManager[tuple[int, subprocess.Popen[str]]]]:
-    """Start a rig with options; a context that gives its port and process."""
+    """Return a context that starts a rig with options and yields its port and process."""
     return _rig_process
 
 
 @pytest.fixture
 def connect() -> Callable[[int], Controller]:
-    """Give a controller on the bus of a port."""
+    """Return a controller on the bus of a port."""
     return Controller
 
 

@@ -12,15 +12,15 @@ import hexdbb.rig
 from hexdbb.machine import shipped_machine
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
-from hexdbb.prediction import predict_reading_mm
 from hexdbb.record import SLIDER_COLUMNS, Record
 from hexdbb.rig.geometry import true_geometry
 from hexdbb.rig.plant import Mounted, Plant
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import Samples, predict
 
 MACHINE = shipped_machine()
 SAMPLES = 72
-ALLOWED = ("hexdbb.rig", "hexdbb.errors", "hexdbb.machine", "hexdbb.validation")
+ALLOWED = ("hexdbb.rig", "hexdbb.errors", "hexdbb.machine", "hexdbb.files.validation")
 PRODUCT_OF_ERRORS_MM = 1e-4
 """Errors of 0.1 mm and 1 mrad do not commute; their product is what the order of the transforms may change."""
 
@@ -66,7 +66,7 @@ def test_truth_and_prediction_agree_on_the_thesis_circle(columns, seed):
     model = new_model(MACHINE)
     values = np.concatenate([values_of(truth)[term.effect] for term in model.terms])
     model = model.with_values(values, np.zeros_like(values), np.ones(len(values), dtype=bool))
-    np.testing.assert_allclose(predict_reading_mm(record, model), readings, atol=PRODUCT_OF_ERRORS_MM)
+    np.testing.assert_allclose(predict(Samples.of([record]), model).reading_mm, readings, atol=PRODUCT_OF_ERRORS_MM)
     assert np.ptp(readings) > 0.05
 
 

@@ -226,8 +226,8 @@ def test_drives_stop_and_say_where_when_the_controller_vanishes(rig_process, con
         _, said = process.communicate(timeout=20.0)
         assert process.returncode == 0
     for node in DRIVES:
-        assert f"node {node}: nobody on the bus, stopping at" in said
-        assert f"node {node}: stands at" in said
+        assert f"node {node}: no client on the bus, stopping at" in said
+        assert f"node {node}: stopped at" in said
     assert said.count("SWITCH_ON_DISABLED") == 6
 
 

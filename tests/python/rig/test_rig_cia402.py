@@ -6,24 +6,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hexdbb.rig.cia402 import STATUS_MASK, TRANSITIONS, Command, State, decode, next_state
+from hexdbb.rig.cia402 import TRANSITIONS, Command, DriveState, decode, next_state
 
 # CiA 402-2: number, from, controlword that makes it, to.
 STANDARD = [
-    (2, State.SWITCH_ON_DISABLED, 0x06, State.READY_TO_SWITCH_ON),
-    (3, State.READY_TO_SWITCH_ON, 0x07, State.SWITCHED_ON),
-    (4, State.SWITCHED_ON, 0x0F, State.OPERATION_ENABLED),
-    (5, State.OPERATION_ENABLED, 0x07, State.SWITCHED_ON),
-    (6, State.SWITCHED_ON, 0x06, State.READY_TO_SWITCH_ON),
-    (7, State.READY_TO_SWITCH_ON, 0x00, State.SWITCH_ON_DISABLED),
-    (7, State.READY_TO_SWITCH_ON, 0x02, State.SWITCH_ON_DISABLED),
-    (8, State.OPERATION_ENABLED, 0x06, State.READY_TO_SWITCH_ON),
-    (9, State.OPERATION_ENABLED, 0x00, State.SWITCH_ON_DISABLED),
-    (10, State.SWITCHED_ON, 0x00, State.SWITCH_ON_DISABLED),
-    (10, State.SWITCHED_ON, 0x02, State.SWITCH_ON_DISABLED),
-    (11, State.OPERATION_ENABLED, 0x02, State.QUICK_STOP_ACTIVE),
-    (12, State.QUICK_STOP_ACTIVE, 0x00, State.SWITCH_ON_DISABLED),
-    (16, State.QUICK_STOP_ACTIVE, 0x0F, State.OPERATION_ENABLED),
+    (2, DriveState.SWITCH_ON_DISABLED, 0x06, DriveState.READY_TO_SWITCH_ON),
+    (3, DriveState.READY_TO_SWITCH_ON, 0x07, DriveState.SWITCHED_ON),
+    (4, DriveState.SWITCHED_ON, 0x0F, DriveState.OPERATION_ENABLED),
+    (5, DriveState.OPERATION_ENABLED, 0x07, DriveState.SWITCHED_ON),
+    (6, DriveState.SWITCHED_ON, 0x06, DriveState.READY_TO_SWITCH_ON),
+    (7, DriveState.READY_TO_SWITCH_ON, 0x00, DriveState.SWITCH_ON_DISABLED),
+    (7, DriveState.READY_TO_SWITCH_ON, 0x02, DriveState.SWITCH_ON_DISABLED),
+    (8, DriveState.OPERATION_ENABLED, 0x06, DriveState.READY_TO_SWITCH_ON),
+    (9, DriveState.OPERATION_ENABLED, 0x00, DriveState.SWITCH_ON_DISABLED),
+    (10, DriveState.SWITCHED_ON, 0x00, DriveState.SWITCH_ON_DISABLED),
+    (10, DriveState.SWITCHED_ON, 0x02, DriveState.SWITCH_ON_DISABLED),
+    (11, DriveState.OPERATION_ENABLED, 0x02, DriveState.QUICK_STOP_ACTIVE),
+    (12, DriveState.QUICK_STOP_ACTIVE, 0x00, DriveState.SWITCH_ON_DISABLED),
+    (16, DriveState.QUICK_STOP_ACTIVE, 0x0F, DriveState.OPERATION_ENABLED),
 ]
 
 
@@ -41,14 +41,14 @@ def test_table_has_the_standards_numbers_and_no_others():
 
 def test_no_command_leaves_a_fault_or_wakes_a_disabled_drive():
     for word in range(0x10000):
-        assert next_state(State.FAULT, word) is None
-        assert next_state(State.FAULT_REACTION_ACTIVE, word) is None
-        assert next_state(State.SWITCH_ON_DISABLED, word) in (None, State.READY_TO_SWITCH_ON)
+        assert next_state(DriveState.FAULT, word) is None
+        assert next_state(DriveState.FAULT_REACTION_ACTIVE, word) is None
+        assert next_state(DriveState.SWITCH_ON_DISABLED, word) in (None, DriveState.READY_TO_SWITCH_ON)
 
 
 def test_status_coding_is_unique():
-    assert all(state.value & ~STATUS_MASK == 0 for state in State)
-    assert len({state.value for state in State}) == len(State)
+    assert all(state.value & ~0x006F == 0 for state in DriveState)
+    assert len({state.value for state in DriveState}) == len(DriveState)
 
 
 @given(word=st.integers(0, 0xFFFF))

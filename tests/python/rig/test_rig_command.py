@@ -15,9 +15,9 @@ import pytest
 from click.testing import CliRunner
 
 from hexdbb.cli import cli
+from hexdbb.files.validation import load_toml
 from hexdbb.machine import shipped
 from hexdbb.rig.truth import TruthFile, random_truth
-from hexdbb.validation import load_toml
 
 RIG = [sys.executable, "-c", "from hexdbb.cli import main; main()", "rig"]
 
@@ -139,3 +139,13 @@ def test_seed_with_a_truth_file_changes_its_noise_alone(rig_process, truth_file,
         given, truth = load_toml(path, TruthFile), load_toml(used, TruthFile)
     assert (given.seed, truth.seed) == (3, 8)
     assert truth.geometry == given.geometry
+
+
+def test_truth_is_written_without_serving(tmp_path: Path) -> None:
+    words = [sys.executable, "-m", "hexdbb.cli", "rig", "--seed", "3", "--no-serve"]
+    done = subprocess.run([*words, "--write-truth", "truth.toml"], cwd=tmp_path, capture_output=True, timeout=60)
+    assert (done.returncode, done.stdout) == (0, b"")
+    assert (tmp_path / "truth.toml").is_file()
+    refused = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert refused.returncode == 2
+    assert "--write-truth" in refused.stderr

@@ -7,7 +7,7 @@ import struct
 import pytest
 
 from hexdbb.machine import shipped
-from hexdbb.rig.cia402 import State
+from hexdbb.rig.cia402 import DriveState
 from hexdbb.rig.drive import DriveNode, DriveSetup
 from hexdbb.rig.node import ERROR_HEARTBEAT
 
@@ -48,7 +48,7 @@ class Bench:
         begin = self.drive.axis.position_mm
         for _ in range(500):
             self.cycle(controlword)
-            if self.drive.axis.standing:
+            if self.drive.axis.at_standstill:
                 return self.drive.axis.position_mm - begin
         raise AssertionError("does not stop")
 
@@ -56,10 +56,10 @@ class Bench:
 @pytest.mark.parametrize(
     ("option", "state"),
     [
-        (0, State.OPERATION_ENABLED),
-        (1, State.FAULT),
-        (2, State.SWITCH_ON_DISABLED),
-        (3, State.SWITCH_ON_DISABLED),
+        (0, DriveState.OPERATION_ENABLED),
+        (1, DriveState.FAULT),
+        (2, DriveState.SWITCH_ON_DISABLED),
+        (3, DriveState.SWITCH_ON_DISABLED),
     ],
 )
 def test_lost_connection_is_answered_as_6007_says(option, state):
@@ -84,7 +84,7 @@ def test_quick_stop_takes_the_ramp_of_6085():
     assert hard.until_standing(0x02) == pytest.approx(speed**2 / 10_000.0 + lag_mm, abs=1e-3)
 
 
-@pytest.mark.parametrize(("option", "state"), [(2, State.SWITCH_ON_DISABLED), (6, State.QUICK_STOP_ACTIVE)])
+@pytest.mark.parametrize(("option", "state"), [(2, DriveState.SWITCH_ON_DISABLED), (6, DriveState.QUICK_STOP_ACTIVE)])
 def test_quick_stop_ends_as_605a_says(option, state):
     bench = Bench()
     bench.set(0x605A, option)
@@ -100,10 +100,10 @@ def test_own_stop_is_not_undone_by_a_controlword_that_stays():
     bench.moving()
     bench.drive.quick_stop()
     bench.until_standing(0x0F)
-    assert bench.drive.state is State.QUICK_STOP_ACTIVE
+    assert bench.drive.state is DriveState.QUICK_STOP_ACTIVE
     bench.cycle(0x02)
     bench.cycle(0x0F)
-    assert bench.drive.state is State.OPERATION_ENABLED
+    assert bench.drive.state is DriveState.OPERATION_ENABLED
 
 
 def test_halt_stops_within_operation_enabled_and_says_it_does_not_follow():
@@ -111,7 +111,7 @@ def test_halt_stops_within_operation_enabled_and_says_it_does_not_follow():
     bench.moving()
     bench.until_standing(0x010F)
     bench.cycle(0x010F)
-    assert bench.drive.state is State.OPERATION_ENABLED
+    assert bench.drive.state is DriveState.OPERATION_ENABLED
     assert not bench.drive.dictionary.number(0x6041) & 0x1000
 
 
@@ -121,9 +121,9 @@ def test_fault_ramps_down_before_the_state_is_fault():
     bench.moving()
     bench.drive.trip()
     bench.cycle(0x0F)
-    assert bench.drive.state is State.FAULT_REACTION_ACTIVE
+    assert bench.drive.state is DriveState.FAULT_REACTION_ACTIVE
     bench.until_standing(0x0F)
-    assert bench.drive.state is State.FAULT
+    assert bench.drive.state is DriveState.FAULT
     assert bench.drive.dictionary.number(0x603F) == 0x2310
 
 

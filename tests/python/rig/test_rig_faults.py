@@ -187,11 +187,11 @@ def test_every_kind_has_a_text_and_is_tested_here():
     ("spec", "says"),
     [
         ("drive-fault", "expected a node"),
-        ("gauge-frozen:7", "expected no node, it is the gauge's"),
-        ("bus-lost:1", "expected no node, it is the bus's"),
+        ("gauge-frozen:7", "expected no node, a fault of the gauge"),
+        ("bus-lost:1", "expected no node, a fault of the bus"),
         ("earthquake:1", "no fault earthquake (expected one of node-missing, "),
         ("emcy:1=0xZZ", "expected KIND[:node][@time_s][=value]"),
-        ("emcy:1=1.2.3", "1.2.3 is not a number"),
+        ("emcy:1=1.2.3", "1.2.3 cannot be parsed"),
     ],
 )
 def test_bad_specs_are_named(spec, says):

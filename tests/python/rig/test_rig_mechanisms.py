@@ -1,4 +1,4 @@
-"""Mechanisms of the true machine: each does what its physics says, at its ports, in stretches of any length."""
+"""Mechanisms of the true machine: each follows its physics, at its ports, in stretches of any length."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from hexdbb.files.validation import dump_toml
 from hexdbb.machine import shipped_machine
 from hexdbb.rig.geometry import rotation_rpy, true_geometry
 from hexdbb.rig.mechanisms import CATALOGUED, MECHANISMS, OUTSIDE, MechanismTable, Motion, Push
@@ -18,7 +19,6 @@ from hexdbb.rig.mechanisms.transmission import PlayOperator
 from hexdbb.rig.plant import Machine, Mounted, Plant, SetupErrors
 from hexdbb.rig.pose_solver import Hexapod, Poses, leg_forces_n
 from hexdbb.rig.truth import GaugeTruth, random_truth
-from hexdbb.validation import dump_toml
 
 MACHINE = shipped_machine()
 PERFECT = SetupErrors({}, (0.0, 0.0, 0.0), 0.0)

@@ -78,7 +78,7 @@ def test_brakes_within_the_distance_of_the_ramp(speed, deceleration):
         axis.follow(speed * DT_S * step, DT_S, DT_S, FAST)
     begin = axis.demand_mm
     cycles = 0
-    while not axis.standing:
+    while not axis.at_standstill:
         axis.brake(DT_S, deceleration)
         cycles += 1
         assert cycles < 2000
@@ -94,4 +94,4 @@ def test_jammed_axis_stays_and_lets_the_error_grow():
     assert axis.position_mm == 5.0
     assert axis.following_error_mm == pytest.approx(5.0)
     axis.brake(1.0, 100_000.0)
-    assert axis.standing
+    assert axis.at_standstill

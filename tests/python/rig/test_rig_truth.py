@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from hexdbb.errors import InputError
+from hexdbb.files.validation import dump_toml, load_toml
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import TruthFile, random_truth
-from hexdbb.validation import dump_toml, load_toml
 
 HEAD = 'schema = "hexdbb.truth/1"\n'
 

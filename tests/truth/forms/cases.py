@@ -251,9 +251,7 @@ class Case:
         exact = family.exact(draw)
         forms = family.calibrate if self.half == "calibrate" else family.judge
         form = forms[int(draw.integers(len(forms)))]
-        formed = Formed(
-            exact.port, exact.elements, exact.formula, exact.others, form(draw, exact), self.form_deviation
-        )
+        formed = Formed(exact.port, exact.elements, exact.formula, exact.others, form(draw, exact), self.form_deviation)
         tau_s = (exact.known or {}).get("warm_s", 0.0)
         return formed, tau_s, form.__name__.strip("_") if self.form_deviation else "exact"
 
@@ -302,9 +300,7 @@ def alone(
         yield Case((kind,), deviation, times, half, seed)
 
 
-def outside(
-    half: str, times_noise: Iterable[float] = TIMES_NOISE, seeds: Iterable[int] = range(5)
-) -> Iterator[Case]:
+def outside(half: str, times_noise: Iterable[float] = TIMES_NOISE, seeds: Iterable[int] = range(5)) -> Iterator[Case]:
     """Return faults that the catalogue does not have, one at a time; joint friction with forms of its own."""
     for seed, times in itertools.product(seeds, times_noise):
         for kind in OUTSIDE:

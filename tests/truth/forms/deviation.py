@@ -66,7 +66,6 @@ class Formed:
     def _free(self, scene: Scene, size: float) -> Array:
         values = [self.exact(scene, size), *(other(scene, size) for other in self.others)]
         formula = np.stack([each.reshape(-1) for each in values], axis=1)
-        formula = formula / np.maximum(np.sqrt(np.mean(formula**2, axis=0)), 1e-300)
         return np.hstack([geometry_columns(self.action(), scene, values[0].shape[1]), formula])
 
 

@@ -25,10 +25,10 @@ from hexdbb.rig.pose_solver import Poses
 from hexdbb.rig.truth import TruthFile
 
 LENGTH_PRIOR_MM, ANGLE_PRIOR_RAD, SETUP_PRIOR_MM = 0.1, 0.1 / 300.0, 1.0
-"""Standard deviations of a new model's geometry and set-up: what somebody expects who knows nothing of the machine."""
+"""Standard deviations of a new model's geometry and set-up: what is expected of an unknown machine."""
 GEOMETRY_SIZE = 33
 STEP = 1e-4
-"""Central difference of points (not of readings) by a free value, mm or rad: exact to rounding, as points are smooth."""
+"""Central difference of points (not of readings) by a free value, mm or rad: exact to rounding, points being smooth."""
 MAX_ITERATIONS, ENOUGH = 100, 1e-3
 """Share by which the sum to be minimised must still fall: 0.05 % of the remaining RMS."""
 PROBE, BENDS_MAX, DAMPING_MAX = 0.1, 3.0, 1e8
@@ -141,6 +141,11 @@ def true_values(truth: TruthFile, mounts: int) -> Array:
     return np.concatenate([np.ravel(part) for part in parts])
 
 
+def geometry_readings_mm(value: Array, rows: Rows, history: History) -> Array:
+    """Return the readings of a machine of fitted geometry and set-up, without faults."""
+    return _Geometry(history, rows).readings_mm(value)
+
+
 class _Geometry:
     """Readings of a machine without faults as a function of its 33 errors, cups and ball."""
 
@@ -159,7 +164,7 @@ class _Geometry:
         self._known: tuple[Array, TrueGeometry, Poses] | None = None
 
     def readings_mm(self, value: Array) -> Array:
-        geometry, poses = self._solved(value)
+        _, poses = self._solved(value)
         bar, _ = self._bar(value, poses)
         return np.asarray(np.linalg.norm(bar, axis=1) - self._history.plan.gauge.bar_length_mm)
 
@@ -176,24 +181,35 @@ class _Geometry:
         by_pose = np.concatenate([along, np.cross(arm, along)], axis=1)
         by_leg = np.linalg.solve(np.swapaxes(jacobian, 1, 2), by_pose[:, :, None])[:, :, 0]
         push = by_leg[:, :, None] * unit
+        anchors, directions, lengths, joints = self._points_slopes(value)
+        flat = (len(self._rows), 18)
         columns = np.empty((len(self._rows), len(self.prior)))
-        for j, step in enumerate(STEP * np.eye(GEOMETRY_SIZE)):
-            after, before = (self._geometry(value[:GEOMETRY_SIZE] + sign * step) for sign in (1.0, -1.0))
-            anchors = (after.anchors_mm - before.anchors_mm) / (2.0 * STEP)
-            directions = (after.directions - before.directions) / (2.0 * STEP)
-            joints = (after.joints_mm - before.joints_mm) / (2.0 * STEP)
-            lengths = (after.lengths_mm - before.lengths_mm) / (2.0 * STEP)
-            column = by_leg @ lengths + np.einsum("nki,ki->n", push, anchors)
-            if np.any(directions):
-                column += np.einsum("nk,nki,ki->n", self._drive, push, directions)
-            if np.any(joints):
-                column -= np.einsum("nki,nij,kj->n", push, rotation, joints)
-            columns[:, j] = column
+        columns[:, :GEOMETRY_SIZE] = (
+            by_leg @ lengths
+            + push.reshape(flat) @ anchors
+            + (self._drive[:, :, None] * push).reshape(flat) @ directions
+            - (push @ rotation).reshape(flat) @ joints
+        )
         for mount in range(len(self._history.plan.mounts)):
             first = GEOMETRY_SIZE + 3 * mount
             columns[:, first : first + 3] = np.where((self._mount == mount)[:, None], -along, 0.0)
         columns[:, -3:] = np.einsum("nij,ni->nj", rotation, along)
         return columns
+
+    def _points_slopes(self, value: Array) -> tuple[Array, Array, Array, Array]:
+        """Derivatives of anchors, directions (18 coordinates), lengths (6) and joints (18) by the 33 errors."""
+        both = [
+            [self._geometry(value[:GEOMETRY_SIZE] + sign * step) for step in STEP * np.eye(GEOMETRY_SIZE)]
+            for sign in (1.0, -1.0)
+        ]
+        names = ("anchors_mm", "directions", "lengths_mm", "joints_mm")
+        after, before = (
+            [np.stack([getattr(each, name).reshape(-1) for each in side], axis=1) for name in names] for side in both
+        )
+        anchors, directions, lengths, joints = (
+            (more - less) / (2.0 * STEP) for more, less in zip(after, before, strict=True)
+        )
+        return anchors, directions, lengths, joints
 
     def _bar(self, value: Array, poses: Poses) -> tuple[Array, Array]:
         arm = np.einsum("nij,nj->ni", poses.rotation, self._ball + value[-3:])

@@ -2,8 +2,8 @@
 
 Ports: as in `ports`; `guideway` is the joints of both sliders across the guideway.
 Variables: `position` (of the slider), `direction` (of travel, with its hysteresis), `since_reversal`, `velocity`,
-`acceleration`, `time`, `joint_angle`, `joint_turning`, `leg_force`, `angle` (of the bar), `tilt` (of the platform),
-`deflection`, `constant`.
+`acceleration`, `time`, `time_in_run` (since a run began), `feed`, `joint_angle`, `joint_turning`, `leg_force`, `angle`
+(of the bar), `tilt` and `yaw` (of the platform), `deflection`, `constant`.
 """
 
 from __future__ import annotations
@@ -79,7 +79,9 @@ def equivalents(kind: str, elements: tuple[int, ...]) -> tuple[Equivalent, ...]:
     if kind == "joint_offset":
         other = (_neighbour(elements[0]),)
         return (
-            Equivalent("platform_joint", "constant", other, "a rigid motion of the pair's joint is platform_side's", kind),
+            Equivalent(
+                "platform_joint", "constant", other, "a rigid motion of the pair's joint is platform_side's", kind
+            ),
             Equivalent("leg", "joint_angle", (elements[0], *other), "the offset's part along the leg turns with it"),
         )
     if kind == "joint_friction":
@@ -87,7 +89,9 @@ def equivalents(kind: str, elements: tuple[int, ...]) -> tuple[Equivalent, ...]:
     if kind in ("backlash", "reversal_spike"):
         return (Equivalent("leg", "joint_turning", elements, "a slider joint turns over where its slider does"),)
     if kind == "servo_lag":
-        return (Equivalent("slider", "direction", elements, "where a slider hardly changes its speed between reversals"),)
+        return (
+            Equivalent("slider", "direction", elements, "where a slider hardly changes its speed between reversals"),
+        )
     if kind == "sample_delay":
         return (
             Equivalent("slider", "velocity", (1, 2, 3, 4, 5, 6), "all sliders later by one time", "servo_lag"),

@@ -1,8 +1,8 @@
 """What the gauge shows: mechanisms at work on a true machine, at some or all samples of a history.
 
 Model: as `hexdbb.rig.plant`, of which pose solver and balance under weight are used; cup and ball change from circle to
-circle, and the gauge may be read later, by a time that differs from sample to sample: linear between the instants before
-and after.
+circle, and the gauge may be read later, by a time that differs from sample to sample: linear between the instants
+before and after.
 Assumption: memories (play, friction) follow the drives; what other mechanisms add to the path, micrometres, does not
 turn them over. A wrong scale acts on the deflection of the machine without its other faults.
 Units: mm, s.
@@ -66,7 +66,8 @@ class Measured:
         later = delay / history.dt_s
         whole = np.floor(later).astype(np.intp)
         first = rows + whole
-        if np.any(history.run[first] != history.run[rows]) or np.any(history.run[first + 1] != history.run[rows]):
+        last = np.clip(first + 1, 0, len(history) - 1)
+        if first.min() < 0 or np.any(last != first + 1) or np.any(history.run[[first, last]] != history.run[rows]):
             raise InputError("the gauge is read outside the run (expected a longer overshoot)")
         now = self._at(first, actions)
         return np.asarray(now + (later - whole) * (self._at(first + 1, actions) - now))

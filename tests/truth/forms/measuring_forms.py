@@ -153,9 +153,7 @@ def _ball_oval(draw: Draw, exact: Exact) -> Values:
     lobes, phase = int(draw.integers(2, 5)), draw.uniform(0.0, 2.0 * math.pi)
 
     def values(scene: Scene, size: float) -> Array:
-        bar = np.einsum(
-            "nij,ni->nj", scene.history.rotation[scene.rows], scene.history.bar_direction(scene.rows)
-        )
+        bar = np.einsum("nij,ni->nj", scene.history.rotation[scene.rows], scene.history.bar_direction(scene.rows))
         turned = np.arctan2(bar[:, 1], bar[:, 0])
         return 1e-3 * size * column(np.cos(lobes * turned + phase)) * bar
 
@@ -176,9 +174,7 @@ def _ball_tilts(draw: Draw, exact: Exact) -> Values:
 FAMILIES: dict[str, Family] = {
     "bar_drift": Family("um/h", 30.0, 2000.0, _drift, (_drift_settles, _drift_bends), (_drift_swings, _drift_touched)),
     "bar_gain": Family("%", 1.0, 20.0, _gain, (_gain_bends,), (_gain_of_sides, _gain_saturates), "off_radius"),
-    "sample_delay": Family(
-        "ms", 50.0, 450.0, _delay, (_delay_jitters, _delay_creeps), (_delay_beats, _delay_by_feed)
-    ),
+    "sample_delay": Family("ms", 50.0, 450.0, _delay, (_delay_jitters, _delay_creeps), (_delay_beats, _delay_by_feed)),
     "ball_eccentricity": Family(
         "um",
         20.0,

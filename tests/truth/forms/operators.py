@@ -15,7 +15,6 @@ from tests.truth.forms.history import Pieces
 
 from hexdbb.rig.geometry import Array
 
-
 Release = Callable[[Array], Array]
 """Time since the breakaway, s, to what is left of it, 1 at first."""
 
@@ -93,6 +92,3 @@ def presliding(at: Array, pieces: Pieces, stretch: float) -> Array:
         force[rows] = sign + (before - sign) * np.exp(-np.abs(at[rows] - start) / stretch)
         before = float(force[rows][-1])
     return force
-
-
-

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -43,7 +43,6 @@ class Scene:
     history: History
     rows: Rows
     deflect: Callable[[Rows], Array]
-    memo: dict[object, Array] = field(default_factory=dict)
 
     @cached_property
     def deflection_mm(self) -> Array:
@@ -106,7 +105,7 @@ def geometry_columns(action: Action, scene: Scene, columns: int) -> Array:
     """Return what geometry and set-up can do at an action's port, shape (n * columns, free values).
 
     A constant of each element (slider offset, leg length, ball offset, cup, bar length); of a guideway a constant and
-    a slope along it (translation and rotation). At `platform_joint` and `delay` nothing: there a constant is the effect.
+    a slope along it (translation and rotation). At `platform_joint` and `delay` nothing: there a constant is the fault.
     """
     n = len(scene.rows)
     if action.port in ("platform_joint", "delay"):

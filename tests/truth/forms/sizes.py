@@ -3,8 +3,9 @@
 Model: remaining(size) is the root mean square of what `fit.fitted` leaves of the noise-free readings of every
 `THINNED`-th sample. It grows with the size, nearly in proportion while geometry does not bend, so that a secant on its
 logarithm finds the size in two to six fits.
-Accuracy: within `NEAR_ENOUGH` of the stated multiple on the thinned samples; what all samples give differs from that by
-about 1 % (tests/python/test_truth_forms.py).
+Accuracy: within 2 %, at most 5 %, of the stated multiple, RMS of all samples with geometry as fitted to the thinned
+ones. `hexdbb diagnose` leaves the same within 3 % for most faults; where geometry bends far (bar_drift, joint_offset,
+leg_slips: rotations at their bounds) the two differ by up to 10 %.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from tests.truth.forms.deviation import Formed
-from tests.truth.forms.fit import Fitted, fitted, true_values
+from tests.truth.forms.fit import Fitted, fitted, geometry_readings_mm, true_values
 from tests.truth.forms.measure import Measured, Sized
 from tests.truth.forms.ports import Action
 
@@ -23,9 +24,10 @@ from hexdbb.rig.geometry import Array
 
 THINNED = 7
 """Every seventh sample: prime to the samples of a lap, so that no place is left out; 1,400 of 10,000 readings."""
-NEAR_ENOUGH = 0.01
-"""Relative error of the remaining RMS at which the search ends: far below what separates the sizes of a trial."""
-MAX_TRIALS = 14
+NEAR_ENOUGH, ACCEPTED = 0.02, 0.05
+"""Relative error of the remaining RMS at which the search ends, and which is accepted where it does not end: the fit's
+own accuracy in a bent valley is 1 %, and sizes of a trial stand apart by factors of 2 and more."""
+MAX_TRIALS = 12
 
 
 class UnreachableSizeError(Exception):
@@ -54,26 +56,37 @@ def size_of(
         Beyond `limit`.
     """
     wanted = times_noise * measured.truth.gauge.noise_um * 1e-3
+    usual = true_values(measured.truth, len(measured.history.plan.mounts))
     known: list[tuple[float, float]] = []
-    size, begin, usual = start, None, true_values(measured.truth, len(measured.history.plan.mounts))
+    size, begin = start, usual
     for _ in range(MAX_TRIALS):
+        actions = [(action, size), *others]
         try:
-            fit = remaining([(action, size), *others], measured, begin=begin)
+            fit = remaining(actions, measured, begin=begin)
+            left = _rms_of_all(fit, actions, measured)
         except (HexdbbError, np.linalg.LinAlgError):
             # The machine falls apart, or the gauge is read outside a run: too large.
             limit = min(limit, size)
-            size = math.sqrt(size * known[-1][0]) if known else 0.3 * size
+            size, begin = (math.sqrt(size * known[-1][0]) if known else 0.3 * size), usual
             continue
-        left = fit.rms_mm
-        if abs(left / wanted - 1.0) < NEAR_ENOUGH:
-            return size
         known.append((size, max(left, 1e-12)))
+        if abs(left / wanted - 1.0) < NEAR_ENOUGH or size >= limit:
+            break
         size = min(_next(known, wanted), limit)
         # Geometry bends about in proportion to the fault.
         begin = usual + size / known[-1][0] * (fit.value - usual)
-        if size >= limit and any(tried >= limit for tried, _ in known):
-            break
-    raise UnreachableSizeError(f"{times_noise:g} x noise is beyond {limit:g}")
+    best = min(known, key=lambda each: abs(math.log(each[1] / wanted)), default=(limit, 1e-12))
+    if abs(best[1] / wanted - 1.0) > ACCEPTED:
+        raise UnreachableSizeError(f"{times_noise:g} x noise is beyond {limit:g}: {best[1] / wanted:.2g} of it")
+    return best[0]
+
+
+def _rms_of_all(fit: Fitted, actions: Sequence[Sized], measured: Measured) -> float:
+    """Return what remains of all samples where geometry and set-up are as fitted to some: narrow faults need all."""
+    history = measured.history
+    readings = measured.readings_mm(actions)
+    left = readings - geometry_readings_mm(fit.value, history.samples, history)
+    return float(np.sqrt(np.mean(left**2)))
 
 
 def remaining(

@@ -188,9 +188,7 @@ def _pitch_wandering(draw: Draw, exact: Exact) -> Values:
     (k,), shape = exact.elements, waves(draw, 1.0, 3.0)
     assert exact.known is not None
     phase = exact.known["phase"]
-    return lambda scene, size: column(
-        1e-3 * size * np.sin(_turn(scene, k) + phase + 0.5 * shape(scene.place(k)))
-    )
+    return lambda scene, size: column(1e-3 * size * np.sin(_turn(scene, k) + phase + 0.5 * shape(scene.place(k))))
 
 
 def _pitch_sharp(draw: Draw, exact: Exact) -> Values:
@@ -319,7 +317,7 @@ def _screw_two_constants(draw: Draw, exact: Exact) -> Values:
 
 def _screw_held(draw: Draw, exact: Exact) -> Values:
     """It is held at an end, not in the middle: all of it moves as it grows."""
-    (k,), tau = exact.elements, float(draw.uniform(400.0, 2500.0))
+    tau = float(draw.uniform(400.0, 2500.0))
     return lambda scene, size: column(1e-4 * size * warmed(scene, tau))
 
 
@@ -347,9 +345,7 @@ FAMILIES: dict[str, Family] = {
     "reversal_spike": Family(
         "um", 25.0, 500.0, _spike, (_spike_by_place, _spike_by_direction), (_spike_two_decays, _spike_by_speed)
     ),
-    "pitch_cyclic": Family(
-        "um", 8.0, 500.0, _pitch, (_pitch_third, _pitch_fading), (_pitch_wandering, _pitch_sharp)
-    ),
+    "pitch_cyclic": Family("um", 8.0, 500.0, _pitch, (_pitch_third, _pitch_fading), (_pitch_wandering, _pitch_sharp)),
     "lead_error": Family("um/m", 600.0, 6000.0, _lead, (_lead_curved,), (_lead_kinked, _lead_wavy)),
     "servo_lag": Family("ms", 1.0, 100.0, _lag, (_lag_second_pole, _lag_by_place), (_lag_by_speed, _lag_by_direction)),
     "screw_thermal": Family(

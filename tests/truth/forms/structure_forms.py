@@ -297,9 +297,7 @@ FAMILIES: dict[str, Family] = {
         "um", 60.0, 500.0, _legs_warm, (_legs_unequal, _legs_later), (_legs_gradient, _legs_draught), "tilted"
     ),
     "gravity_sag": Family("um/N", 0.4, 5.0, _sag, (_sag_unequal, _sag_of_pairs), (_sag_hertz, _sag_by_place)),
-    "joint_offset": Family(
-        "um", 50.0, 2000.0, _offset, (_offset_moves, _offset_seat), (_offset_oval, _offset_hangs)
-    ),
+    "joint_offset": Family("um", 50.0, 2000.0, _offset, (_offset_moves, _offset_seat), (_offset_oval, _offset_hangs)),
     "joint_friction": Family(
         "um", 4.0, 500.0, _friction, (_friction_stribeck, _friction_viscous), (_friction_presliding, _friction_by_angle)
     ),

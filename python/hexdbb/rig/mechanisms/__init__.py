@@ -1,8 +1,8 @@
-"""What happens in the true machine besides geometry: mechanisms stepped in time, each with its own inner state.
+"""Errors of the true machine other than geometry: mechanisms stepped in time, each with its own inner state.
 
-A mechanism is its table in the truth file (a pydantic model, `kind` names it) and what the table starts; `MECHANISMS`
-is the table of kinds. A new mechanism is a new row.
-Units: files in um, ms, min, deg; mechanisms in mm, s, rad.
+A mechanism is a table in the truth file (a pydantic model, named by `kind`) and the object that the table starts.
+`MECHANISMS` is the table of kinds; another mechanism is another row.
+Units: files in µm, ms, min, degrees; mechanisms in mm, s, rad.
 """
 
 from hexdbb.rig.mechanisms.base import Mechanism, MechanismTable, Motion, Push
@@ -30,7 +30,7 @@ CATALOGUED: dict[str, type[MechanismTable]] = {
     "sample_delay": SampleDelay,
     "ball_eccentricity": BallEccentricity,
 }
-"""Kinds that have an effect of the same name in the catalogue of effects."""
+"""Kinds with an effect of the same name in the catalogue of effects."""
 
 OUTSIDE: dict[str, type[MechanismTable]] = {
     "dent": Dent,
@@ -40,7 +40,7 @@ OUTSIDE: dict[str, type[MechanismTable]] = {
     "guideway_bend": GuidewayBend,
     "encoder_interpolation": EncoderInterpolation,
 }
-"""Faults that the catalogue does not have."""
+"""Kinds without an effect in the catalogue."""
 
 MECHANISMS: dict[str, type[MechanismTable]] = {**CATALOGUED, **OUTSIDE}
-"""Kinds of ``[[mechanism]]`` a truth file may have."""
+"""Kinds of ``[[mechanism]]`` in a truth file."""

@@ -1,12 +1,12 @@
-"""What a mechanism of the true machine sees and what it does: motion in, displacements at the ports out, in time.
+"""Interface of a mechanism of the true machine: motion in, displacements at the ports out, in time.
 
-Model: the machine goes through instants of equal distance in time. A mechanism takes them a stretch at a time, in
-order, keeps its inner state (play taken up, a spring wound up) from one stretch to the next, and adds its displacements
-at the ports. A stretch of one instant is what the rig's cycle makes, a stretch of a whole circle what the offline
-simulator of the tests makes: the results are the same.
-Mechanisms act in the order of the truth file. Those between drive and slider (play, stiction, lag) take as input where
-the ones before them have brought the slider, as parts in a chain do.
-Units: mm, rad, s, N, degC. Frames: base frame for slider joints and cup, platform frame for platform joints and ball.
+Model: the machine passes through equidistant instants. A mechanism processes them in order, one stretch at a time,
+keeps its inner state (play taken up, spring wound up) from one stretch to the next, and adds its displacements at the
+ports. The rig uses stretches of one instant, the offline simulator of the tests stretches of whole circles: the results
+are equal.
+Mechanisms act in the order of the truth file. The input of those between drive and slider (play, stiction, lag) is the
+slider position that the preceding ones produce, as for parts in a chain.
+Units: mm, rad, s, N, °C. Frames: base frame for slider joints and cup, platform frame for platform joints and ball.
 """
 
 from __future__ import annotations
@@ -19,15 +19,16 @@ from typing import Annotated, Any, ClassVar, Protocol, Self
 import numpy as np
 from pydantic import Field
 
+from hexdbb.files.validation import StrictModel
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array
-from hexdbb.validation import StrictModel
 
 Axis = Annotated[int, Field(ge=1, le=6)]
-"""A slider or a leg, as users count."""
+"""Number of a slider or leg, 1 to 6."""
 Guideway = Annotated[int, Field(ge=1, le=3)]
+"""Number of a guideway, 1 to 3."""
 Window = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-"""A time, s."""
+"""A time, s, at least 0."""
 
 
 @dataclass(frozen=True)
@@ -37,15 +38,15 @@ class Motion:
     Attributes
     ----------
     time_s : (n,) array
-        Since power-on.
+        Time since power-on, s.
     dt_s : float
-        From each instant to the next, and from the last one of the stretch before to the first of this.
+        Time between instants, s, also between the last instant of the preceding stretch and the first of this one.
     drive_mm : (n, 6) array
-        Where the drives are; their encoders sit there.
+        Drive positions, mm, as their encoders report them.
     mount : int or None
-        The fixing of the cup that the bar is mounted in.
+        Mount in which the bar is; None without a bar.
     circle : int or None
-        The circle of the plan; None where nobody tells, as on the bus.
+        Circle of the plan; None on the bus, which does not carry it.
     """
 
     time_s: Array
@@ -56,28 +57,28 @@ class Motion:
 
 
 class Push:
-    """Displacements that mechanisms have added in a stretch of n instants; all zero at first.
+    """Displacements added by mechanisms in a stretch of n instants; initially zero.
 
     Attributes
     ----------
     slider_mm : (n, 6) array
-        Slider k stands further along its guideway than its drive.
+        Displacement of slider k along its guideway, relative to its drive.
     leg_mm : (n, 6) array
-        Leg k is longer.
+        Added length of leg k.
     slider_joint_mm, platform_joint_mm : (n, 6, 3) arrays
-        Joint centre k is displaced; base frame and platform frame.
+        Displacement of joint centre k; base frame and platform frame.
     ball_mm, cup_mm : (n, 3) arrays
-        Platform frame and base frame.
+        Displacement of ball (platform frame) and cup (base frame).
     reading_mm : (n,) array
         Added to the reading.
     gain : (n,) array
-        The gauge shows (1 + gain) times the change of length.
+        Scale error of the gauge: it shows (1 + gain) times the change of length.
     temperature_c : (n,) array
-        Of the machine's parts, above the room's.
+        Temperature of the machine's parts above the room's, °C.
     compliance_mm_n : (6,) array
-        Leg k is shorter by this for each newton that presses on it; the plant finds the balance.
+        Shortening of leg k per newton of compression; `plant` computes the equilibrium.
     delay_s : float
-        The gauge shows what is true so much later.
+        Time by which the gauge is read later than the encoders, s.
     """
 
     def __init__(self, n: int) -> None:
@@ -89,7 +90,7 @@ class Push:
         self.delay_s = 0.0
 
     def at(self, rows: Any) -> Push:
-        """Give the displacements of some of the instants; `rows` is a slice or an array of indices."""
+        """Return the displacements of some of the instants; `rows` is a slice or an array of indices."""
         some = Push(0)
         for name, value in vars(self).items():
             shared = name in ("compliance_mm_n", "delay_s")
@@ -98,10 +99,10 @@ class Push:
 
 
 class Mechanism(Protocol):
-    """A mechanism at work, with its inner state."""
+    """A mechanism with its inner state."""
 
     def act(self, motion: Motion, push: Push) -> None:
-        """Go through the instants of `motion` and add displacements to `push`."""
+        """Process the instants of `motion` and add displacements to `push`."""
 
 
 Action = Callable[[Motion, Push], None]
@@ -109,7 +110,7 @@ Action = Callable[[Motion, Push], None]
 
 @dataclass(frozen=True)
 class Momentary:
-    """A mechanism without memory: what it does follows from the instant alone."""
+    """A mechanism without memory: its displacements depend on the instant alone."""
 
     action: Action
 
@@ -119,21 +120,21 @@ class Momentary:
 
 
 class MechanismTable(StrictModel, ABC):
-    """What every ``[[mechanism]]`` of a truth file has."""
+    """A ``[[mechanism]]`` of a truth file."""
 
     sizes: ClassVar[tuple[str, ...]] = ()
-    """Keys that a mechanism's displacements are proportional to, together."""
+    """Keys to which the displacements are jointly proportional."""
     has_memory: ClassVar[bool] = False
-    """Whether the instants between samples matter."""
+    """Whether the instants between samples affect the result."""
 
     kind: str
 
     @abstractmethod
     def start(self, machine: MachineFile) -> Mechanism:
-        """Put the mechanism into a machine at rest."""
+        """Return the mechanism in its initial state, in a machine at rest."""
 
     def scaled(self, factor: float) -> Self:
-        """Give the same mechanism, larger by `factor` (at least 0)."""
+        """Return the mechanism with its `sizes` multiplied by `factor` (at least 0)."""
         values = {name: _times(getattr(self, name), factor) for name in self.sizes}
         return type(self).model_validate({**self.model_dump(), **values})
 

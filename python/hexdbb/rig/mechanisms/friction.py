@@ -1,10 +1,10 @@
-"""Friction between slider and guideway, and the spring (screw, nut, coupling) through which the drive pulls.
+"""Friction between slider and guideway, and the spring (screw, nut, coupling) between drive and slider.
 
 Model of `reversal_spike`: after a reversal the slider sticks while the drive winds up the spring; at the breakaway
-windup it slides again, and the windup decays with a time constant. States: sliding, sticking; the windup e = drive -
-slider obeys e' = drive velocity while it sticks, e' = -e / tau while it slides.
-Model of `stick_slip`: inside a window of time, below a speed, the slider lags more and more over a short way, then
-jumps after: a sawtooth along the way.
+windup it slides again, and the windup decays with a time constant. Phases: sliding, sticking; the windup e = drive -
+slider obeys e' = drive velocity while sticking, e' = -e / tau while sliding.
+Model of `stick_slip`: within a window of time and below a speed, the lag of the slider grows over a short distance and
+then drops to zero: a sawtooth along the path.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Positive
 from hexdbb.machine import MachineFile
 from hexdbb.rig.mechanisms.base import Mechanism, Motion, Push, Window
 from hexdbb.rig.mechanisms.transmission import SliderTable
-from hexdbb.validation import NotNegative, Positive
 
 
 class ReversalSpike(SliderTable):
-    """Stiction of one slider at its reversals."""
+    """Stiction of one slider at its reversals: `breakaway_um` of windup, decaying with `decay_s`."""
 
     sizes: ClassVar = ("breakaway_um",)
     has_memory: ClassVar = True
@@ -35,7 +35,7 @@ class ReversalSpike(SliderTable):
 
 
 class Stiction:
-    """Sticks at each reversal until the spring is wound up to the breakaway; starts sliding, unwound."""
+    """Stiction with inner state: windup and direction; starts sliding, without windup."""
 
     def __init__(self, slider: int, breakaway_mm: float, decay_s: float) -> None:
         self._slider, self._breakaway_mm, self._decay_s = slider, breakaway_mm, decay_s
@@ -57,7 +57,7 @@ class Stiction:
 
     def _step(self, moved_mm: float, decay: float) -> None:
         if moved_mm != 0.0 and math.copysign(1.0, moved_mm) != self._direction:
-            # The very first motion is no reversal.
+            # The first motion is not a reversal.
             self._sticks = self._direction != 0.0
             self._direction = math.copysign(1.0, moved_mm)
         if not self._sticks:
@@ -70,7 +70,7 @@ class Stiction:
 
 
 class StickSlip(SliderTable):
-    """A burst of stick-slip of one slider; not in the catalogue."""
+    """A burst of stick-slip of one slider; no effect in the catalogue."""
 
     sizes: ClassVar = ("tooth_um",)
     has_memory: ClassVar = True
@@ -87,7 +87,7 @@ class StickSlip(SliderTable):
 
 
 class Sawtooth:
-    """Lags by up to a tooth over each `way_mm` of travel while the burst lasts."""
+    """Stick-slip with inner state: phase of the sawtooth; the lag grows to one tooth over each `way_mm` of travel."""
 
     def __init__(self, table: StickSlip) -> None:
         self._slider, self._tooth_mm, self._way_mm = table.slider - 1, table.tooth_um * 1e-3, table.way_mm

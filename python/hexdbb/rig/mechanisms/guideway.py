@@ -1,8 +1,8 @@
-"""Guideways that are not straight: they displace the joints of both sliders across the direction of travel.
+"""Straightness errors of guideways: they displace the joints of both sliders across the guideway.
 
-Model: a bow is a circular arc through the ends of travel, its height given at mid-span; a dent is a dip of Gaussian
-shape at one place. Directions are the guideway's local ones: lateral x (outward from the base centre), vertical z.
-Assumption: the carriage does not tilt on a curved guideway; the joint centre is displaced as the carriage's centre is.
+Model: a bow is a circular arc through the ends of travel with a given height at mid-span; a dent is a Gaussian dip.
+Directions are local to the guideway: lateral x (outward from the base centre), vertical z.
+Assumption: the carriage does not tilt on a curved guideway; the joint centre is displaced like the carriage's centre.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Number, Positive
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array, rotation_z
 from hexdbb.rig.mechanisms.base import Guideway, Mechanism, MechanismTable, Momentary, Motion, Push
-from hexdbb.validation import NotNegative, Number, Positive
 
-Shape = Callable[[Motion, Array], Array]
-"""Displacement (n,) mm of the joint of a slider at (n,) mm, in the course of a motion."""
+Profile = Callable[[Motion, Array], Array]
+"""Displacement, mm, shape (n,), of the joint of a slider at positions of shape (n,), mm, during a motion."""
 
 
 class GuidewayTable(MechanismTable):
@@ -28,8 +28,8 @@ class GuidewayTable(MechanismTable):
     guideway: Guideway
 
 
-def across(guideway: int, lateral: Shape, vertical: Shape) -> Mechanism:
-    """Displace the joints of both sliders of `guideway` (from 1) across it."""
+def across(guideway: int, lateral: Profile, vertical: Profile) -> Mechanism:
+    """Return a mechanism that displaces the joints of both sliders of `guideway` (1 to 3) across it."""
     x_base = rotation_z(2.0 * math.pi / 3.0 * (guideway - 1))[:, 0]
     z_base = np.array([0.0, 0.0, 1.0])
 
@@ -43,7 +43,7 @@ def across(guideway: int, lateral: Shape, vertical: Shape) -> Mechanism:
 
 
 def arc(height_mm: float, ends_mm: tuple[float, float]) -> Callable[[Array], Array]:
-    """Give the height of a circular arc over its chord; `height_mm` in the middle, 0 at both ends."""
+    """Return the height of a circular arc above its chord as a function of position; 0 at both ends."""
     low, high = ends_mm
     half = (high - low) / 2.0
     if height_mm == 0.0:
@@ -52,7 +52,7 @@ def arc(height_mm: float, ends_mm: tuple[float, float]) -> Callable[[Array], Arr
 
     def height(at_mm: Array) -> Array:
         square = (at_mm - low - half) ** 2
-        # sqrt(radius^2 - square) - (radius - height) without the difference of two large numbers.
+        # sqrt(radius^2 - square) - (radius - height) without cancellation.
         inside: Array = height_mm - square / (abs(radius) + np.sqrt(radius**2 - square)) * math.copysign(1.0, radius)
         return inside
 
@@ -60,7 +60,7 @@ def arc(height_mm: float, ends_mm: tuple[float, float]) -> Callable[[Array], Arr
 
 
 class Straightness(GuidewayTable):
-    """One guideway is bowed."""
+    """A bow of one guideway; heights at mid-span."""
 
     sizes: ClassVar = ("lateral_um", "vertical_um")
     kind: Literal["straightness"] = "straightness"
@@ -75,7 +75,7 @@ class Straightness(GuidewayTable):
 
 
 class GuidewayBend(GuidewayTable):
-    """One guideway bows upwards as it warms on one side: a bow that grows with time; not in the catalogue."""
+    """A bow of one guideway that grows with time, as by warming on one side; no effect in the catalogue."""
 
     sizes: ClassVar = ("vertical_um",)
     kind: Literal["guideway_bend"] = "guideway_bend"
@@ -94,14 +94,14 @@ class GuidewayBend(GuidewayTable):
 
 
 class Dent(GuidewayTable):
-    """A dip at one place of one guideway; not in the catalogue."""
+    """A Gaussian dip of one guideway; no effect in the catalogue."""
 
     sizes: ClassVar = ("depth_um",)
     kind: Literal["dent"] = "dent"
     depth_um: NotNegative
     at_mm: Number
     width_mm: Positive = 4.0
-    """Standard deviation of the Gaussian."""
+    """Standard deviation of the Gaussian, mm."""
 
     def start(self, machine: MachineFile) -> Mechanism:
         """See `MechanismTable.start`."""

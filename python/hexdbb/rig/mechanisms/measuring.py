@@ -1,7 +1,7 @@
-"""The measuring side: bar, gauge, ball and cup.
+"""Errors of the measurement: bar, gauge, ball and cup.
 
-Model: the gauge shows (1 + gain) (true length - nominal length) + drift + pick-up, at a time that may be another than
-the encoders'; ball and cup are where the set-up has put them, and stay there or not.
+Model: the gauge shows (1 + gain) (true length - nominal length) + drift + pick-up, at a time that may differ from the
+encoders'; ball and cup may be displaced in one set-up, or from some time on.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from hexdbb.files.validation import NotNegative, Number, Positive, Vector3
 from hexdbb.machine import MachineFile
 from hexdbb.rig.mechanisms.base import Mechanism, MechanismTable, Momentary, Motion, Push, Window
-from hexdbb.validation import NotNegative, Number, Positive, Vector3
 
 Identity = Annotated[int, Field(ge=0)]
 
 
 class BarDrift(MechanismTable):
-    """The reading drifts evenly with time since power-on."""
+    """Linear drift of the reading with time since power-on."""
 
     sizes: ClassVar = ("rate_um_min",)
     kind: Literal["bar_drift"] = "bar_drift"
@@ -36,7 +36,7 @@ class BarDrift(MechanismTable):
 
 
 class BarGain(MechanismTable):
-    """The gauge's scale is off."""
+    """Scale error of the gauge."""
 
     sizes: ClassVar = ("error_percent",)
     kind: Literal["bar_gain"] = "bar_gain"
@@ -52,7 +52,7 @@ class BarGain(MechanismTable):
 
 
 class SampleDelay(MechanismTable):
-    """The gauge is read later than the encoders (negative: it shows an old value)."""
+    """Delay of the gauge reading relative to the encoders (negative: the gauge shows an old value)."""
 
     sizes: ClassVar = ("delay_ms",)
     kind: Literal["sample_delay"] = "sample_delay"
@@ -68,9 +68,9 @@ class SampleDelay(MechanismTable):
 
 
 class BallEccentricity(MechanismTable):
-    """The centre ball was set differently for one fixing of the cup, or for one circle.
+    """Displacement of the ball in one mount or on one circle.
 
-    On the bus nobody tells the circle: there, give the mount.
+    The bus does not carry the circle: on the bus, use the mount.
     """
 
     sizes: ClassVar = ("offset_um",)
@@ -91,7 +91,7 @@ class BallEccentricity(MechanismTable):
 
 
 class MainsPickup(MechanismTable):
-    """The mains' frequency in the gauge's signal; not in the catalogue. Sampling folds it to another frequency."""
+    """Pick-up of the mains frequency in the gauge signal, aliased by sampling; no effect in the catalogue."""
 
     sizes: ClassVar = ("amplitude_um",)
     kind: Literal["mains_pickup"] = "mains_pickup"
@@ -110,7 +110,7 @@ class MainsPickup(MechanismTable):
 
 
 class LooseCup(MechanismTable):
-    """The cup shifts once and stays there; not in the catalogue."""
+    """A single permanent shift of the cup; no effect in the catalogue."""
 
     sizes: ClassVar = ("shift_um",)
     kind: Literal["loose_cup"] = "loose_cup"

@@ -1,8 +1,8 @@
-"""Legs and joints: bodies that warm, bend under load, or miss a common centre.
+"""Legs and joints: thermal growth, compliance, joint centres that do not coincide.
 
-Model of warming: a body follows a step of its surroundings as a first-order lag, T(t) = rise (1 - exp(-t / tau)), and
-grows in proportion. The temperature that causes it can be recorded.
-Model of sag: legs are springs; the plant balances the moved mass on the true geometry.
+Model of warming: the temperature of a body follows a step of its surroundings as a first-order lag, T(t) = rise (1 -
+exp(-t / tau)), and its growth is proportional. The temperature can be recorded.
+Model of sag: legs are springs; `plant` computes the equilibrium of the moved mass on the true geometry.
 """
 
 from __future__ import annotations
@@ -11,26 +11,26 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Number, Positive, Vector3
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array
 from hexdbb.rig.mechanisms.base import Axis, Mechanism, MechanismTable, Momentary, Motion, Push
 from hexdbb.rig.mechanisms.transmission import SliderTable
-from hexdbb.validation import NotNegative, Number, Positive, Vector3
 
 
 def warmed(motion: Motion, time_constant_s: float) -> Array:
-    """Share of the temperature rise reached, shape (n,)."""
+    """Return the share of the temperature rise reached, shape (n,)."""
     share: Array = -np.expm1(-motion.time_s / time_constant_s)
     return share
 
 
 class LegThermal(MechanismTable):
-    """All legs grow as the room warms."""
+    """Growth of all legs as the room warms."""
 
     sizes: ClassVar = ("growth_um",)
     kind: Literal["leg_thermal"] = "leg_thermal"
     growth_um: Number
-    """In the end."""
+    """Growth at the end of warming."""
     rise_c: Number = 2.0
     time_constant_s: Positive = 1800.0
 
@@ -46,16 +46,16 @@ class LegThermal(MechanismTable):
 
 
 class ScrewThermal(SliderTable):
-    """One screw grows as it warms, from where it is held."""
+    """Growth of one screw from its fixed bearing as it warms."""
 
     sizes: ClassVar = ("growth_um_m",)
     kind: Literal["screw_thermal"] = "screw_thermal"
     growth_um_m: Number
-    """In the end."""
+    """Growth at the end of warming."""
     rise_c: Number = 2.0
     time_constant_s: Positive = 1800.0
     held_at_mm: Number | None = None
-    """Slider coordinate that stays; the middle of travel where none is given."""
+    """Slider coordinate of the fixed bearing; the middle of travel if not given."""
 
     def start(self, machine: MachineFile) -> Mechanism:
         """See `MechanismTable.start`."""
@@ -71,7 +71,7 @@ class ScrewThermal(SliderTable):
 
 
 class GravitySag(MechanismTable):
-    """Legs give way under the weight of platform and tool; their mass is in the machine file."""
+    """Compliance of the legs under the weight of platform and tool, whose mass is in the machine file."""
 
     sizes: ClassVar = ("compliance_um_n",)
     kind: Literal["gravity_sag"] = "gravity_sag"
@@ -87,7 +87,7 @@ class GravitySag(MechanismTable):
 
 
 class JointOffset(MechanismTable):
-    """The ball of one leg on the platform misses the centre it should share with its neighbour's."""
+    """Displacement of the platform ball of one leg from the joint centre it should share with its neighbour."""
 
     sizes: ClassVar = ("offset_um",)
     kind: Literal["joint_offset"] = "joint_offset"

@@ -1,8 +1,8 @@
-"""Between drive and slider: nut, screw, servo. All of them displace one slider along its guideway.
+"""Transmission between drive and slider: nut, screw, servo. Each mechanism displaces one slider along its guideway.
 
 Model: play operator y(t) = min(max(y(t - dt), x - w/2), x + w/2) for the nut; first-order lag tau y' = x - y between
-the drive's encoder and the slider; a screw whose advance per turn is not even (harmonics 1 and 2 of the screw's
-angle), whose lead is off, or whose encoder divides its short period unevenly.
+the drive's encoder and the slider; periodic pitch error (harmonics 1 and 2 of the screw angle), lead error, and
+interpolation error of the encoder within its signal period.
 Source: play operator as in Krasnosel'skii and Pokrovskii, Systems with Hysteresis (1989), chapter 1.
 """
 
@@ -13,10 +13,10 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from hexdbb.files.validation import NotNegative, Number, Positive
 from hexdbb.machine import MachineFile
 from hexdbb.rig.geometry import Array
 from hexdbb.rig.mechanisms.base import Axis, Mechanism, MechanismTable, Momentary, Motion, Push
-from hexdbb.validation import NotNegative, Number, Positive
 
 
 class SliderTable(MechanismTable):
@@ -26,7 +26,7 @@ class SliderTable(MechanismTable):
 
 
 class Backlash(SliderTable):
-    """Play between the drive of one slider (where the encoder is) and the slider."""
+    """Play between the drive of one slider, where the encoder is, and the slider; `width_um` is the whole play."""
 
     sizes: ClassVar = ("width_um",)
     has_memory: ClassVar = True
@@ -39,7 +39,7 @@ class Backlash(SliderTable):
 
 
 class PlayOperator:
-    """The slider moves only once the drive has taken up the play; starts in its middle."""
+    """Play operator: the slider moves only when the drive has taken up the play; starts in its middle."""
 
     def __init__(self, slider: int, width_mm: float) -> None:
         self._slider, self._half_mm = slider, width_mm / 2.0
@@ -58,7 +58,7 @@ class PlayOperator:
 
 
 class ServoLag(SliderTable):
-    """The slider follows its drive as a first-order lag."""
+    """First-order lag of one slider behind its drive."""
 
     sizes: ClassVar = ("lag_ms",)
     has_memory: ClassVar = True
@@ -71,7 +71,7 @@ class ServoLag(SliderTable):
 
 
 class Lag:
-    """tau y' = x - y, exact for an x that moves evenly from instant to instant; starts at rest."""
+    """First-order lag tau y' = x - y, exact for an x that is linear between instants; starts at rest."""
 
     def __init__(self, slider: int, tau_s: float) -> None:
         self._slider, self._tau_s = slider, tau_s
@@ -84,7 +84,7 @@ class Lag:
             return
         pushed = motion.drive_mm[:, self._slider] + push.slider_mm[:, self._slider]
         first = float(pushed[0]) if self._pushed_mm is None else self._pushed_mm
-        # x - y tends to tau x'; a stretch of no duration leaves it where it was.
+        # x - y tends to tau x'; a stretch of zero duration does not change it.
         decay = math.exp(-motion.dt_s / self._tau_s)
         gain = self._tau_s / motion.dt_s * (1.0 - decay) if motion.dt_s > 0.0 else 1.0
         behind, path = self._behind_mm, []
@@ -96,7 +96,7 @@ class Lag:
 
 
 class PitchCyclic(SliderTable):
-    """Uneven advance of one slider's screw within a turn: harmonics 1 and 2 of the screw's angle."""
+    """Periodic pitch error of the screw of one slider: harmonics 1 and 2 of the screw angle."""
 
     sizes: ClassVar = ("amplitude_um", "second_amplitude_um")
     kind: Literal["pitch_cyclic"] = "pitch_cyclic"
@@ -115,7 +115,7 @@ class PitchCyclic(SliderTable):
 
 
 class EncoderInterpolation(SliderTable):
-    """The encoder divides its signal period unevenly: the drive is not where it reports; not in the catalogue."""
+    """Interpolation error of the encoder within its signal period; no effect in the catalogue."""
 
     sizes: ClassVar = ("amplitude_um",)
     kind: Literal["encoder_interpolation"] = "encoder_interpolation"
@@ -129,7 +129,17 @@ class EncoderInterpolation(SliderTable):
 
 
 def periodic(slider: int, period_mm: float, harmonics: list[tuple[float, float]]) -> Mechanism:
-    """Make a displacement of `slider` (from 0), sum over h = 1, 2, ... of amplitude (mm) sin(h turn + phase (deg))."""
+    """Return a mechanism with a periodic displacement of one slider.
+
+    Parameters
+    ----------
+    slider : int
+        From 0.
+    period_mm : float
+        Travel per period.
+    harmonics : list of (float, float)
+        Amplitude (mm) and phase (degrees) of harmonics 1, 2, ... of sine form.
+    """
 
     def action(motion: Motion, push: Push) -> None:
         turn_rad = 2.0 * math.pi / period_mm * motion.drive_mm[:, slider]
@@ -140,7 +150,7 @@ def periodic(slider: int, period_mm: float, harmonics: list[tuple[float, float]]
 
 
 class LeadError(SliderTable):
-    """The lead of one slider's screw is off; right in the middle of travel."""
+    """Lead error of the screw of one slider; zero in the middle of travel."""
 
     sizes: ClassVar = ("error_um_m",)
     kind: Literal["lead_error"] = "lead_error"

@@ -1,0 +1,65 @@
+// Lost motion: the slider stands play/2 behind its drive. After a reversal the drive crosses the play while the slider
+// rests (play operator of hysteresis models, e.g. Krasnosel'skii & Pokrovskii 1989):
+//   push = sigma (play/2 - min(d, play)),   d push / d play = -+ sigma/2,
+// sigma the direction of travel, d the travel since the reversal. A negative play, which has no physical meaning but
+// may occur on the way of a fit, is the same with sigma reversed.
+//
+// Assumption: a slider crosses its play before it reverses again, and the play was taken up before the sweep began.
+#include <cmath>
+
+#include "block_column.hpp"
+#include "catalogue.hpp"
+#include "elements.hpp"
+
+namespace hexdbb::effects {
+
+namespace {
+
+class Backlash : public Effect {
+ public:
+  using Effect::Effect;
+
+  void push(const SampleBlock& block, Values values, PortBlock ports) const override {
+    for (int k = 0; k < kLegs; ++k) {
+      const double play = values[k];
+      if (play == 0.0) continue;
+      const auto direction = block.of(block.samples.state.travel_direction, k).array();
+      const auto travelled = block.of(block.samples.state.since_reversal_mm, k).array();
+      const double sign = play < 0.0 ? -1.0 : 1.0;
+      ports.col(port::kSlider + k).array() += direction * (0.5 * play - sign * travelled.min(std::abs(play)));
+    }
+  }
+
+  void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
+             JacobianBlock jacobian) const override {
+    for (int k = 0; k < kLegs; ++k) {
+      const auto direction = block.of(block.samples.state.travel_direction, k).array();
+      const auto travelled = block.of(block.samples.state.since_reversal_mm, k).array();
+      const auto crossing = travelled < std::abs(values[k]);
+      jacobian.col(k).array() =
+          sensitivity.col(port::kSlider + k).array() * crossing.select(0.5 * direction, -0.5 * direction);
+    }
+  }
+};
+
+}  // namespace
+
+EffectPtr backlash(const Context&) {
+  return std::make_shared<Backlash>(EffectInfo{
+      .name = "backlash",
+      .group = group::kCatalogue,
+      .physics = "Lost motion: a slider stands half its play behind its drive, and the drive crosses the play over the "
+                 "first travel after a reversal; unlike reversal_spike the error persists until the next reversal, "
+                 "unlike servo_lag it does not grow with speed.",
+      .formula = "slider = travel_direction (play/2 - min(since_reversal, play))",
+      .source = "play operator; ISO 230-4 reversal error",
+      .element_kind = "slider",
+      .elements = kSixElements,
+      // A worn nut or coupling has some hundredths of a millimetre; a tenth is an audible fault.
+      .parameters = {{.name = "play", .unit = "mm", .prior_sigma = 0.02, .limit = 1.0, .is_nonnegative = true}},
+      .ports = {"slider"},
+      .needs = {"travel_direction", "since_reversal_mm"},
+  });
+}
+
+}  // namespace hexdbb::effects

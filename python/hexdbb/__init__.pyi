@@ -1,0 +1,69 @@
+from .api import (
+    add_effect as add_effect,
+)
+from .api import (
+    compare as compare,
+)
+from .api import (
+    compensate as compensate,
+)
+from .api import (
+    diagnose as diagnose,
+)
+from .api import (
+    discover as discover,
+)
+from .api import (
+    discover_all as discover_all,
+)
+from .api import (
+    measure as measure,
+)
+from .api import (
+    predict as predict,
+)
+from .api import (
+    propose_plan as propose_plan,
+)
+from .api import (
+    remove_effect as remove_effect,
+)
+from .api import (
+    simulated_rig as simulated_rig,
+)
+from .effects import effect as effect
+from .effects import load_effects as load_effects
+from .errors import HexdbbError as HexdbbError
+from .errors import InputError as InputError
+from .errors import RunError as RunError
+from .ledger import history as history
+from .ledger import undo as undo
+from .machine import load_machine as load_machine
+from .machine import shipped_machine as shipped_machine
+from .model import (
+    Model as Model,
+)
+from .model import (
+    effect_info as effect_info,
+)
+from .model import (
+    effect_names as effect_names,
+)
+from .model import (
+    load_model as load_model,
+)
+from .model import (
+    new_model as new_model,
+)
+from .model import (
+    save_model as save_model,
+)
+from .plan import Plan as Plan
+from .plan import load_plan as load_plan
+from .plan import shipped_plans as shipped_plans
+from .record import Record as Record
+from .record import read_record as read_record
+from .record import write_record as write_record
+from .samples import Samples as Samples
+
+__version__: str

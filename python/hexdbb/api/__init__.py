@@ -1,0 +1,32 @@
+"""The functions behind ``import hexdbb as hx``: records in, results out.
+
+Each takes a record, several, or the table of samples made of them, and calls the package that does the work.
+"""
+
+from hexdbb.api.analysis import (
+    add_effect,
+    compare,
+    diagnose,
+    discover,
+    discover_all,
+    predict,
+    remove_effect,
+    table_of,
+)
+from hexdbb.api.control import compensate, propose_plan
+from hexdbb.api.measuring import measure, simulated_rig
+
+__all__ = [
+    "add_effect",
+    "compare",
+    "compensate",
+    "diagnose",
+    "discover",
+    "discover_all",
+    "measure",
+    "predict",
+    "propose_plan",
+    "remove_effect",
+    "simulated_rig",
+    "table_of",
+]

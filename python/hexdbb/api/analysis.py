@@ -1,0 +1,167 @@
+"""Why does the machine err? Prediction, diagnosis, comparison and discovery of records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from hexdbb import comparison, discovery, ledger
+from hexdbb.comparison import Comparison
+from hexdbb.diagnosis import Diagnosis
+from hexdbb.discovery import AutoStep, Discovery
+from hexdbb.model import Model
+from hexdbb.record import Record
+from hexdbb.samples import Prediction, Samples
+from hexdbb.samples import predict as predict_samples
+
+Measured = Record | Sequence[Record] | Samples
+"""One record, several of one machine, or the table made of them."""
+
+
+def table_of(measured: Measured) -> Samples:
+    """Return the table of samples of one or several records; a table is returned as it is.
+
+    Raises
+    ------
+    InputError
+        No record, or records of different machines.
+    """
+    if isinstance(measured, Samples):
+        return measured
+    return Samples.of([measured] if isinstance(measured, Record) else list(measured))
+
+
+def predict(measured: Measured, model: Model) -> Prediction:
+    """Compute the readings a model predicts.
+
+    Parameters
+    ----------
+    measured : Record, sequence of Record, or Samples
+        Of the model's machine; the model knows their mounts (`diagnose` makes it so), or none at all.
+    model : Model
+
+    Returns
+    -------
+    Prediction
+        `reading_mm` and `residual_mm` of shape (n,), `rms_um`.
+
+    Raises
+    ------
+    InputError
+        Another machine, an unknown mount, or a sample that the machine cannot reach.
+    """
+    return predict_samples(table_of(measured), model)
+
+
+def diagnose(measured: Measured, model: Model, *, robust: bool = False) -> Diagnosis:
+    """Fit a model's free values to measured readings.
+
+    Parameters
+    ----------
+    measured : Record, sequence of Record, or Samples
+    model : Model
+        `hexdbb.new_model(record.machine)` has the thesis' 33 geometric errors and the set-up free.
+    robust : bool
+        Weight outliers of the gauge down.
+
+    Returns
+    -------
+    Diagnosis
+        `model` with values, uncertainties and one more step in its ledger; errors before and after; sentences on what
+        cannot be identified.
+
+    Raises
+    ------
+    InputError
+        Another machine, or nothing free to fit.
+    RunError
+        The fit did not end in a usable solution.
+    """
+    return ledger.fit_model(table_of(measured), model, robust=robust)
+
+
+def compare(measured: Measured, model: Model) -> Comparison:
+    """Compare measured readings with those a model predicts: all that ``hexdbb compare`` prints.
+
+    Parameters
+    ----------
+    measured : Record, sequence of Record, or Samples
+        The cup of a mount that the model does not know is fitted first, which is stated.
+    model : Model
+
+    Returns
+    -------
+    Comparison
+        ISO 230-4 quantities for each circle, feed and direction, worst places, predictors of the residual.
+    """
+    return comparison.compare(table_of(measured), model)
+
+
+def discover(
+    measured: Measured,
+    model: Model,
+    candidates: Sequence[str] | None = None,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Discovery:
+    """Decide whether anything is missing from a model, and which physical effect it is.
+
+    Parameters
+    ----------
+    measured : Record, sequence of Record, or Samples
+    model : Model
+    candidates : sequence of str, optional
+        Effects to try; all that are not in the model where not given.
+    progress : callable
+        Called with what is being done.
+
+    Returns
+    -------
+    Discovery
+        `verdict`, `sentence`, `candidates`; `best.choice` is what `add_effect` takes.
+
+    Raises
+    ------
+    InputError
+        Too few readings or sweeps.
+    RunError
+        The model itself cannot be fitted.
+    """
+    return discovery.discover(table_of(measured), model, candidates, progress)
+
+
+def discover_all(
+    measured: Measured, model: Model, progress: Callable[[str], None] = lambda _: None
+) -> Iterator[AutoStep | Discovery]:
+    """Add missing effects one by one until nothing is missing; yield every step, last of all the final verdict."""
+    return discovery.discover_all(table_of(measured), model, progress=progress)
+
+
+def add_effect(measured: Measured, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:
+    """Add an effect to a model and fit everything that is free.
+
+    Parameters
+    ----------
+    measured : Record, sequence of Record, or Samples
+    model : Model
+    choice : str
+        ``pitch_cyclic``, ``backlash:4``, ``backlash:2:4``: an effect, or some of its elements.
+    robust : bool
+        Weight outliers of the gauge down.
+
+    Returns
+    -------
+    Diagnosis
+        `model` has the effect and one more step in its ledger; `undo` takes it back.
+
+    Raises
+    ------
+    InputError
+        An effect or element that is not known, or is in the model.
+    RunError
+        The fit did not end in a usable solution.
+    """
+    return ledger.add_effect(table_of(measured), model, choice, robust=robust)
+
+
+def remove_effect(measured: Measured, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:
+    """Remove an effect, or some of its elements, from a model and fit the rest; see `add_effect`."""
+    return ledger.remove_effect(table_of(measured), model, choice, robust=robust)

@@ -1,0 +1,107 @@
+"""From answers to samples: rows of the record, collected and appended to its journal in blocks.
+
+Pairing: positions and reading of a row are the answers to one SYNC; commanded angle and targets of the row are those of
+the SYNC before, which the drives have reached by then (`exchange`). The lag of the position loops is the difference
+between target and position columns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.capture.exchange import Feedback
+from hexdbb.record import SLIDER_COLUMNS, TARGET_COLUMNS, Journal
+from hexdbb.trajectory import Programme
+
+BLOCK_S = 0.25
+"""Machine time of one block, s. At worst the block (0.25 s) and the journal's writing period (0.5 s) are lost when the
+controller is killed: less than the second that is allowed."""
+MISSED_BEFORE = 1 << 8
+"""Bit of the status column: cycles were missed just before this sample. Bits 0-7 are the gauge's status 6150h."""
+
+
+class SampleBuffer:
+    """Collects the captured rows of a programme and appends them to a journal.
+
+    Parameters
+    ----------
+    programme : Programme
+        The table that the rows belong to.
+    journal : Journal
+        Receives the blocks.
+    counts_per_mm : float
+        Encoder scale.
+
+    Attributes
+    ----------
+    count : int
+        Samples collected so far.
+    """
+
+    def __init__(self, programme: Programme, journal: Journal, counts_per_mm: float) -> None:
+        self._programme, self._journal, self._counts_per_mm = programme, journal, counts_per_mm
+        runs = programme.runs
+        self._circle = np.array([run.circle.id for run in runs])
+        self._sweep = np.array([run.sweep for run in runs])
+        self._direction = np.array([run.direction for run in runs])
+        self._feed_mm_min = np.array([run.feed_mm_min for run in runs])
+        self._block: list[tuple[float, ...]] = []
+        self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
+        self.count = 0
+
+    def keep(self, row: int, cycle_index: int, missed: int, feedback: Feedback) -> None:
+        """Collect the answers of one captured row.
+
+        Parameters
+        ----------
+        row : int
+            Row of the table of targets.
+        cycle_index : int
+            Time of motion of the sample, in cycles.
+        missed : int
+            Cycles missed immediately before the sample.
+        feedback : Feedback
+            The answers.
+
+        Raises
+        ------
+        RunError
+            Earlier samples could not be written.
+        """
+        status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
+        self._block.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
+        self.count += 1
+        if len(self._block) >= self._block_size:
+            self.flush()
+
+    def flush(self) -> None:
+        """Append the collected samples to the journal; raises `RunError` if earlier samples could not be written."""
+        if self._block:
+            block = np.array(self._block)
+            self._block.clear()
+            self._journal.append(self._columns(block))
+
+    def _columns(self, block: NDArray[np.float64]) -> dict[str, NDArray[np.generic]]:
+        table = self._programme.table
+        row = block[:, 0].astype(np.intp)
+        run = table.run[row]
+        return {
+            "t_s": block[:, 1] * self._programme.cycle_s,
+            "circle": self._circle[run],
+            "sweep": self._sweep[run],
+            "direction": self._direction[run],
+            "lap": table.lap[row],
+            "angle_deg": table.angle_deg[row],
+            "feed_mm_min": self._feed_mm_min[run],
+            **_named(SLIDER_COLUMNS, block[:, 4:10] / self._counts_per_mm),
+            "reading_um": block[:, 3],
+            **_named(TARGET_COLUMNS, table.sliders_mm[row]),
+            "status": block[:, 2].astype(np.int32),
+        }
+
+
+def _named(names: Sequence[str], columns: NDArray[np.float64]) -> dict[str, NDArray[np.generic]]:
+    return dict(zip(names, columns.T, strict=True))

@@ -1,0 +1,5 @@
+"""Kinematics of the nominal machine for NumPy arrays, computed by the engine."""
+
+from hexdbb.kinematics.poses import engine_machine, forward, inverse, rotation_from_rpy, rpy_from_rotation, status_name
+
+__all__ = ["engine_machine", "forward", "inverse", "rotation_from_rpy", "rpy_from_rotation", "status_name"]

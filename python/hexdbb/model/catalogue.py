@@ -1,0 +1,41 @@
+"""Models from the catalogue: what an effect is on a machine, and a model with all values zero."""
+
+from __future__ import annotations
+
+from hexdbb import _core
+from hexdbb.errors import InputError
+from hexdbb.kinematics import engine_machine
+from hexdbb.machine import MachineFile
+from hexdbb.model.own import OwnEffects
+
+
+def effect_names(group: str = "") -> list[str]:
+    """Return the names of the effects of a group (``geometry``, ``set-up``, ``catalogue``), or of all."""
+    return _core.effect_names(group)
+
+
+def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects | None = None) -> _core.EffectInfo:
+    """Return the description of an effect; `own` are the user's.
+
+    Raises
+    ------
+    InputError
+        Where no effect has that name, with the names there are.
+    """
+    if own and effect in own:
+        return own[effect].info()
+    try:
+        return _core.effect_info(engine_machine(machine), mounts, effect)
+    except ValueError as error:
+        raise InputError(str(error)) from None
+
+
+def default_effects(machine: MachineFile) -> dict[str, bool]:
+    """Return the effects of a new model, and whether each is free.
+
+    The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit
+    to a micrometre. The bar's length is calibrated and fixed. Effects of the catalogue are added when something asks
+    for them.
+    """
+    names = [*effect_names("geometry"), *effect_names("set-up")]
+    return {name: name != "bar_length" for name in names}

@@ -1,0 +1,21 @@
+"""Plans: gauge, mounts, circles, and the order in which the circles are driven."""
+
+from hexdbb.plan.circle import Circle, Direction
+from hexdbb.plan.file import CircleRun, Circles, Mounts, Plan, check_ids, load_plan, shipped_plans
+from hexdbb.plan.gauge import LEAST_NOISE_MM, Gauge
+from hexdbb.plan.mount import Mount
+
+__all__ = [
+    "LEAST_NOISE_MM",
+    "Circle",
+    "CircleRun",
+    "Circles",
+    "Direction",
+    "Gauge",
+    "Mount",
+    "Mounts",
+    "Plan",
+    "check_ids",
+    "load_plan",
+    "shipped_plans",
+]

@@ -1,0 +1,21 @@
+"""Mounts: the set-ups of the cup on the base."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from hexdbb.files.validation import StrictModel, Vector3
+
+Identity = Annotated[int, Field(ge=0, le=2**31 - 1)]
+"""Number that samples and circles use to refer to a circle or a mount; a record holds it as int32."""
+
+
+class Mount(StrictModel):
+    """One fixing of the cup on the base; its true position is an unknown of the fit."""
+
+    id: Identity
+    """Number of the mount, unique in its file."""
+    cup_mm: Vector3
+    """Nominal centre of the cup (x, y, z), base frame."""

@@ -1,0 +1,86 @@
+"""Bins of a variable, and the design matrix of its hypothesis: one value for each bin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import sparse
+
+from hexdbb.predictors.variable import FloatArray, Variable
+
+PLACE_MM = 3.0
+"""Width of a bin on a guideway: narrower than the dents and bends sought, some of a screw's lead of 5 mm."""
+SAMPLES_PER_PLACE = 20
+"""Fewest samples a bin on a guideway holds on average: a mean then has less than a quarter of the noise."""
+
+
+@dataclass(frozen=True)
+class Binned:
+    """A variable in bins.
+
+    Attributes
+    ----------
+    design : sparse matrix, shape (n, columns)
+        Weights; columns without a sample are left out.
+    group : (columns,) int array
+        Number of `Variable.apart` a column belongs to.
+    centre, low, high : (columns,) arrays
+        Mean of the values there, and the smallest and largest.
+    samples : (columns,) array
+        Number of samples in each.
+    """
+
+    design: sparse.csr_matrix
+    group: NDArray[np.intp]
+    centre: FloatArray
+    low: FloatArray
+    high: FloatArray
+    samples: FloatArray
+
+
+def binned(variable: Variable) -> Binned:
+    """Divide a variable into bins; samples whose value is not known have an empty row."""
+    every = np.concatenate([values for _, values in variable.parts])
+    weight = np.concatenate([weights for weights, _ in variable.parts])
+    count = len(variable.parts[0][1])
+    row = np.tile(np.arange(count), len(variable.parts))
+    apart = np.zeros(count, np.intp) if variable.apart is None else variable.apart
+    known = np.isfinite(every)
+    every, weight, row = every[known], weight[known], row[known]
+    own, bins = _bins(variable, every, count)
+    column, place = np.unique(own + bins * apart[row], return_inverse=True)
+    place = place.ravel()
+    samples = np.bincount(place).astype(float)
+    low, high = np.full(len(column), np.inf), np.full(len(column), -np.inf)
+    np.minimum.at(low, place, every)
+    np.maximum.at(high, place, every)
+    return Binned(
+        design=sparse.csr_matrix((weight, (row, place)), shape=(count, len(column))),
+        group=column // bins,
+        centre=np.bincount(place, every) / samples,
+        low=low,
+        high=high,
+        samples=samples,
+    )
+
+
+def _bins(variable: Variable, values: FloatArray, count: int) -> tuple[NDArray[np.intp], int]:
+    """Return the bin of each value and the number of bins.
+
+    One bin a class where there are few values, else equally filled bins; for angles and places equally wide ones.
+    """
+    distinct = np.unique(values)
+    most = variable.bins
+    if len(distinct) <= most:
+        return np.searchsorted(distinct, values), len(distinct)
+    if variable.unit == "deg":
+        # The small summand keeps an angle that is meant to begin a bin out of the one before it.
+        return np.floor(values / (360.0 / most) + 1e-9).astype(np.intp) % most, most
+    if variable.is_place:
+        span = float(distinct[-1] - distinct[0])
+        most = max(min(int(np.ceil(span / PLACE_MM)), count // SAMPLES_PER_PLACE), most)
+        return np.minimum(((values - distinct[0]) / span * most).astype(np.intp), most - 1), most
+    edges = np.quantile(values, np.linspace(0.0, 1.0, most + 1)[1:-1])
+    return np.searchsorted(edges, values), most

@@ -1,0 +1,25 @@
+"""The table of samples: what everything from prediction to verdict takes, together with a model."""
+
+from hexdbb.samples.prediction import (
+    PUSH_SHAPES,
+    Linearised,
+    Prediction,
+    linearise,
+    normal_equations,
+    port_sensitivity,
+    predict,
+)
+from hexdbb.samples.table import Samples
+from hexdbb.samples.whole import PLANNED
+
+__all__ = [
+    "PLANNED",
+    "PUSH_SHAPES",
+    "Linearised",
+    "Prediction",
+    "Samples",
+    "linearise",
+    "normal_equations",
+    "port_sensitivity",
+    "predict",
+]

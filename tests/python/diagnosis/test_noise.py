@@ -1,0 +1,77 @@
+"""Noise of one reading: from repeated laps, however the gauge rounds; jumps do not count."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from tests.truth.cases import case
+
+from hexdbb.diagnosis import noise_of
+from hexdbb.record import Record
+from hexdbb.samples import Samples
+
+
+@lru_cache
+def clean(seed: int) -> Record:
+    return case(f"none-s{seed}").record()
+
+
+def rounded(record: Record, noise_um: float, step_um: float, seed: int) -> Record:
+    """Give a record whose readings repeat from lap to lap but for noise, rounded."""
+    angle = np.radians(record.columns["angle_deg"])
+    smooth_um = 30.0 * np.cos(angle) + 5.0 * np.cos(2.0 * angle)
+    noisy_um = smooth_um + noise_um * np.random.default_rng(seed).standard_normal(len(record))
+    shown_um = np.round(noisy_um / step_um) * step_um if step_um else noisy_um
+    return replace(record, columns={**record.columns, "reading_um": shown_um})
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("noise_um", [0.3, 0.5, 0.8])
+@pytest.mark.parametrize("step_um", [0.0, 0.1, 0.5])
+def test_laps_tell_the_noise_with_its_rounding(seed: int, noise_um: float, step_um: float) -> None:
+    found = noise_of(Samples.of([rounded(clean(1), noise_um, step_um, seed)]))
+    assert found.source == "repeated laps"
+    assert found.sigma_mm * 1e3 == pytest.approx(np.hypot(noise_um, step_um / np.sqrt(12.0)), rel=0.05)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3, 6, 11])
+def test_it_is_the_truths_noise_and_each_circle_tells_it(seed: int) -> None:
+    record = clean(seed)
+    assert noise_of(Samples.of([record])).sigma_mm * 1e3 == pytest.approx(0.5, rel=0.03)
+    for circle in range(7):
+        own = record.part(record.columns["circle"] == circle)
+        assert noise_of(Samples.of([own])).sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
+
+
+def test_jumps_do_not_count() -> None:
+    record = rounded(clean(1), 0.5, 0.1, 7)
+    reading_um = record.columns["reading_um"].copy()
+    reading_um[::40] += 20.0
+    found = noise_of(Samples.of([replace(record, columns={**record.columns, "reading_um": reading_um})]))
+    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.06)
+
+
+def test_one_lap_has_its_roughness() -> None:
+    record = clean(2)
+    single = record.part(record.columns["lap"] == 0)
+    silent = replace(single, gauge=single.gauge.model_copy(update={"noise_um": None}))
+    found = noise_of(Samples.of([silent]))
+    assert found.source == "roughness"
+    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
+
+
+def test_readings_that_never_change_are_as_good_as_a_gauge_can_be() -> None:
+    record = clean(1)
+    still = replace(record, columns={**record.columns, "reading_um": np.zeros(len(record))})
+    assert noise_of(Samples.of([still])).sigma_mm == 1e-6
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_contour_sampled_sparsely_and_unevenly_is_no_noise(seed: int) -> None:
+    record = clean(1)
+    draw = np.random.default_rng(seed)
+    sparse = record.part(draw.random(len(record)) < 0.3)
+    assert noise_of(Samples.of([sparse])).sigma_mm * 1e3 == pytest.approx(0.5, rel=0.05)
