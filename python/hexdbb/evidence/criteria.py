@@ -14,6 +14,8 @@ class Criteria:
     max_rows : int
         Rows of the linear screening; denser samples are averaged in blocks, whose length stays below a degree of the
         circle at two feeds, two directions and two laps of seven circles.
+    fit_rows : int
+        Rows of the full fits, evenly spread: some tens for each free value; all rows follow to first order.
     form_sigma : float
         Standard deviation (half-normal) of the relative difference between an effect's form and the machine's.
     form_grid : tuple of float
@@ -69,6 +71,7 @@ class Criteria:
     """
 
     max_rows: int = 12000
+    fit_rows: int = 3000
     form_sigma: float = 0.15
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
