@@ -41,6 +41,8 @@ class Criteria:
         The same beside hypotheses already found.
     held_out : int
         Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
+    most_steps : int
+        Steps of one thing, at most: a count lost again and again, a gauge that jumps to and fro.
     max_effects : int
         Effects looked for at once.
     heldout_share_min : float
@@ -84,6 +86,7 @@ class Criteria:
     full_fits: int = 5
     later_fits: int = 3
     held_out: int = 30
+    most_steps: int = 6
     max_effects: int = 4
     heldout_share_min: float = 0.5
     heldout_ratio: float = 1.5

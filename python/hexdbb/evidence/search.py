@@ -19,6 +19,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.families import Learned, learned_hypotheses
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Thinned
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.sums import Sums
@@ -79,6 +80,7 @@ class Search:
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
+        self._chosen: dict[Hypothesis, float] = {}
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
@@ -149,8 +151,8 @@ class Search:
                 trial = self.trials.of((*node.members, self._member(scored)))
             except RunError:
                 continue
-            prior = -np.log(max(len(known if isinstance(scored.hypothesis, Known) else learned), 1))
-            score = node.score + trial.log_evidence - node.trial.log_evidence + float(prior)
+            prior = self._log_prior(scored.hypothesis)
+            score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
         return sorted(found, key=lambda each: -each.score)
 
@@ -161,7 +163,15 @@ class Search:
         known = [each for each in screen.known(signatures, whose, kinds) if each.hypothesis not in present]
         if not self.learns:
             return known, []
-        return known, screen.learned([each for each in self.hypotheses if each not in present])
+        proposed = proposals(screen.sums.linear, self.engine.readings, self.thinned, self.criteria)
+        self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+        every = [*self.hypotheses, *(each.hypothesis for each in proposed)]
+        return known, screen.learned([each for each in every if each not in present])
+
+    def _log_prior(self, hypothesis: Hypothesis) -> float:
+        """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
+        count = len(self.kin) if isinstance(hypothesis, Known) else len(self.hypotheses)
+        return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
 
     def _is_worth(self, node: Node, best: Node) -> bool:
         """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""

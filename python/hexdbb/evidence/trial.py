@@ -186,6 +186,8 @@ class Trials:
         block = sums.block(signature)
         projected = sums.whole.project(block)
         factor = _visible(factor, projected.information, block.own[0])
+        if not factor.shape[1]:
+            return linear, Form(0.0, 0.0, ())
         grid = np.array(self.criteria.form_grid)
         weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
         found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
