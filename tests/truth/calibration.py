@@ -51,6 +51,9 @@ VARIABLES = {
     "circle_direction": ("direction",),
     "reading": ("deflection",),
     "warming": ("time",),
+    "step": ("time",),
+    "time_period": ("time",),
+    "position_period": ("position",),
 }
 """The truth's words for the variables of learned hypotheses, where they differ."""
 

@@ -14,6 +14,8 @@ class Criteria:
     max_rows : int
         Rows of the linear screening; denser samples are averaged in blocks, whose length stays below a degree of the
         circle at two feeds, two directions and two laps of seven circles.
+    fit_rows : int
+        Rows of the full fits, evenly spread: some tens for each free value; all rows follow to first order.
     form_sigma : float
         Standard deviation (half-normal) of the relative difference between an effect's form and the machine's.
     form_grid : tuple of float
@@ -39,6 +41,8 @@ class Criteria:
         The same beside hypotheses already found.
     held_out : int
         Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
+    most_steps : int
+        Steps of one thing, at most: a count lost again and again, a gauge that jumps to and fro.
     max_effects : int
         Effects looked for at once.
     heldout_share_min : float
@@ -64,6 +68,7 @@ class Criteria:
     """
 
     max_rows: int = 12000
+    fit_rows: int = 3000
     form_sigma: float = 0.15
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
@@ -76,6 +81,7 @@ class Criteria:
     full_fits: int = 5
     later_fits: int = 3
     held_out: int = 30
+    most_steps: int = 6
     max_effects: int = 4
     heldout_share_min: float = 0.5
     heldout_ratio: float = 1.5

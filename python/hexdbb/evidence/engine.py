@@ -117,6 +117,8 @@ class Engine:
         averaged = np.add.reduceat(self.residual_mm, begin) / count
         self.reading_mm = self.part.reading_mm - self.residual_mm[chosen] + averaged
         self.row_noise_mm = noise.sigma_mm / np.sqrt(count)
+        self._fitted_rows = np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), criteria.fit_rows)).astype(int))
+        self._fitted_part = samples.part(chosen[self._fitted_rows])
         self._tabulated: dict[str, Tabulated] = {}
 
     @cached_property
@@ -133,20 +135,24 @@ class Engine:
         return Readings(_state(part), groups, self.row_noise_mm, part.machine.sliders.screw_lead_mm)
 
     def fit(self, model: Model) -> Fitted:
-        """Fit a model's free values to the rows and linearise about the fit.
+        """Fit a model's free values to some of the rows and linearise about the fit.
+
+        What the other rows add is first order (`Trials` takes that step); they cost most of a fit's time.
 
         Raises
         ------
         RunError
             Where the fit did not end in a usable solution.
         """
+        fewer = self._fitted_rows
+        part = self._fitted_part
         result = _core.fit(
             self._engine(model),
-            self.part.block(model),
-            self.reading_mm,
-            noise_mm=float(np.mean(self.row_noise_mm)),
+            part.block(model),
+            self.reading_mm[fewer],
+            noise_mm=float(np.mean(self.row_noise_mm)) * float(np.sqrt(len(fewer) / len(self.reading_mm))),
             free=[bool(each) for each in model.free],
-            sweep=self.part["sweep"],
+            sweep=part["sweep"],
             hypothesis=True,
         )
         if not result.usable:

@@ -122,7 +122,7 @@ class Space:
     def prior_factor(self, roughness: float) -> Floats:
         """Return T such that coefficients T z, z standard normal, make functions of mean square one over the rows."""
         factor = self.hypothesis.variable.prior_factor(roughness)
-        factor = factor / np.sqrt(max(float(np.einsum("ij,ik,kj->", factor, self.square, factor)), 1e-300))
+        factor = factor / np.sqrt(max(float(np.sum(factor * (self.square @ factor))), 1e-300))
         return np.kron(np.eye(self.hypothesis.components), factor)
 
     def rms_mm(self, coefficients: Floats) -> float:

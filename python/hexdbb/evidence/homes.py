@@ -15,13 +15,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.evidence.families import ALL, Learned, Space
-from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.families import ALL, Learned
+from hexdbb.evidence.readings import Linear, Thinned
 
 Floats = NDArray[np.float64]
 
-THINNED_ROWS = 1200
-"""Rows of the regression: a signature has some tens of degrees of freedom."""
 SAME_FORM = 0.97
 """Explained part of a signature from which a hypothesis is said to contain it."""
 NEAR_FORM = 0.8
@@ -45,45 +43,55 @@ class Homes:
     Parameters
     ----------
     linear : Linear
-    spaces : sequence of Space
-        Of all learned hypotheses, in this linearisation.
+    thinned : Thinned
+    hypotheses : sequence of Learned
+        All that are learned.
     """
 
-    def __init__(self, linear: Linear, spaces: Sequence[Space]) -> None:
-        rows = len(linear.residual)
-        self.rows = np.unique(np.linspace(0, rows - 1, min(rows, THINNED_ROWS)).astype(np.intp))
-        own = linear.own[self.rows] * np.sqrt(rows / len(self.rows))
-        values, vectors = np.linalg.eigh(own.T @ own)
+    def __init__(self, linear: Linear, thinned: Thinned, hypotheses: Sequence[Learned]) -> None:
+        self.rows = thinned.rows
+        thin = thinned.linear(linear)
+        values, vectors = np.linalg.eigh(thin.own.T @ thin.own)
         # Values that the readings do not see within their priors cannot imitate anything.
-        seen = values > 1.0
-        self._absorbed = own @ (vectors[:, seen] / np.sqrt(values[seen]))
+        seen = values * len(linear.residual) > len(self.rows)
+        self._absorbed = thin.own @ (vectors[:, seen] / np.sqrt(values[seen]))
         self._spaces = []
-        for space in spaces:
-            thin = self._visible(space.signature[self.rows])
-            values, vectors = np.linalg.eigh(thin.T @ thin)
+        for each in hypotheses:
+            space = each.space(thin, thinned.readings)
+            visible = self._visible(space.signature)
+            values, vectors = np.linalg.eigh(visible.T @ visible)
             kept = values > 1e-9 * values[-1]
             half = vectors[:, kept] / np.sqrt(values[kept])
-            self._spaces.append((space, thin @ half, half))
+            self._spaces.append((space, visible @ half, half))
 
     def of(self, signature: Floats) -> list[Home]:
         """Return the hypotheses that contain a signature, shape (n,), the simplest first."""
-        own = self._visible(signature[self.rows])
-        total = float(own @ own)
-        if total <= 1e-9 * float(signature[self.rows] @ signature[self.rows]):
-            return []
-        found = []
+        return self.of_each(signature[:, None])[0]
+
+    def of_each(self, signatures: Floats) -> list[list[Home]]:
+        """Return the hypotheses that contain each of some signatures, shape (n, m)."""
+        whole = signatures[self.rows]
+        own = self._visible(whole)
+        total = np.sum(own**2, axis=0)
+        shown = total > 1e-9 * np.sum(whole**2, axis=0)
+        found: list[list[Home]] = [[] for _ in total]
         for space, basis, half in self._spaces:
-            along = own @ basis
-            explained = float(along @ along) / total
-            if explained >= NEAR_FORM:
-                found.append(Home(space.hypothesis, explained, space.rms_mm(half @ along)))
-        best = max((each.explained for each in found), default=0.0)
-        near = [each for each in found if each.explained >= min(SAME_FORM, best - (1.0 - SAME_FORM))]
-        return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
+            along = basis.T @ own
+            explained = np.divide(np.sum(along**2, axis=0), total, out=np.zeros_like(total), where=shown)
+            for column in np.flatnonzero(explained >= NEAR_FORM):
+                size = space.rms_mm(half @ along[:, column])
+                found[column].append(Home(space.hypothesis, float(explained[column]), size))
+        return [_nearest(each) for each in found]
 
     def _visible(self, signature: Floats) -> Floats:
         left: Floats = signature - self._absorbed @ (self._absorbed.T @ signature)
         return left
+
+
+def _nearest(found: Sequence[Home]) -> list[Home]:
+    best = max((each.explained for each in found), default=0.0)
+    near = [each for each in found if each.explained >= min(SAME_FORM, best - (1.0 - SAME_FORM))]
+    return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
 
 def discrepancy(homes: Sequence[Home]) -> list[Learned]:

@@ -85,3 +85,37 @@ class Linear:
         information = self.own.T @ self.own + np.eye(self.own.shape[1])
         fit = float(self.residual @ self.residual) + float(self.standing @ self.standing)
         return -0.5 * (fit + float(np.linalg.slogdet(information)[1]))
+
+
+THINNED_ROWS = 2400
+"""Rows of which questions of rank are asked (which functions contain a form, which are worth a full look): a signature
+has some tens of degrees of freedom."""
+
+
+class Thinned:
+    """Some rows, evenly spread, of all linearisations of the same readings; designs made for one are kept for others.
+
+    Parameters
+    ----------
+    readings : Readings
+    count : int
+    """
+
+    def __init__(self, readings: Readings, count: int = THINNED_ROWS) -> None:
+        whole = len(readings)
+        self.rows: Ints = np.unique(np.linspace(0, whole - 1, min(whole, count)).astype(np.intp))
+        self.readings = Readings(
+            State({name: values[self.rows] for name, values in readings.state.items()}),
+            {name: numbers[self.rows] for name, numbers in readings.groups.items()},
+            readings.noise_mm[self.rows],
+            readings.screw_lead_mm,
+        )
+
+    def linear(self, linear: Linear) -> Linear:
+        """Return the rows of a linearisation."""
+        return Linear(
+            residual=linear.residual[self.rows],
+            own=linear.own[self.rows],
+            standing=linear.standing,
+            pushes={place: push[self.rows] for place, push in linear.pushes.items()},
+        )

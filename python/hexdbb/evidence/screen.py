@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.families import Learned
+from hexdbb.evidence.families import Learned, Space
 from hexdbb.evidence.marginal import Marginal, marginal, solved
+from hexdbb.evidence.readings import Thinned
 from hexdbb.evidence.sums import Block, Sums, Training, squared_error
 
 Floats = NDArray[np.float64]
@@ -52,10 +53,12 @@ class Screen:
     ----------
     sums : Sums
     criteria : Criteria
+    thinned : Thinned
+        Rows of the readings on which learned hypotheses are ranked first.
     """
 
-    def __init__(self, sums: Sums, criteria: Criteria) -> None:
-        self.sums, self.criteria = sums, criteria
+    def __init__(self, sums: Sums, criteria: Criteria, thinned: Thinned) -> None:
+        self.sums, self.criteria, self.thinned = sums, criteria, thinned
         own = self.whole.own_values()
         self.left = squared_error(sums, self.whole.cells, own, None, None)
         self.excess = max(self.left - self.whole.rows, 1e-9)
@@ -78,17 +81,29 @@ class Screen:
         return found
 
     def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
-        """Score learned hypotheses, the largest evidence first."""
-        readings = self.sums.readings
+        """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows."""
         scored = []
-        for each in hypotheses:
-            space = each.space(self.sums.linear, readings)
+        for each in self._ranked(hypotheses)[: self.criteria.held_out]:
+            space = each.space(self.sums.linear, self.sums.readings)
             block = self.sums.block(space.signature)
-            levels = self.criteria.roughness if each.variable.is_smooth else self.criteria.roughness[:1]
-            scored.append(
-                (self._scored(each, block, [space.prior_factor(level) for level in levels], self.sizes_mm), block)
-            )
+            scored.append((self._scored(each, block, self._factors(space), self.sizes_mm), block))
         return self._held_out(scored)
+
+    def _ranked(self, hypotheses: Sequence[Learned]) -> list[Learned]:
+        linear = self.thinned.linear(self.sums.linear)
+        sums = Sums(linear, self.thinned.readings, ())
+        evidence = []
+        for each in hypotheses:
+            space = each.space(linear, self.thinned.readings)
+            projected = sums.whole.project(sums.block(space.signature))
+            factors = self._factors(space)
+            found = marginal(projected.information, projected.gradient, factors, self.sizes_mm, temper=self.temper)
+            evidence.append(found.log_evidence)
+        return [hypotheses[place] for place in np.argsort(evidence)[::-1]]
+
+    def _factors(self, space: Space) -> list[Floats]:
+        levels = self.criteria.roughness if space.hypothesis.variable.is_smooth else self.criteria.roughness[:1]
+        return [space.prior_factor(level) for level in levels]
 
     def known(self, signatures: Floats, whose: Sequence[tuple[str, str, str, float]], kinds: set[str]) -> list[Scored]:
         """Score effects of the catalogue, element by element; `kinds` are effects that have one element only."""

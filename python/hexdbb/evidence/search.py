@@ -19,6 +19,8 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.families import Learned, learned_hypotheses
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.proposals import proposals
+from hexdbb.evidence.readings import Thinned
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
@@ -71,21 +73,23 @@ class Search:
         linear = self.engine.linearised(self.engine.base).linear
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
-        self.homes = Homes(linear, [each.space(linear, readings) for each in self.hypotheses])
+        self.thinned = Thinned(readings)
+        self.homes = Homes(linear, self.thinned, self.hypotheses)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
+        self._chosen: dict[Hypothesis, float] = {}
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
         """Names of the learned hypotheses that are an effect's element in other words, by the element's name."""
         signatures, whose = self.engine.signatures(self.engine.base, self.known)
         found: dict[str, set[str]] = {}
-        for place, (effect, element, _, _) in enumerate(whose):
+        for (effect, element, _, _), homes in zip(whose, self.homes.of_each(signatures), strict=True):
             name = Known(effect, (element,), self._is_whole(effect)).name
-            found.setdefault(name, set()).update(each.hypothesis.name for each in self.homes.of(signatures[:, place]))
+            found.setdefault(name, set()).update(each.hypothesis.name for each in homes)
         return found
 
     def run(self) -> Node:
@@ -138,7 +142,8 @@ class Search:
         return (one.place, one.element) == (other.place, other.element)
 
     def _children(self, node: Node) -> list[Node]:
-        screen = Screen(Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",)), self.criteria)
+        sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
+        screen = Screen(sums, self.criteria, self.thinned)
         known, learned = self._screened(node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         for scored in (*_best(known, count), *_best(learned, count)):
@@ -146,8 +151,8 @@ class Search:
                 trial = self.trials.of((*node.members, self._member(scored)))
             except RunError:
                 continue
-            prior = -np.log(max(len(known if isinstance(scored.hypothesis, Known) else learned), 1))
-            score = node.score + trial.log_evidence - node.trial.log_evidence + float(prior)
+            prior = self._log_prior(scored.hypothesis)
+            score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
         return sorted(found, key=lambda each: -each.score)
 
@@ -158,7 +163,15 @@ class Search:
         known = [each for each in screen.known(signatures, whose, kinds) if each.hypothesis not in present]
         if not self.learns:
             return known, []
-        return known, screen.learned([each for each in self.hypotheses if each not in present])
+        proposed = proposals(screen.sums.linear, self.engine.readings, self.thinned, self.criteria)
+        self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+        every = [*self.hypotheses, *(each.hypothesis for each in proposed)]
+        return known, screen.learned([each for each in every if each not in present])
+
+    def _log_prior(self, hypothesis: Hypothesis) -> float:
+        """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
+        count = len(self.kin) if isinstance(hypothesis, Known) else len(self.hypotheses)
+        return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
 
     def _is_worth(self, node: Node, best: Node) -> bool:
         """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""

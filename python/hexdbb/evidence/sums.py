@@ -46,12 +46,13 @@ class Sums:
     linear : Linear
     readings : Readings
     groupings : tuple of str
-        What tells cells apart; fewer take less time.
+        What tells cells apart; fewer take less time, none make one cell of all rows.
     """
 
     def __init__(self, linear: Linear, readings: Readings, groupings: tuple[str, ...] = GROUPINGS) -> None:
         self.linear, self.readings, self.groupings = linear, readings, groupings
-        keys = np.column_stack([readings.groups[name] for name in groupings])
+        whole = np.zeros(len(readings), np.intp)
+        keys = np.column_stack([whole, *(readings.groups[name] for name in groupings)])
         self.keys, cell = np.unique(keys, axis=0, return_inverse=True)
         cell = cell.ravel()
         self._order = np.argsort(cell, kind="stable")
@@ -79,7 +80,7 @@ class Sums:
 
     def groups(self, grouping: str) -> list[Ints]:
         """Return the cells of every group of a grouping."""
-        numbers = self.keys[:, self.groupings.index(grouping)]
+        numbers = self.keys[:, 1 + self.groupings.index(grouping)]
         return [np.flatnonzero(numbers == each) for each in np.unique(numbers)]
 
     @cached_property
@@ -92,6 +93,8 @@ class Sums:
         return Training(self, np.setdiff1d(np.arange(len(self.keys)), cells))
 
     def _pad(self, columns: Floats) -> Floats:
+        if len(self.keys) == 1:
+            return columns[None]
         padded = np.zeros((self._shape[0] * self._shape[1], columns.shape[1]))
         padded[self._at] = columns[self._order]
         return padded.reshape(*self._shape, columns.shape[1])

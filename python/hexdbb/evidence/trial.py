@@ -131,7 +131,7 @@ class Trials:
             forms.append(form)
         refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
         prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in forms if form is not None)
-        whole = Sums(linear, self.engine.readings).whole
+        whole = Sums(linear, self.engine.readings, ()).whole
         change = whole.own_values()
         residual = linear.residual - linear.own @ change
         gain = 0.5 * float(whole.own @ whole.own)
@@ -182,9 +182,12 @@ class Trials:
         roughness = self.criteria.roughness[1]
         parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
         factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
-        sums = Sums(linear, self.engine.readings)
-        projected = sums.whole.project(sums.block(signature))
-        factor = _visible(factor, projected.information, sums.block(signature).own.sum(axis=0))
+        sums = Sums(linear, self.engine.readings, ())
+        block = sums.block(signature)
+        projected = sums.whole.project(block)
+        factor = _visible(factor, projected.information, block.own[0])
+        if not factor.shape[1]:
+            return linear, Form(0.0, 0.0, ())
         grid = np.array(self.criteria.form_grid)
         weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
         found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())

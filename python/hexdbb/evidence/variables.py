@@ -7,7 +7,7 @@ time, possibly with a step where the column changes sign, or constant. A table o
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -44,8 +44,8 @@ class Variable:
         Whether a step with the column's sign belongs to it.
     is_log : bool
         Whether the spline's argument is the column's logarithm.
-    at : float
-        Instant of a step of `column`; nan where none.
+    instants : tuple of float
+        Values of `column` from which a step each holds; empty where it has none.
     """
 
     name: str
@@ -56,12 +56,12 @@ class Variable:
     period: float = 0.0
     signed: bool = False
     is_log: bool = False
-    at: float = field(default=float("nan"), compare=True)
+    instants: tuple[float, ...] = ()
 
     @property
     def is_step(self) -> bool:
-        """Whether it is a step at one instant."""
-        return bool(np.isfinite(self.at))
+        """Whether it is made of steps."""
+        return bool(self.instants)
 
     @property
     def needs_bounds(self) -> bool:
@@ -76,13 +76,15 @@ class Variable:
     def prior_factor(self, roughness: float) -> Floats:
         """Return T of the prior covariance T T' of the coefficients, not scaled; shape (columns, columns)."""
         factor = np.eye(self.columns)
+        if self.is_step:
+            return factor
         factor[: self.count, : self.count] = _prior_factor(self.count, roughness, self.period > 0.0)
         return factor
 
     @property
     def is_smooth(self) -> bool:
         """Whether its smoothness is to be chosen."""
-        return self.count > splines.DEGREE
+        return self.count > splines.DEGREE and not self.is_step
 
     def design(self, state: Mapping[str, Floats], element: int, bounds: tuple[float, float] | None = None) -> Floats:
         """Return the functions at every row, shape (n, columns).
@@ -101,7 +103,7 @@ class Variable:
             return weight[:, None].copy()
         values = of(state, self.column, element)
         if self.is_step:
-            return (weight * (values >= self.at))[:, None]
+            return weight[:, None] * (values[:, None] >= np.array(self.instants))
         argument = self.argument(values)
         if self.count == 1:
             basis = np.nan_to_num(argument)[:, None]

@@ -1,0 +1,164 @@
+"""Hypotheses whose form is found in the readings: the instants of steps in time, periods that nobody states.
+
+A step shifts once and stays: a loose cup, a gauge that slips, a lost count. Sums from the end of the readings backwards
+give the gain of a step at every instant at once; the best is taken, and another beside it, as long as each is worth
+more than the choice among all instants. The strongest period comes from a Fourier transform over the variable. What the
+choice costs, the log of the average over all that was tried relative to the best, is the hypothesis' log prior.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
+from scipy.special import logsumexp
+
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.families import ALL, Learned
+from hexdbb.evidence.readings import Linear, Readings, Thinned
+from hexdbb.evidence.variables import Variable
+from hexdbb.predictors.periods import strongest_frequency
+
+Floats = NDArray[np.float64]
+
+WIDE_MM = 1.0
+"""Prior standard deviation of steps found already, while the next is sought: beyond any step."""
+SHORTEST_MM = 0.4
+"""Shortest period of a position: below, neighbouring readings no longer follow it at a usual feed."""
+PERIOD_COLUMNS = 8
+"""Splines of a period: a sine with two harmonics."""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A hypothesis and its log prior relative to those that are not chosen by the readings."""
+
+    hypothesis: Learned
+    log_prior: float
+
+
+def proposals(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
+    """Return the steps and periods of a linearisation that are worth a look."""
+    return [*_steps(linear, readings, thinned, criteria), *_periods(linear, readings)]
+
+
+def _shifting() -> Iterator[tuple[str, int, slice]]:
+    """Yield places that may shift: place, element, columns of its pushes."""
+    for place in ("slider", "leg"):
+        for element in range(1, 7):
+            yield place, element, slice(element - 1, element)
+    for place in ("ball", "cup"):
+        yield place, ALL, slice(0, 3)
+    yield "reading", ALL, slice(0, 1)
+
+
+def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
+    time_s, few = readings.state["time"], thinned.linear(linear)
+    found = []
+    temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
+    for place, element, columns in _shifting():
+        scan = _Scan(few, thinned.readings.state["time"], few.pushes[place][:, columns], temper)
+        instants, log_prior, gain = scan.greedy(criteria.most_steps, criteria.detect_nats)
+        if instants:
+            found.append((gain + log_prior, place, element, columns, instants, log_prior))
+    found.sort(key=lambda each: -each[0])
+    chosen = []
+    for _, place, element, columns, instants, log_prior in found[: criteria.full_fits]:
+        whole = _Scan(linear, time_s, linear.pushes[place][:, columns], temper)
+        refined = whole.refined(instants, float(np.median(np.diff(np.unique(thinned.readings.state["time"])))))
+        variable = Variable("step", "time", "s", len(refined), instants=tuple(sorted(refined)))
+        chosen.append(Proposal(Learned(place, element, variable), log_prior))
+    return chosen
+
+
+class _Scan:
+    """Gain of a step at every instant.
+
+    Parameters
+    ----------
+    linear : Linear
+    time_s : ndarray, shape (n,)
+    pushes : ndarray, shape (n, c)
+        Of what shifts.
+    temper : float
+        Variance that stands for the noise's one.
+    """
+
+    def __init__(self, linear: Linear, time_s: Floats, pushes: Floats, temper: float) -> None:
+        order = np.argsort(time_s, kind="stable")
+        self.time_s, self.pushes, self.temper = time_s[order], pushes[order], temper
+        self.own, self.residual, self.standing = linear.own[order], linear.residual[order], linear.standing
+
+    def gains(self, instants: list[float]) -> Floats:
+        """Return the log likelihood that a step from every row on gains beside steps found already, shape (n,)."""
+        added = [self.pushes * (self.time_s >= at)[:, None] * WIDE_MM for at in instants]
+        own = np.hstack([self.own, *added])
+        standing = np.concatenate([self.standing, np.zeros(own.shape[1] - self.own.shape[1])])
+        factor = np.linalg.cholesky(own.T @ own + np.eye(own.shape[1]))
+        fitted = solve_triangular(factor, own.T @ self.residual - standing, lower=True)
+        count, width = self.pushes.shape
+        table = np.concatenate([self.pushes, own, self.residual[:, None]], axis=1)
+        sums = np.cumsum((self.pushes[:, :, None] * table[:, None, :])[::-1], axis=0)[::-1]
+        cross = sums[:, :, width:-1].reshape(count * width, -1)
+        half = solve_triangular(factor, cross.T, lower=True).T.reshape(count, width, -1)
+        information = sums[:, :, :width] - np.matmul(half, half.transpose(0, 2, 1))
+        gradient = sums[:, :, -1] - half @ fitted
+        known = information + np.eye(width) / WIDE_MM**2
+        gain: Floats = 0.5 * np.einsum("ni,ni->n", gradient, np.linalg.solve(known, gradient[..., None])[..., 0])
+        # Rows of one instant step together: a step begins at the first of them.
+        first = np.concatenate([[False], np.diff(self.time_s) > 0.0])
+        return np.where(first, gain / self.temper, -np.inf)
+
+    def greedy(self, most: int, worth: float) -> tuple[list[float], float, float]:
+        """Return instants, the log prior of their choice, and the gain of all."""
+        instants: list[float] = []
+        log_prior = total = 0.0
+        for _ in range(most):
+            gains = self.gains(instants)
+            best = int(np.argmax(gains))
+            spread = float(logsumexp(gains)) - float(np.log(np.isfinite(gains).sum())) - float(gains[best])
+            if gains[best] + spread < worth:
+                break
+            instants.append(float(self.time_s[best]))
+            log_prior += spread
+            total += float(gains[best])
+        return instants, log_prior, total
+
+    def refined(self, instants: list[float], window_s: float) -> list[float]:
+        """Return the best instants near some found on fewer rows."""
+        found = list(instants)
+        for place, at in enumerate(instants):
+            gains = self.gains([each for other, each in enumerate(found) if other != place])
+            gains[np.abs(self.time_s - at) > 2.0 * window_s] = -np.inf
+            if np.isfinite(gains).any():
+                found[place] = float(self.time_s[int(np.argmax(gains))])
+        return found
+
+
+def _periods(linear: Linear, readings: Readings) -> Iterator[Proposal]:
+    position, time_s = readings.state["position"], readings.state["time"]
+    places = [("slider", each, [each - 1]) for each in range(1, 7)]
+    for place in ("lateral", "vertical"):
+        places += [(place, each, [2 * each - 2, 2 * each - 1]) for each in range(1, 4)]
+    for place, element, columns in places:
+        weighted = np.concatenate([linear.residual * linear.pushes[place][:, column] for column in columns])
+        values = np.concatenate([position[:, column] for column in columns])
+        yield from _period(place, element, "position", "mm", weighted, values, 1.0 / SHORTEST_MM)
+    gaps = np.diff(np.unique(time_s))
+    if len(gaps):
+        highest = 0.5 / float(np.median(gaps))
+        weighted = linear.residual * linear.pushes["reading"][:, 0]
+        yield from _period("reading", ALL, "time", "s", weighted, time_s, highest)
+
+
+def _period(
+    place: str, element: int, column: str, unit: str, weighted: Floats, values: Floats, highest: float
+) -> Iterator[Proposal]:
+    frequency = strongest_frequency(weighted, values, highest)
+    if frequency is not None:
+        variable = Variable(f"{column}_period", column, unit, PERIOD_COLUMNS, period=1.0 / frequency)
+        tried = max(float(np.ptp(values)) * highest, 1.0)
+        yield Proposal(Learned(place, element, variable), -float(np.log(tried)))
