@@ -53,6 +53,8 @@ ALLOWED: dict[str, set[str]] = {
     # where the model fails; readings come in as arrays, predicted or measured
     "comparison": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
     "plots": {"errors", "files", "plan", "comparison", "predictors"},
+    # hypotheses on what is missing, decided by their evidence
+    "evidence": {"errors", "units", "kinematics", "model", "samples", "diagnosis", "predictors", "_core"},
     "discovery": {
         "errors",
         "files",
@@ -66,6 +68,7 @@ ALLOWED: dict[str, set[str]] = {
         "diagnosis",
         "ledger",
         "predictors",
+        "evidence",
         "_core",
     },
     # what a controller does about it
@@ -261,8 +264,9 @@ NAME_BLIND = (
     "diagnosis",
     "ledger",
     "predictors",
-    "compare",
+    "comparison",
     "plots",
+    "evidence",
     "discovery",
 )
 """Parts that work on any list of effects and know none by name."""

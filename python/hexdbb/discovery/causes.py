@@ -32,6 +32,10 @@ MAX_CANDIDATES = 6
 MAX_CHECKED = 4
 """Candidates whose prediction of what was left out is computed for the table: each costs a pass over all groups."""
 
+SMALLEST_DEVIATION = 0.01
+"""Deviation of form from which it is told: below, a machine's effect is as the formula has it."""
+MORE = "something else is missing besides"
+
 
 @dataclass(frozen=True)
 class Told:
@@ -45,9 +49,10 @@ class Told:
     residual_mm: Floats
     remaining: Sufficiency | None
     next_test: NextTest | None = None
+    remarks: tuple[str, ...] = ()
 
 
-def told(search: Search, judged: Judged, judge: Judge) -> Told:
+def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Told:
     """Tell a verdict.
 
     Parameters
@@ -58,24 +63,84 @@ def told(search: Search, judged: Judged, judge: Judge) -> Told:
         Of `hexdbb.evidence`.
     judge : callable
         Judges what a fitted model leaves.
+    matters_um : float
+        Unexplained RMS from which it matters.
     """
-    engine = search.engine
     candidates = _candidates(search, judged.node)
     if not judged.found or judged.checked is None:
         sentence = "something is missing that nothing tried explains"
-        return Told("unknown", sentence, (), candidates, engine.base, engine.residual_mm, None)
-    found = sorted(judged.found, key=lambda each: -_share(search, judged.node, each.hypothesis))
-    grade = found[0].grade if judged.grade == "effect" or _is_enough(search, judged) else "unknown"
-    model, result = _fitted(search, judged.node.trial)
-    causes = tuple(_cause(search, judged.node, each, model, result) for each in found)
-    remaining = None
-    residual_mm = engine.residual_mm
-    if result is not None:
-        residual_mm = result.residual_mm
-        remaining = judge(model, residual_mm)
-    test = _next_test(search, found[0], causes[0], model) if grade == "ambiguous" else None
-    sentence = _sentence(grade, causes, judged.checked.share, judged.checked.heldout)
-    return Told(grade, sentence, causes, candidates, model, residual_mm, remaining, test)
+        return Told("unknown", sentence, (), candidates, search.engine.base, search.engine.residual_mm, None)
+    shares = {each.hypothesis: _share(search, judged.node, each.hypothesis) for each in judged.found}
+    refining = [each.hypothesis for each in judged.found if search.refined(each.hypothesis)]
+    found = [each for each in judged.found if each.hypothesis not in refining]
+    found.sort(key=lambda each: -shares[each.hypothesis])
+    found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]
+    if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
+        return told_forms(search, refining)
+    grade = found[0].grade if judged.checked.share >= search.criteria.explained_min else "unknown"
+    model, result = _fitted(search, judged.node.trial, [each.hypothesis for each in found])
+    causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], model, result) for each in found)
+    residual_mm = search.engine.residual_mm if result is None else result.residual_mm
+    return Told(
+        verdict=grade,
+        sentence=_sentence(grade, causes, judged.checked.share, judged.checked.heldout),
+        causes=causes,
+        candidates=candidates,
+        model=model,
+        residual_mm=residual_mm,
+        remaining=None if result is None else judge(model, residual_mm),
+        next_test=_next_test(search, found[0], causes[0], model) if grade == "ambiguous" else None,
+        remarks=_remarks(search, judged.node.trial, causes, grade, matters_um),
+    )
+
+
+def is_form_alone(search: Search, matters_um: float) -> bool:
+    """Check whether the forms of the effects that the model has explain what is left."""
+    return bool(search.root.trial.present) and left_um(search, search.root.trial) < matters_um
+
+
+def told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
+    """Tell that nothing is left but the forms of the effects that the model has.
+
+    Parameters
+    ----------
+    search : Search
+    refining : sequence of hypotheses
+        That describe the forms, where some were found.
+    """
+    engine, present = search.engine, search.root.trial.present
+    deviating = [(name, form) for name, form in present if form.deviation >= SMALLEST_DEVIATION]
+    whose = [f"{name} ({words.percent(form.deviation)} off)" for name, form in deviating]
+    whose += [name for name in dict.fromkeys(map(search.refined, refining)) if name not in dict(deviating)]
+    functions = [each.name for each in refining] or [form.functions[0] for _, form in deviating if form.functions]
+    sentence = f"no other cause is missing: what is left is the form of {words.joined(whose or ['what was found'])}"
+    refine = f"the form is refined by: hexdbb add {functions[0]}" if functions else ""
+    return Told("none", sentence, (), (), engine.base, engine.residual_mm, None, None, (refine,) if refine else ())
+
+
+def left_um(search: Search, trial: Trial) -> float:
+    """Return the RMS beyond the noise that a trial leaves, forms explained."""
+    return float(np.sqrt(max(trial.left - 1.0, 0.0)) * np.mean(search.engine.row_noise_mm)) * 1e3
+
+
+def _size_um(search: Search, share: float) -> float:
+    """Return the RMS of a part of what is unexplained."""
+    return left_um(search, search.root.trial) * float(np.sqrt(max(share, 0.0)))
+
+
+def _remarks(
+    search: Search, trial: Trial, causes: Sequence[Cause], grade: Verdict, matters_um: float
+) -> tuple[str, ...]:
+    """Say how far forms differ, and whether something remains beside the causes and their forms."""
+    said = [
+        f"the machine's form differs from that of {each.choice} by {words.percent(each.form_deviation)} of its size"
+        for each in causes
+        if each.form_deviation >= SMALLEST_DEVIATION
+    ]
+    beside_um = left_um(search, trial)
+    if grade == "effect" and beside_um >= matters_um:
+        said.append(f"{MORE}: {beside_um:.2f} µm are left that neither the causes nor their forms explain")
+    return tuple(said)
 
 
 def choice_of(hypothesis: Hypothesis) -> str:
@@ -83,11 +148,6 @@ def choice_of(hypothesis: Hypothesis) -> str:
     if isinstance(hypothesis, Learned) or hypothesis.is_whole:
         return hypothesis.name
     return str(Choice(hypothesis.effect, hypothesis.elements))
-
-
-def _is_enough(search: Search, judged: Judged) -> bool:
-    assert judged.checked is not None
-    return judged.checked.share >= search.criteria.explained_min
 
 
 def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
@@ -102,10 +162,12 @@ def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
         return 0.0
 
 
-def _fitted(search: Search, trial: Trial) -> tuple[Model, _core.FitResult | None]:
-    """Fit the known causes of a trial to all readings in their exact form, as they would be added."""
+def _fitted(
+    search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]
+) -> tuple[Model, _core.FitResult | None]:
+    """Fit the known ones of a trial's hypotheses to all readings in their exact form, as they would be added."""
     engine = search.engine
-    known = [each.hypothesis for each in trial.members if isinstance(each.hypothesis, Known)]
+    known = [each for each in hypotheses if isinstance(each, Known)]
     if not known:
         return engine.base, None
     model = engine.base
@@ -117,7 +179,9 @@ def _fitted(search: Search, trial: Trial) -> tuple[Model, _core.FitResult | None
     return evaluate_fit(engine.samples, start, start.free, engine.noise, hypothesis=True)
 
 
-def _cause(search: Search, node: Node, found: Found, model: Model, result: _core.FitResult | None) -> Cause:
+def _cause(
+    search: Search, node: Node, found: Found, share: float, model: Model, result: _core.FitResult | None
+) -> Cause:
     hypothesis = found.hypothesis
     values: tuple[Size, ...] = ()
     if isinstance(hypothesis, Learned):
@@ -132,7 +196,7 @@ def _cause(search: Search, node: Node, found: Found, model: Model, result: _core
         effect=effect,
         elements=elements,
         verdict=found.grade,
-        share=_share(search, node, hypothesis),
+        share=share,
         margin=float(min(found.margin, node.score - search.root.score)),
         form_deviation=found.deviation,
         refinements=found.refinements,
@@ -206,7 +270,7 @@ def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> Next
         node = _node_called(search, set_of)
         if node is None or not all(isinstance(each, Known) for each in node.hypotheses):
             continue
-        other, _ = _fitted(search, node.trial)
+        other, _ = _fitted(search, node.trial, node.hypotheses)
         return next_test(search.engine.samples, search.engine.noise, (model, other), (cause.choice, name))
     return None
 

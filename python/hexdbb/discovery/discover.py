@@ -13,7 +13,7 @@ import numpy as np
 
 from hexdbb import _core
 from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, judging_noise, sufficiency
-from hexdbb.discovery.causes import Told, told
+from hexdbb.discovery.causes import Told, is_form_alone, told, told_forms
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.unexplained import unexplained_structure
@@ -32,7 +32,6 @@ LEAST_READINGS = 200
 """Readings below which nothing is judged: a model has some forty values."""
 LEAST_SWEEPS = 2
 """Sweeps below which no direction, circle or feed can be held out."""
-MORE = "something else is missing besides: look again once this effect is added"
 
 
 def discover(
@@ -86,9 +85,10 @@ def discover(
         return _nothing(engine, enough, judging)
     progress("screening all hypotheses, fitting the best")
     search = Search(engine, names, criteria)
-    verdict = judge(search)
-    progress("putting it into words")
-    return _outcome(told(search, verdict, judged), engine, enough, judging)
+    if is_form_alone(search, enough.matters_um):
+        return _outcome(told_forms(search), engine, enough, judging)
+    found = told(search, judge(search), judged, enough.matters_um)
+    return _outcome(found, engine, enough, judging)
 
 
 def absent_effects(model: Model) -> list[str]:
@@ -109,9 +109,8 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency, judging: JudgingN
     remaining, residual_mm = found.remaining, found.residual_mm
     left = enough if remaining is None else remaining
     structure = ()
-    if left.matters or found.verdict == "unknown":
+    if found.verdict != "none" and left.matters:
         structure = unexplained_structure(engine.samples, found.model, residual_mm, judging.noise)
-    more = remaining is not None and remaining.matters and found.verdict == "effect"
     outcome = Discovery(
         verdict=found.verdict,
         sentence=found.sentence,
@@ -124,7 +123,7 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency, judging: JudgingN
         rms_after_um=left.lack_of_fit.rms_um,
         next_test=found.next_test,
         structure=structure,
-        remarks=(MORE,) if more else (),
+        remarks=found.remarks,
     )
     return _with_remark(outcome, engine, judging)
 

@@ -198,6 +198,22 @@ class Engine:
         table: Floats = jacobian[:, columns] * sigmas / self.row_noise_mm[:, None]
         return table, [(each.effect, each.element, each.name, each.prior_sigma) for _, each in wanted]
 
+    def present(self) -> list[tuple[str, tuple[str, ...], bool]]:
+        """Return the catalogue's and the user's effects that the base has free: effect, element, if it has no other."""
+        base = self.base
+        mine = self._mine()
+        free = [each for each, is_free in zip(base.parameters(), base.free, strict=True) if is_free]
+        found = dict.fromkeys((each.effect, each.element) for each in free if each.effect in mine)
+        return [(effect, (element,), len(base.info(effect).elements) == 1) for effect, element in found]
+
+    def geometry(self, fitted: Fitted) -> NDArray[np.bool_]:
+        """Return which free values are geometry's or the set-up's: all but those of effects that could be missing."""
+        parameters, mine = fitted.model.parameters(), self._mine()
+        return np.array([parameters[column].effect not in mine for column in fitted.free], dtype=bool)
+
+    def _mine(self) -> set[str]:
+        return {*_core.effect_names("catalogue"), *self.base.own_effects}
+
     def with_effect(self, model: Model, effect: str, elements: Sequence[str]) -> Model:
         """Return the model with some elements of an effect of the catalogue free as well, at zero."""
         if effect not in {term.effect for term in model.terms}:

@@ -80,6 +80,8 @@ class Trial:
     forms: tuple[Form | None, ...]
     refused: tuple[str, ...]
     left: float
+    present: tuple[tuple[str, Form], ...] = ()
+    """Effects that the model had before, each with its form."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -100,6 +102,7 @@ class Trials:
     def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._known: dict[frozenset[str], Trial] = {}
+        self._present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
 
     def of(self, members: Sequence[Member]) -> Trial:
@@ -126,11 +129,17 @@ class Trials:
     def _tried(self, members: tuple[Member, ...]) -> Trial:
         fitted = self._fitted(members)
         linear, forms = fitted.linear, []
+        present = []
+        for known in self._present:
+            linear, form = self._with_form(linear, fitted, Member(known))
+            if form is not None:
+                present.append((known.name, form))
         for member in members:
             linear, form = self._with_form(linear, fitted, member)
             forms.append(form)
         refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
-        prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in forms if form is not None)
+        every = [*forms, *(form for _, form in present)]
+        prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in every if form is not None)
         whole = Sums(linear, self.engine.readings, ()).whole
         change = whole.own_values()
         residual = linear.residual - linear.own @ change
@@ -145,6 +154,7 @@ class Trials:
             forms=tuple(forms),
             refused=refused,
             left=float(np.mean(residual**2)),
+            present=tuple(present),
         )
 
     def _fitted(self, members: Sequence[Member]) -> Fitted:
