@@ -14,7 +14,7 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
-from hexdbb.discovery import failing_effects
+from hexdbb.discovery import require_usable_effects
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.ledger import add_effect
 from hexdbb.ledger.json_form import added_json
@@ -59,8 +59,7 @@ def command(
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
-    for error in failing_effects(samples, model, [name]).values():
-        raise error
+    require_usable_effects(samples, model, [name])
     with messages.status(f"adding {effect}: fitting with and without it, then without the held-out circles"):
         found = add_effect(samples, model, effect, robust=robust)
     save_model(found.model, model_path)

@@ -100,8 +100,7 @@ def closing_sentence(steps: Sequence[AutoStep], last: Discovery) -> str:
         else:
             kept.remove(step.choice)
     found = f"found and added: {joined(kept)}" if kept else "nothing was added"
-    left = last.sufficiency.sentence if last.verdict == "none" else last.sentence
-    return f"{found}; left: {left}" if last.verdict == "none" else f"{found}; but {left}"
+    return f"{found}; {last.sentence}"
 
 
 def without_needless(

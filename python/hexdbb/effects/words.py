@@ -65,5 +65,5 @@ def size_words(size: Size) -> str:
     shown = "" if unit == "1" else f" {unit}"
     if size.sigma is None or not size.sigma > 0.0:
         return f"{size.value:.3g}{shown}"
-    places = max(0, min(6, 1 - int(f"{size.sigma:.1e}".split("e")[1]))) if size.sigma < 10.0 else 0
+    places = max(0, -int(f"{size.sigma:.0e}".split("e")[1]))
     return f"{size.value:.{places}f} ± {size.sigma:.{places}f}{shown}"

@@ -74,7 +74,7 @@ def test_auto_adds_until_nothing_is_missing(folder: Path) -> None:
     (step,) = found["steps"]
     jsonschema.validate({"schema": "hexdbb.add/1", **step}, json_schema("add"), jsonschema.Draft202012Validator)
     assert step["effect"] == "backlash"
-    assert found["closing"].startswith("found and added: backlash:4; left: ")
+    assert found["closing"].startswith("found and added: backlash:4; nothing ")
     model = load_model(folder / "model.toml")
     assert [each.what for each in model.ledger] == ["add"]
     again = run(folder, "discover run.parquet -m model.toml --auto")
