@@ -22,9 +22,10 @@ from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table, to_frame
 from hexdbb.kinematics import forward
 from hexdbb.machine import MachineFile
-from hexdbb.model import Model, MountKey, OwnEffect, Tabulated
+from hexdbb.model import Model, MountKey, OwnEffect, ShapedEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.samples.swing import DERIVED
 from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
 Floats = NDArray[np.float64]
@@ -124,7 +125,7 @@ class Samples:
         KeyError
             A column that is not known, with those that are.
         """
-        column = self._whole.columns.get(name)
+        column = self._whole.column(name)
         if column is None:
             raise KeyError(f"samples have no column {name!r} (expected one of {', '.join(self.column_names)})")
         return column if self._rows is None else column[self._rows]
@@ -132,14 +133,14 @@ class Samples:
     if not TYPE_CHECKING:  # users' functions may write samples.angle_rad for samples["angle_rad"]; ours may not
 
         def __getattr__(self, name: str) -> Column:
-            if name.startswith("_") or name not in self._whole.columns:
+            if name.startswith("_") or name not in self.column_names:
                 raise AttributeError(f"'Samples' object has no attribute {name!r}")
             return self[name]
 
     @property
     def column_names(self) -> tuple[str, ...]:
         """Names of the columns that are known."""
-        return tuple(self._whole.columns)
+        return tuple(dict.fromkeys((*self._whole.columns, *DERIVED)))
 
     @property
     def records(self) -> tuple[Record, ...]:
@@ -250,12 +251,17 @@ class Samples:
         position_mm, rotation, _ = forward(self.machine, self["sliders_mm"])
         return position_mm, rotation
 
-    def _tabulated(self, effect: OwnEffect) -> Tabulated:
+    def _tabulated(self, effect: OwnEffect, values: Floats) -> Tabulated:
         """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs."""
         known = self._whole.tabulated
-        if effect not in known:
-            known[effect] = effect.tabulated(Samples(self._whole))
-        return known[effect]
+        if not isinstance(effect, ShapedEffect) or not effect.shapes:
+            if effect not in known:
+                known[effect] = effect.tabulated(Samples(self._whole))
+            return known[effect]
+        at = values.tobytes()  # another fit's values need another table; the last one serves most calls
+        if effect not in self._whole.shaped or self._whole.shaped[effect][0] != at:
+            self._whole.shaped[effect] = (at, effect.tabulated_at(Samples(self._whole), values))
+        return self._whole.shaped[effect][1]
 
     def _require_known(self, model: Model) -> None:
         for place in np.unique(self["mount"]):
