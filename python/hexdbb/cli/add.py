@@ -16,6 +16,8 @@ from hexdbb.cli.shared_options import json_option, model_option, records_argumen
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.discovery import failing_effects
 from hexdbb.files.atomic_file import refuse_existing
+from hexdbb.learned import Hypothesis
+from hexdbb.learned.places import is_learned
 from hexdbb.ledger import add_effect
 from hexdbb.ledger.json_form import added_json
 from hexdbb.ledger.words import PLACES, arrow
@@ -50,12 +52,16 @@ def command(
       hexdbb add backlash:4 -m model.toml today.parquet
       hexdbb add backlash:2:4 -m model.toml today.parquet yesterday.csv
       hexdbb add pitch_cyclic -m model.toml today.parquet --json
+      hexdbb add learned:leg:5:turning_rate -m model.toml today.parquet
       hexdbb add my_dent -m model.toml today.parquet --effects mine.py
     """
     refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
     name = Choice.parse(effect).effect
-    model.info(name)  # an unknown name is refused before records are read
+    if is_learned(name):
+        Hypothesis.parse(name)
+    else:
+        model.info(name)  # an unknown name is refused before records are read
     messages = Console(stderr=True, soft_wrap=True, highlight=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])

@@ -108,6 +108,11 @@ class Hypothesis:
         return ((element, ((first + 3 * element + component, 1.0),)),)
 
 
+def is_learned(name: str) -> bool:
+    """Check whether an effect's name is that of a learned one."""
+    return name.startswith(f"{PREFIX}:")
+
+
 def hypotheses() -> Iterator[Hypothesis]:
     """Yield every hypothesis there is; whether its variable varies in some samples, `Space.of` checks."""
     for place, variables in VARIABLES.items():

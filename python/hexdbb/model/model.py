@@ -236,7 +236,9 @@ class Model:
             if own is None:
                 engine.add(term.effect, max(len(self.mounts), 1))
             elif tabulate is None:
-                raise InputError(f"{term.effect}: an effect of your own is known in measured samples only, not here")
+                raise InputError(
+                    f"{term.effect}: effects that are learned or your own are known in measured samples only, not here"
+                )
             else:
                 tabulate(own, term.values).add_to(engine)
         # A user's effect is tabulated at its shapes: to the engine they are differences from there.
