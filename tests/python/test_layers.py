@@ -266,7 +266,6 @@ NAME_BLIND = (
     "discovery",
 )
 """Parts that work on any list of effects and know none by name."""
-STILL_NAMING = {"hexdbb.identifiability.structure", "hexdbb.model.catalogue"}
 
 
 @pytest.mark.parametrize(
@@ -274,7 +273,7 @@ STILL_NAMING = {"hexdbb.identifiability.structure", "hexdbb.model.catalogue"}
 )
 def test_no_effect_is_known_by_name_above_effects(path: Path) -> None:
     named = strings_of(path.read_text(encoding="utf-8")) & set(_core.effect_names())
-    assert bool(named) == (module_name(path) in STILL_NAMING), named
+    assert not named
 
 
 def test_only_the_ledger_makes_its_steps() -> None:

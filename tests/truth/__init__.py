@@ -36,5 +36,6 @@ engine or of what is built on it.
 
     for one in reachable(alone("calibrate", kinds=["straightness"], seeds=range(3))): ...
 
-Set OMP_NUM_THREADS=1: the small matrices here gain nothing from threads, and many trials share the cores.
+A case with its record takes 0.5 s of one core (median; 5 s for bar_drift, whose geometry bends far). Set
+OMP_NUM_THREADS=1: with two threads on its small matrices the same takes five times as long.
 """

@@ -15,7 +15,7 @@ from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.shaping import fit_shapes, shaped
 from hexdbb.diagnosis.smoothing import with_bands
 from hexdbb.errors import InputError, RunError
-from hexdbb.identifiability import KNOWN_PART, sentences
+from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 
@@ -36,7 +36,7 @@ def evaluate_fit(
     noise: Noise,
     *,
     robust: bool = False,
-    judging: bool = False,
+    hypothesis: bool = False,
 ) -> tuple[Model, _core.FitResult]:
     """Fit chosen values of a model, no more: no held-out circles, no words.
 
@@ -50,7 +50,7 @@ def evaluate_fit(
     noise : Noise
     robust : bool
         Huber's loss beyond `GLITCH_SIGMAS`.
-    judging : bool
+    hypothesis : bool
         A fit that only serves to compare models: it ends sooner, and its covariance is to first order.
 
     Raises
@@ -71,7 +71,7 @@ def evaluate_fit(
                 free=[bool(each) for each in free],
                 robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
                 sweep=samples["sweep"],
-                judging=judging,
+                hypothesis=hypothesis,
             )
         except ValueError as error:
             raise InputError(f"{samples.name}: {error}") from None
@@ -134,6 +134,7 @@ def diagnose(
     parameters = known.parameters()
     judged = [column for column in result.free_columns if not parameters[column].is_coefficient]
     unknown = unknown_directions(result.covariance, known, judged)
+    displaced = Displacements.of(samples, known).of_values(judged)
     return Diagnosis(
         samples=samples,
         model=fitted,
@@ -151,7 +152,7 @@ def diagnose(
         residual_before_mm=predict(samples, known).residual_mm,
         residual_mm=result.residual_mm,
         held_out=checked,
-        unidentifiable=tuple(sentences(unknown, [parameters[column] for column in judged])),
+        unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
         warnings=(*either_sign, *warnings_of(fitted, result, noise, checked, expected)),
     )
 
@@ -160,7 +161,7 @@ def refitter(noise: Noise, robust: bool = False) -> Refit:
     """Return a function that fits a model's free values to samples."""
 
     def refit(samples: Samples, model: Model) -> Model:
-        return evaluate_fit(samples, model, model.free, noise, robust=robust, judging=True)[0]
+        return evaluate_fit(samples, model, model.free, noise, robust=robust, hypothesis=True)[0]
 
     return refit
 

@@ -125,6 +125,6 @@ def is_needed(samples: Samples, model: Model, choice: str) -> bool:
 
 def _squared(samples: Samples, model: Model, noise: Noise) -> tuple[float, float, int]:
     """Squared residuals over the noise's variance, how many neighbours tell as much as one, and number of readings."""
-    result = evaluate_fit(samples, model, model.free, noise, judging=True)[1]
+    result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)[1]
     squared = float(result.residual_mm @ result.residual_mm) / noise.sigma_mm**2
     return squared, result.correlation, len(result.residual_mm)

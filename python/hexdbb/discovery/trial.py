@@ -54,7 +54,7 @@ class Base:
 
 def fitted_base(samples: Samples, model: Model, noise: Noise) -> Base:
     """Fit a model's free values and keep what candidates are compared with."""
-    fitted, result = evaluate_fit(samples, model, model.free, noise, judging=True)
+    fitted, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
     residual = result.residual_mm
     return Base(samples, fitted, noise, float(residual @ residual) / noise.sigma_mm**2, residual)
 
@@ -81,12 +81,12 @@ def try_effect(
     the rest is fitted again.
     """
     wider = with_effect(base.model, effect, elements, shape)
-    fitted, result = evaluate_fit(base.samples, wider, wider.free, base.noise, judging=True)
+    fitted, result = evaluate_fit(base.samples, wider, wider.free, base.noise, hypothesis=True)
     kept = contributing(base, fitted, result, effect, elements) or tuple(elements)
     if kept != tuple(elements):
         elements = kept
         wider = with_effect(base.model, effect, elements, shape)
-        fitted, result = evaluate_fit(base.samples, wider, wider.free, base.noise, judging=True)
+        fitted, result = evaluate_fit(base.samples, wider, wider.free, base.noise, hypothesis=True)
     squared = float(result.residual_mm @ result.residual_mm) / base.noise.sigma_mm**2
     candidate = Candidate(
         effect=effect,

@@ -1,4 +1,4 @@
-"""The expected error of held-out circles is what is found, and a cross-validation error that means little is flagged."""
+"""The expected error of held-out circles is what is found; a cross-validation error that means little is flagged."""
 
 from __future__ import annotations
 

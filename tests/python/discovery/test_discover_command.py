@@ -23,7 +23,7 @@ from hexdbb.effects import effect
 @effect(port="slider", unit="mm", prior_sigma=0.01, elements=6)
 def my_play(samples):
     '''Play between slider and screw.'''
-    return 0.5 * samples["side"]
+    return 0.5 * samples["travel_direction"]
 """
 
 

@@ -181,24 +181,35 @@ class _Geometry:
         by_pose = np.concatenate([along, np.cross(arm, along)], axis=1)
         by_leg = np.linalg.solve(np.swapaxes(jacobian, 1, 2), by_pose[:, :, None])[:, :, 0]
         push = by_leg[:, :, None] * unit
+        anchors, directions, lengths, joints = self._points_slopes(value)
+        flat = (len(self._rows), 18)
         columns = np.empty((len(self._rows), len(self.prior)))
-        for j, step in enumerate(STEP * np.eye(GEOMETRY_SIZE)):
-            after, before = (self._geometry(value[:GEOMETRY_SIZE] + sign * step) for sign in (1.0, -1.0))
-            anchors = (after.anchors_mm - before.anchors_mm) / (2.0 * STEP)
-            directions = (after.directions - before.directions) / (2.0 * STEP)
-            joints = (after.joints_mm - before.joints_mm) / (2.0 * STEP)
-            lengths = (after.lengths_mm - before.lengths_mm) / (2.0 * STEP)
-            column = by_leg @ lengths + np.einsum("nki,ki->n", push, anchors)
-            if np.any(directions):
-                column += np.einsum("nk,nki,ki->n", self._drive, push, directions)
-            if np.any(joints):
-                column -= np.einsum("nki,nij,kj->n", push, rotation, joints)
-            columns[:, j] = column
+        columns[:, :GEOMETRY_SIZE] = (
+            by_leg @ lengths
+            + push.reshape(flat) @ anchors
+            + (self._drive[:, :, None] * push).reshape(flat) @ directions
+            - (push @ rotation).reshape(flat) @ joints
+        )
         for mount in range(len(self._history.plan.mounts)):
             first = GEOMETRY_SIZE + 3 * mount
             columns[:, first : first + 3] = np.where((self._mount == mount)[:, None], -along, 0.0)
         columns[:, -3:] = np.einsum("nij,ni->nj", rotation, along)
         return columns
+
+    def _points_slopes(self, value: Array) -> tuple[Array, Array, Array, Array]:
+        """Derivatives of anchors, directions (18 coordinates), lengths (6) and joints (18) by the 33 errors."""
+        both = [
+            [self._geometry(value[:GEOMETRY_SIZE] + sign * step) for step in STEP * np.eye(GEOMETRY_SIZE)]
+            for sign in (1.0, -1.0)
+        ]
+        names = ("anchors_mm", "directions", "lengths_mm", "joints_mm")
+        after, before = (
+            [np.stack([getattr(each, name).reshape(-1) for each in side], axis=1) for name in names] for side in both
+        )
+        anchors, directions, lengths, joints = (
+            (more - less) / (2.0 * STEP) for more, less in zip(after, before, strict=True)
+        )
+        return anchors, directions, lengths, joints
 
     def _bar(self, value: Array, poses: Poses) -> tuple[Array, Array]:
         arm = np.einsum("nij,nj->ni", poses.rotation, self._ball + value[-3:])

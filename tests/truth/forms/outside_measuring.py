@@ -103,7 +103,7 @@ def _bar_whirls(draw: Draw) -> Fault:
 
 
 def _gauge_jumps(draw: Draw) -> Fault:
-    """A bad contact: the gauge's zero jumps to and fro."""
+    """A bad contact: the gauge's zero jumps back and forth."""
     seed, number = int(draw.integers(1 << 31)), int(draw.integers(2, 6))
 
     def values(scene: Scene, size: float) -> Array:
