@@ -14,6 +14,7 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
+from hexdbb.diagnosis.learned_text import learned_parts
 from hexdbb.discovery import failing_effects
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.learned import Hypothesis
@@ -62,7 +63,7 @@ def command(
         Hypothesis.parse(name)
     else:
         model.info(name)  # an unknown name is refused before records are read
-    messages = Console(stderr=True, soft_wrap=True, highlight=False)
+    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
     for error in failing_effects(samples, model, [name]).values():
@@ -96,6 +97,10 @@ def print_added(found: Diagnosis, console: Console) -> None:
         name = "" if index else step.effect
         table.add_row(name, size.element, size.name, f"{size.value:{places}}", sigma, readable_unit(size.unit))
     console.print(table)
+    term = found.model.term(step.effect)
+    if term is not None and term.learned is not None:
+        for part in learned_parts(term):
+            console.print(part, soft_wrap=True)
     if any(size.sigma is None for size in step.sizes):
         console.print("~: known only in combination with others.")
     for warning in found.warnings:

@@ -18,6 +18,7 @@ Where the dent lies may be fitted too:
         return np.exp(-(((samples["sliders_mm"] - centre) / 15.0) ** 2))
 """
 
+from hexdbb.effects.draft import draft
 from hexdbb.effects.loading import load_effects
 from hexdbb.effects.same import same_effects
 from hexdbb.effects.tabulate import UserEffectError
@@ -28,6 +29,7 @@ __all__ = [
     "Shape",
     "UserEffect",
     "UserEffectError",
+    "draft",
     "effect",
     "load_effects",
     "same_effects",

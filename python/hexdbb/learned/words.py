@@ -57,7 +57,8 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
         Of its variable; 0 where it is not periodic.
     """
     turned = TIMES.get(curve.times, "")
-    if not np.any(np.abs(curve.value_mm) > CERTAIN * np.nan_to_num(curve.sigma_mm)):
+    values = curve.value_mm - (np.median(curve.value_mm) if len(curve.at) > 2 and not curve.times else 0.0)
+    if not np.any(np.abs(values) > CERTAIN * np.nan_to_num(curve.sigma_mm)):
         return Form("nothing", None, "not distinguishable from zero")
     if len(curve.at) < 2:
         return Form("constant", None, f"{curve.value_mm[0] * UM_PER_MM:.2f} µm{turned}")
@@ -106,7 +107,7 @@ def _words(fit: Fit, curve: Curve) -> str:
             return f"a drift of {size_um[0] * S_PER_H:.4g} µm/h"
         return f"linear, {size_um[0] / factor:.3g} µm per {unit or 'unit'}"
     if fit.kind == "step":
-        return f"a step of {2.0 * size_um[0]:.3g} µm with the sign of {curve.variable}"
+        return f"a step of {2.0 * size_um[0]:.3g} µm with the sign of the {curve.variable}"
     if fit.kind == "sine":
         amplitude = float(np.hypot(*size_um))
         return f"a sine of period {fit.shapes[0] * factor:.4g} {unit} and amplitude {amplitude:.3g} µm"

@@ -40,12 +40,16 @@ def with_step(
         Its values.
     """
     checked, records = found.held_out, found.samples.records
+    kind = ""
+    if choice is not None:  # a learned effect is known to the model that has it
+        has_it = model if found.model.term(choice.effect) is None else found.model
+        kind = has_it.info(choice.effect).element_kind
     step = LedgerStep(
         step=len(model.ledger) + 1,
         what=what,
         effect="" if choice is None else choice.effect,
         elements=() if choice is None else choice.elements,
-        element_kind="" if choice is None else model.info(choice.effect).element_kind,
+        element_kind=kind,
         sizes=sizes,
         rms_before_um=_rms_um(before_mm),
         rms_after_um=_rms_um(found.residual_mm),

@@ -37,6 +37,8 @@ class LearnedEffect:
         Prior standard deviation of the values.
     sigma_mm : tuple of float
         Standard deviation of the function at `Space.points`, one component after another; empty before it is fitted.
+        Where a constant belongs to the function, that of the function less its mean over the samples: a constant push
+        is a leg's or a slider's offset in other words.
     samples : tuple of float
         Number of samples nearest to each point, of those it was fitted to.
     """
@@ -61,6 +63,12 @@ class LearnedEffect:
     def factor(self) -> Floats:
         """T, shape (columns, columns); the same for every component."""
         return self.space.prior_factor(self.roughness)
+
+    @property
+    def has_constant(self) -> bool:
+        """Whether a push that is the same in all samples is among its functions."""
+        variable = self.space.hypothesis.variable
+        return bool(variable.column) and variable.count > 1 and not variable.times
 
     def info(self) -> _core.EffectInfo:
         """Describe it as the engine's own are described."""
@@ -117,8 +125,11 @@ class LearnedEffect:
     def fitted(self, covariance: Floats, samples: Any) -> LearnedEffect:
         """Return the same effect with the band of a fit: covariance of its values, mm², and the samples fitted to."""
         basis = self.space.functions(self.space.points()) @ self.factor
+        counts = self.space.counts(samples)
+        if self.has_constant:
+            basis = basis - np.average(basis, axis=0, weights=counts)
         columns, sigma = basis.shape[1], []
         for component in range(self.space.hypothesis.components):
             own = slice(component * columns, (component + 1) * columns)
             sigma += np.sqrt(np.einsum("ij,jk,ik->i", basis, covariance[own, own], basis)).tolist()
-        return replace(self, sigma_mm=tuple(sigma), samples=tuple(map(float, self.space.counts(samples))))
+        return replace(self, sigma_mm=tuple(sigma), samples=tuple(map(float, counts)))

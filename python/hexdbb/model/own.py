@@ -30,12 +30,12 @@ class Tabulated:
     ports: tuple[int, ...]
     per_unit: NDArray[np.float64]
 
-    def pushes(self) -> NDArray[np.float64]:
-        """Return the pushes at every port, shape (n, 55, size): mm per unit of the value."""
+    def pushes(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Return the pushes at every port in some rows, shape (n, 55, size): mm per unit of the value."""
         ports = sum(count for _, count in _core.PORTS.values())
-        every = np.zeros((len(self.per_unit), ports, self.info.size))
+        every = np.zeros((len(rows), ports, self.info.size))
         for index, (value, port) in enumerate(zip(self.values, self.ports, strict=True)):
-            every[:, port, value] += self.per_unit[:, index]
+            every[:, port, value] += self.per_unit[rows, index]
         return every
 
     def add_to(self, engine: _core.Model) -> None:

@@ -212,9 +212,9 @@ class Samples:
         """
         return model.engine(self._tabulated)
 
-    def pushes_of(self, effect: OwnEffect) -> Floats:
-        """Return what a user's effect pushes in these samples, shape (n, 55, size), mm per engine unit of a value."""
-        return self._tabulated(effect).pushes()[self.row_numbers]
+    def pushes_of(self, effect: OwnEffect, values: Floats) -> Floats:
+        """Return what an effect that is not the engine's pushes here at its values, (n, 55, size), mm per unit of one."""
+        return self._tabulated(effect, values).pushes(self.row_numbers)
 
     def columns(self) -> Columns:
         """Return every column with shape (n,): ``velocity_mm_s_1`` of slider 1, ``position_mm_x``."""

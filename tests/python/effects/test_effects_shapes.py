@@ -128,7 +128,7 @@ for k in range(2):
         return (1.0 + k) * samples["velocity_mm_s"]
 """
     (error,) = same_effects(load_effects(written(tmp_path, body)), samples).values()
-    assert "mine.py:5: effect same_1: the same as effect same_0 of line 5" in str(error)
+    assert "mine.py:6: effect same_1: the same as effect same_0 of line 6" in str(error)
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,7 @@ def test_a_sine_of_a_periodic_variable_has_a_part_of_its_period() -> None:
 
 def test_a_step_is_named_with_the_sign_of_its_variable() -> None:
     form = describe(curve(RATE, 3.0 * np.sign(RATE) + 1.0, column="slider_joint_rate_rad_s", unit="rad/s"))
-    assert form.kind == "step" and "with the sign of position" in form.text
+    assert form.kind == "step" and "with the sign of the position" in form.text
     assert numbers(form.text) == pytest.approx([6.0], rel=0.03)
 
 
