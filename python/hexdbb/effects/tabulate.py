@@ -89,7 +89,9 @@ def tabulated_at(effect: UserEffect, samples: Samples, values: Floats) -> Tabula
             known[key] = _pushes(effect, samples, dict(zip(names, key, strict=True)))
         return known[key]
 
-    numbers, ports, tables = [], [], []
+    numbers: list[int] = []
+    ports: list[int] = []
+    tables: list[Floats] = []
     for element, own in enumerate(values.reshape(effect.elements, -1)):
         sizes, shapes = own[:count], own[count:]
         width = at(shapes)[0].shape[1] // effect.elements

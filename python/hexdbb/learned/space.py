@@ -25,8 +25,8 @@ POINTS = 41
 """Points of a function's table where the function has few splines: a cubic between two of 12 knots bends little over
 three intervals."""
 POINTS_PER_SPLINE = 3
-SIGN_POINTS = (-3.0, -1.5, -0.75, -0.25, 0.25, 0.75, 1.5, 3.0)
-"""Further points about a step, in its widths: tanh is 0.995 at 3."""
+SIGN_POINTS = (-3.0, -2.5, -2.0, -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.0)
+"""Further points about a step, in its widths, on either side: lines between them miss tanh by 2 % at most."""
 SAMPLES_PER_SPLINE = 5
 """Fewest different samples per spline: fewer leave some splines to the prior alone."""
 SMALLEST_RANGE = 1e-9
@@ -144,11 +144,11 @@ class Space:
         if variable.column:
             values = np.concatenate([_of(samples, variable.column, each) for each in elements])
             known = values[np.isfinite(values) & (np.abs(values) < NEVER)]
+            if len(known) and float(np.ptp(known)) <= SMALLEST_RANGE * max(float(np.abs(known).max()), SMALLEST_RANGE):
+                raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
             different = min(len(np.unique(known)), len(known) // len(elements))
             if different < SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count:
-                raise InputError(f"{name}: {variable.column} has {different} different values (expected it to vary)")
-            if float(np.ptp(known)) <= SMALLEST_RANGE * max(float(np.abs(known).max()), SMALLEST_RANGE):
-                raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
+                raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
             width = SIGN_PART * float(np.sqrt(np.mean(known**2))) if variable.signed else 0.0
             if not period:
                 argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
@@ -213,6 +213,7 @@ class Space:
             return np.exp(at)
         if self.sign_width:
             about = self.sign_width * np.array(SIGN_POINTS)
+            about = np.concatenate([about, -about])
             at = np.union1d(at, about[(about > low) & (about < high)])
         return at
 

@@ -89,7 +89,9 @@ class LearnedEffect:
 
     def tabulated(self, samples: Any) -> Tabulated:
         """Evaluate it for a table of samples."""
-        values, ports, tables = [], [], []
+        values: list[int] = []
+        ports: list[int] = []
+        tables: list[Floats] = []
         hypothesis, columns = self.space.hypothesis, self.space.hypothesis.variable.columns
         pushed: dict[int, Floats] = {}
         for component in range(hypothesis.components):
