@@ -85,7 +85,7 @@ def test_a_fault_no_known_effect_explains_is_found_and_kept(
     path = tmp_path / "model.toml"
     save_model(model, path)
     assert "exp(" not in path.read_text()  # a name and values, nothing that runs
-    with pytest.raises(InputError, match=r'effect\[\d+\].name: no effect is called "dent".*--effects FILE.py'):
+    with pytest.raises(InputError, match=r'effect\[\d+\].name: no effect has the name "dent".*--effects FILE.py'):
         load_model(path)
     again = load_model(path, load_effects(mine))
     assert again.values == pytest.approx(model.values, rel=1e-12)
