@@ -236,9 +236,8 @@ class Model:
             if own is None:
                 engine.add(term.effect, max(len(self.mounts), 1))
             elif tabulate is None:
-                raise InputError(
-                    f"{term.effect}: effects that are learned or your own are known in measured samples only, not here"
-                )
+                kind = "a learned effect" if term.learned is not None else "an effect of your own"
+                raise InputError(f"{term.effect}: {kind} is known in measured samples only, not here")
             else:
                 tabulate(own, term.values).add_to(engine)
         # A user's effect is tabulated at its shapes: to the engine they are differences from there.

@@ -213,7 +213,7 @@ class Samples:
         return model.engine(self._tabulated)
 
     def pushes_of(self, effect: OwnEffect, values: Floats) -> Floats:
-        """Return what an effect that is not the engine's pushes here at its values, (n, 55, size), mm per unit of one."""
+        """Return what an effect that is not the engine's pushes at its values, (n, 55, size), mm per unit of one."""
         return self._tabulated(effect, values).pushes(self.row_numbers)
 
     def columns(self) -> Columns:
