@@ -58,16 +58,18 @@ def _values_table(model: Model) -> Table:
         table.add_column(name, justify="right")
     table.add_column("unit")
     columns = model.columns()
+    # A shape is in its own unit: a width in rad/s may be thousandths.
+    places = [".2f" if each.shape is None else ".4g" for each in model.parameters()]
     last = ""
     coefficient = np.array([each.is_coefficient for each in model.parameters()], dtype=bool)
-    for row in np.flatnonzero((columns["free"] | (columns["value"] != 0.0)) & ~coefficient):
+    for row in np.flatnonzero((columns["free"] | (model.values != model.start)) & ~coefficient):
         effect = str(columns["effect"][row])
         table.add_row(
             "" if effect == last else effect,
             columns["element"][row],
             columns["name"][row],
-            f"{columns['value'][row]:.2f}",
-            sigma_shown(columns, row),
+            f"{columns['value'][row]:{places[row]}}",
+            sigma_shown(columns, row, places[row]),
             readable_unit(columns["unit"][row]),
         )
         last = effect
