@@ -7,6 +7,7 @@ from hexdbb.diagnosis.mounts import fit_mounts
 from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_noise
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
 from hexdbb.diagnosis.result import Diagnosis
+from hexdbb.diagnosis.smoothing import learned_effect, space_of
 from hexdbb.diagnosis.whiteness import is_white
 
 __all__ = [
@@ -24,8 +25,10 @@ __all__ = [
     "held_out",
     "is_white",
     "lap_differences",
+    "learned_effect",
     "noise_of",
     "place_uncertainty",
     "refitter",
+    "space_of",
     "stated_noise",
 ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexdbb.effects import UserEffect, UserEffectError
+from hexdbb.effects import UserEffect, UserEffectError, same_effects
 from hexdbb.model import Model
 from hexdbb.samples import Samples
 
@@ -23,7 +23,7 @@ def failing_effects(samples: Samples, model: Model, names: Sequence[str]) -> dic
     -------
     dict of str to UserEffectError
         By name; the error names file and line: the function raises, or returns a wrong shape, a value that is not
-        finite, or the same push in every sample.
+        finite, the same push in every sample, or the push of another effect.
     """
     failed = {}
     for name, each in model.own_effects.items():
@@ -32,4 +32,5 @@ def failing_effects(samples: Samples, model: Model, names: Sequence[str]) -> dic
                 each.require_usable(samples)
             except UserEffectError as error:
                 failed[name] = error
-    return failed
+    usable = [each for name, each in model.own_effects.items() if name in names and isinstance(each, UserEffect)]
+    return failed | same_effects([each for each in usable if each.name not in failed], samples)
