@@ -33,9 +33,13 @@ std::vector<Rows> rows_by_sweep(const Eigen::VectorXi& sweep) {
   return out;
 }
 
+/// Six smoothed coordinates in one sweep; derivatives by time, the first in front.
 struct Smooth {
   Eigen::VectorXd time_s;
-  Track place_mm, velocity_mm_s, acceleration_mm_s2, jerk_mm_s3, snap_mm_s4;
+  Track place_mm;
+  std::vector<Track> derivative;
+
+  const Track& velocity_mm_s() const { return derivative.front(); }
 };
 
 /// Return the first and last row of the window about `row`; at the ends of a sweep it extends further to the other
@@ -121,19 +125,23 @@ Track slopes(const std::vector<Stencil>& stencils, const Track& of) {
   return out;
 }
 
-Smooth smooth(Eigen::VectorXd time_s, const Track& raw_mm) {
-  std::vector<Stencil> stencils;
-  Track place_mm(raw_mm.rows(), kLegs);
+std::vector<Stencil> stencils_of(const Eigen::VectorXd& time_s) {
+  std::vector<Stencil> out;
+  for (Eigen::Index row = 0; row < time_s.size(); ++row) out.push_back(stencil(time_s, row));
+  return out;
+}
+
+Smooth smooth(const Eigen::VectorXd& time_s, const std::vector<Stencil>& stencils, const Track& raw_mm,
+              int derivatives) {
+  Smooth out{time_s, Track(raw_mm.rows(), kLegs), {}};
   for (Eigen::Index row = 0; row < raw_mm.rows(); ++row) {
-    const Stencil& each = stencils.emplace_back(stencil(time_s, row));
-    place_mm.row(row) = each.value.transpose() * raw_mm.middleRows(each.first, each.value.size());
+    const Stencil& each = stencils[static_cast<std::size_t>(row)];
+    out.place_mm.row(row) = each.value.transpose() * raw_mm.middleRows(each.first, each.value.size());
   }
-  Track velocity_mm_s = slopes(stencils, raw_mm);
-  Track acceleration_mm_s2 = slopes(stencils, velocity_mm_s);
-  Track jerk_mm_s3 = slopes(stencils, acceleration_mm_s2);
-  Track snap_mm_s4 = slopes(stencils, jerk_mm_s3);
-  return {std::move(time_s),     std::move(place_mm),  std::move(velocity_mm_s), std::move(acceleration_mm_s2),
-          std::move(jerk_mm_s3), std::move(snap_mm_s4)};
+  for (int order = 0; order < derivatives; ++order) {
+    out.derivative.push_back(slopes(stencils, order == 0 ? raw_mm : out.derivative.back()));
+  }
+  return out;
 }
 
 /// A reversal of a slider.
@@ -144,14 +152,15 @@ struct Turn {
 /// Compute the turning point near row `extreme`, between rows: the zero of the velocity, assumed linear between two
 /// rows, and the vertex of the corresponding parabola.
 Turn turn_near(const Smooth& track, int k, Eigen::Index extreme, double direction) {
-  const auto velocity = [&](Eigen::Index row) { return direction * track.velocity_mm_s(row, k); };
+  const auto velocity = [&](Eigen::Index row) { return direction * track.velocity_mm_s()(row, k); };
   const Eigen::Index end = track.time_s.size() - 1;
   Eigen::Index before = extreme;
   if (velocity(extreme) <= 0.0 && extreme > 0) --before;
   if (before < end && velocity(before) > 0.0 && velocity(before + 1) <= 0.0) {
     const double step_s = track.time_s[before + 1] - track.time_s[before];
     const double ahead_s = step_s * velocity(before) / (velocity(before) - velocity(before + 1));
-    return {track.time_s[before] + ahead_s, track.place_mm(before, k) + 0.5 * ahead_s * track.velocity_mm_s(before, k)};
+    return {track.time_s[before] + ahead_s,
+            track.place_mm(before, k) + 0.5 * ahead_s * track.velocity_mm_s()(before, k)};
   }
   return {track.time_s[extreme], track.place_mm(extreme, k)};
 }
@@ -185,7 +194,7 @@ Turns turns_of(const Smooth& track, int k) {
   return out;
 }
 
-void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
+void fill_reversals(const Smooth& track, const Rows& rows, int k, Motion& out) {
   const Turns turns = turns_of(track, k);
   double direction = turns.first_direction;
   std::size_t passed = 0;
@@ -195,10 +204,6 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
       direction = -direction;
       ++passed;
     }
-    out.velocity_mm_s(row, k) = track.velocity_mm_s(at, k);
-    out.acceleration_mm_s2(row, k) = track.acceleration_mm_s2(at, k);
-    out.jerk_mm_s3(row, k) = track.jerk_mm_s3(at, k);
-    out.snap_mm_s4(row, k) = track.snap_mm_s4(at, k);
     out.travel_direction(row, k) = direction;
     if (passed > 0) {
       const Turn& last = turns.at[passed - 1];
@@ -208,27 +213,46 @@ void fill(const Smooth& track, const Rows& rows, int k, Motion& out) {
   }
 }
 
+constexpr SliderTable Motion::* kDerivatives[kMostDerivatives] = {&Motion::velocity_mm_s, &Motion::acceleration_mm_s2,
+                                                                  &Motion::jerk_mm_s3, &Motion::snap_mm_s4};
+
+Motion unfilled(Eigen::Index count, int derivatives) {
+  Motion out;
+  for (int order = 0; order < derivatives; ++order) (out.*kDerivatives[order]).resize(count, kLegs);
+  out.travel_direction.resize(count, kLegs);
+  out.since_reversal_s.setConstant(count, kLegs, kLongAgo);
+  out.since_reversal_mm.setConstant(count, kLegs, kLongAgo);
+  return out;
+}
+
 }  // namespace
 
-Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
-  const Eigen::Index count = sliders_mm.rows();
-  Motion out{SliderTable(count, kLegs),
-             SliderTable(count, kLegs),
-             SliderTable(count, kLegs),
-             SliderTable(count, kLegs),
-             SliderTable(count, kLegs),
-             SliderTable::Constant(count, kLegs, kLongAgo),
-             SliderTable::Constant(count, kLegs, kLongAgo)};
+std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep,
+                            const std::vector<Coordinates>& coordinates) {
+  std::vector<Motion> out;
+  for (const Coordinates& each : coordinates) out.push_back(unfilled(each.table.rows(), each.derivatives));
   for (const Rows& rows : rows_by_sweep(sweep)) {
     for (std::size_t at = 1; at < rows.size(); ++at) {
       if (!(time_s[rows[at]] > time_s[rows[at - 1]])) {
         throw std::invalid_argument("time_s[" + std::to_string(rows[at]) + "] is not after the sample before it");
       }
     }
-    const Smooth track = smooth(time_s(rows), sliders_mm(rows, Eigen::all));
-    for (int k = 0; k < kLegs; ++k) fill(track, rows, k, out);
+    const Eigen::VectorXd times_s = time_s(rows);
+    const std::vector<Stencil> stencils = stencils_of(times_s);
+    for (std::size_t which = 0; which < coordinates.size(); ++which) {
+      const Coordinates& each = coordinates[which];
+      const Smooth track = smooth(times_s, stencils, each.table(rows, Eigen::all), each.derivatives);
+      for (int order = 0; order < each.derivatives; ++order) {
+        (out[which].*kDerivatives[order])(rows, Eigen::all) = track.derivative[static_cast<std::size_t>(order)];
+      }
+      for (int k = 0; k < kLegs; ++k) fill_reversals(track, rows, k, out[which]);
+    }
   }
   return out;
+}
+
+Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
+  return std::move(motions(time_s, sweep, {{sliders_mm, kMostDerivatives}}).front());
 }
 
 }  // namespace hexdbb

@@ -36,29 +36,26 @@ double angle_between(const Vector3& one, const Vector3& other) {
   return std::acos(std::clamp(one.dot(other), -1.0, 1.0));
 }
 
-/// Fill the columns of the joints. Angles are handled as arcs of the leg's far end, so that the dead band of reversals
-/// is that of the sliders.
-void derive_joints(const NominalPoses& poses, double leg_length_mm, State& state) {
-  Motion slider_end = motion(state.time_s, state.sweep, leg_length_mm * poses.slider_joint_angle_rad);
-  const Motion platform_end = motion(state.time_s, state.sweep, leg_length_mm * poses.platform_joint_angle_rad);
-  const auto arc_mm = slider_end.since_reversal_mm.array();
-  state.slider_joint_angle_rad = poses.slider_joint_angle_rad;
-  state.slider_joint_rate_rad_s = slider_end.velocity_mm_s / leg_length_mm;
-  state.slider_joint_direction = std::move(slider_end.travel_direction);
-  state.slider_joint_since_reversal_rad = (arc_mm < kLongAgo).select(arc_mm / leg_length_mm, kLongAgo);
-  state.platform_joint_angle_rad = poses.platform_joint_angle_rad;
-  state.platform_joint_rate_rad_s = platform_end.velocity_mm_s / leg_length_mm;
-}
-
-void derive_motion(const SliderTable& sliders_mm, State& state) {
-  Motion moved = motion(state.time_s, state.sweep, sliders_mm);
-  state.velocity_mm_s = std::move(moved.velocity_mm_s);
-  state.acceleration_mm_s2 = std::move(moved.acceleration_mm_s2);
-  state.jerk_mm_s3 = std::move(moved.jerk_mm_s3);
-  state.snap_mm_s4 = std::move(moved.snap_mm_s4);
-  state.travel_direction = std::move(moved.travel_direction);
-  state.since_reversal_s = std::move(moved.since_reversal_s);
-  state.since_reversal_mm = std::move(moved.since_reversal_mm);
+/// Fill the columns of motion, of sliders and joints. Angles of joints are handled as arcs of the leg's far end, so
+/// that the dead band of reversals is that of the sliders.
+void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, double leg_length_mm, State& state) {
+  const SliderTable slider_arc_mm = leg_length_mm * poses.slider_joint_angle_rad;
+  const SliderTable platform_arc_mm = leg_length_mm * poses.platform_joint_angle_rad;
+  std::vector<Motion> all =
+      motions(state.time_s, state.sweep, {{sliders_mm, kMostDerivatives}, {slider_arc_mm, 1}, {platform_arc_mm, 1}});
+  Motion& slider = all[0];
+  state.velocity_mm_s = std::move(slider.velocity_mm_s);
+  state.acceleration_mm_s2 = std::move(slider.acceleration_mm_s2);
+  state.jerk_mm_s3 = std::move(slider.jerk_mm_s3);
+  state.snap_mm_s4 = std::move(slider.snap_mm_s4);
+  state.travel_direction = std::move(slider.travel_direction);
+  state.since_reversal_s = std::move(slider.since_reversal_s);
+  state.since_reversal_mm = std::move(slider.since_reversal_mm);
+  const auto turned_mm = all[1].since_reversal_mm.array();
+  state.slider_joint_rate_rad_s = all[1].velocity_mm_s / leg_length_mm;
+  state.slider_joint_direction = std::move(all[1].travel_direction);
+  state.slider_joint_since_reversal_rad = (turned_mm < kLongAgo).select(turned_mm / leg_length_mm, kLongAgo);
+  state.platform_joint_rate_rad_s = all[2].velocity_mm_s / leg_length_mm;
 }
 
 double wrapped(double angle_rad) {
@@ -135,12 +132,13 @@ void derive(const NominalGeometry& nominal, Samples& samples) {
   require_column(state, "time_s", "the sliders' motion");
   require_column(state, "sweep", "the sliders' motion");
   samples.validate();
-  derive_motion(samples.sliders_mm, state);
   state.angle_wrapped_rad = state.angle_rad.unaryExpr(&wrapped);
-  const NominalPoses poses = nominal_poses(nominal, samples.sliders_mm);
-  state.position_mm = poses.position_mm;
-  state.platform_rpy_rad = poses.platform_rpy_rad;
-  derive_joints(poses, nominal.machine.leg_length_mm, state);
+  NominalPoses poses = nominal_poses(nominal, samples.sliders_mm);
+  derive_motion(samples.sliders_mm, poses, nominal.machine.leg_length_mm, state);
+  state.position_mm = std::move(poses.position_mm);
+  state.platform_rpy_rad = std::move(poses.platform_rpy_rad);
+  state.slider_joint_angle_rad = std::move(poses.slider_joint_angle_rad);
+  state.platform_joint_angle_rad = std::move(poses.platform_joint_angle_rad);
   state.leg_force = leg_force(nominal, samples.sliders_mm);
   state.nominal_reading_mm = nominal_reading_mm(nominal, samples);
 }

@@ -7,8 +7,8 @@
 // evenly spaced readings determine the coarse minimum and the acceleration of every step: both are smooth along a
 // circle.
 //
-// Beside Ceres (diagnosis.hpp), because neither replaces the other. Measured on 19,600 readings of four random machines,
-// geometry, cup and ball free, one effect of the catalogue at a time at its prior size:
+// Beside Ceres (diagnosis.hpp), because neither replaces the other. Measured on 19,600 readings of four random
+// machines, geometry, cup and ball free, one effect of the catalogue at a time at its prior size:
 //   problem                             same chi-square (+-1)   geodesic lower   Ceres lower   median time, ms
 //   complete model, from nominal                       4 of 4                -             -         123 : 122
 //   complete model, from the incomplete              60 of 60                -             -         185 : 268

@@ -1,21 +1,21 @@
-/* What `loadrt hexdbb_kins NAME=VALUE ...` says: which machine is driven and what corrects it.
+/* Parameters of `loadrt hexdbb_kins NAME=VALUE ...`: the dimensions of the machine and its compensation file.
  *
- * Module parameters know no numbers with a fraction, so dimensions come as text, in mm and kg. What is not said is that
- * of the SP-120 as shipped (HEXDBB_DIMENSIONS_INIT).
+ * Module parameters cannot be fractional numbers, so dimensions are given as text, in mm and kg. Those not given are
+ * the dimensions assumed for the SP-120 (HEXDBB_DIMENSIONS_INIT).
  */
 #ifndef HEXDBB_LINUXCNC_PARAMETERS_H
 #define HEXDBB_LINUXCNC_PARAMETERS_H
 
 #include <hexdbb/hexdbb.h>
 
-/* The compensation file, or NULL where none is named. */
+/* Return the compensation file, or NULL where none is named. */
 const char* named_compensation(void);
 
-/* Whether the controller was told to run even where there is no compensation to be had. */
+/* Return whether the module may run the nominal machine where there is no valid compensation file. */
 int may_run_without_compensation(void);
 
-/* Dimensions of the machine. 0, or -EINVAL after a message that names the parameter, its value and what was expected.
- */
+/* Get the dimensions of the machine. Return 0, or -EINVAL after a message that names the parameter, its value and what
+ * was expected. */
 int stated_dimensions(hexdbb_dimensions* out);
 
 #endif

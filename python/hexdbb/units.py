@@ -19,9 +19,13 @@ SHOWN = {
 """Engine unit to (unit of output, factor); a unit not listed is output unchanged."""
 
 
+VERBATIM = "="
+"""A unit behind this sign is output unchanged: a place along a guideway stays in mm."""
+
+
 def shown_unit(engine_unit: str) -> str:
     """Return the ASCII name of the unit in which a value of `engine_unit` is output, for JSON and files."""
-    return SHOWN.get(engine_unit, (engine_unit, 1.0))[0]
+    return SHOWN.get(engine_unit, (engine_unit.removeprefix(VERBATIM), 1.0))[0]
 
 
 def shown_factor(engine_unit: str) -> float:

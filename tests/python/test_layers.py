@@ -31,9 +31,10 @@ ALLOWED: dict[str, set[str]] = {
     "plan": {"errors", "files", "machine", "kinematics"},
     "record": {"errors", "files", "machine", "plan"},
     # the machine's line
-    "model": {"errors", "files", "units", "machine", "kinematics", "_core"},
+    "learned": {"errors", "_core"},
+    "model": {"errors", "files", "units", "machine", "kinematics", "learned", "_core"},
     "samples": {"errors", "files", "machine", "plan", "record", "kinematics", "model", "_core"},
-    "effects": {"errors", "units", "machine", "plan", "kinematics", "model", "samples", "_core"},
+    "effects": {"errors", "units", "machine", "plan", "kinematics", "learned", "model", "samples", "_core"},
     "identifiability": {"errors", "plan", "record", "kinematics", "model", "samples", "_core"},
     "diagnosis": {
         "errors",
@@ -45,14 +46,15 @@ ALLOWED: dict[str, set[str]] = {
         "model",
         "samples",
         "identifiability",
+        "learned",
         "_core",
     },
-    "ledger": {"errors", "files", "units", "record", "model", "samples", "diagnosis", "_core"},
+    "ledger": {"errors", "files", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
     # which variables of the samples predict a residual
     "predictors": {"record", "model", "samples", "effects", "_core"},
     # where the model fails; readings come in as arrays, predicted or measured
     "comparison": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
-    "plots": {"errors", "files", "plan", "comparison", "predictors"},
+    "plots": {"errors", "files", "plan", "learned", "model", "comparison", "predictors"},
     # hypotheses on what is missing, decided by their evidence
     "evidence": {"errors", "units", "kinematics", "model", "samples", "diagnosis", "predictors", "_core"},
     "discovery": {

@@ -15,10 +15,10 @@ namespace hexdbb {
 
 struct ParameterInfo {
   std::string name = {};
-  std::string unit = {};     // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
-  double prior_sigma = 0.0;  // prior standard deviation: the expected size before any measurement, and the fit's scale
-  double limit = 0.0;        // largest magnitude with a physical meaning
-  bool is_shape = false;     // pushes nothing by itself: it shapes what the effect's other parameters push
+  std::string unit = {};        // "mm", "rad", "s", "mm/N", "mm/K", "mm/s", "mm/mm"; "1" for a ratio
+  double prior_sigma = 0.0;     // prior standard deviation, and the scale of the fit
+  double limit = 0.0;           // largest magnitude with a physical meaning
+  bool is_shape = false;        // pushes nothing by itself: it shapes what the effect's other parameters push
   bool is_nonnegative = false;  // physics admits no value below 0 (play, delay, compliance)
 
   /// Physical domain [lower, upper]. Description only: a fit is bounded by +-limit.

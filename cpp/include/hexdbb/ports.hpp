@@ -1,7 +1,7 @@
 // Ports: the quantities of the mechanism that an effect can displace ("push"), and, in the same layout, the sensitivity
 // of the reading to a push at each of them.
 //
-//   slider          6      mm, slider k stands further along its guideway than it reports
+//   slider          6      mm, slider k is further along its guideway than it reports
 //   leg             6      mm, leg k is longer
 //   slider_joint    6 x 3  mm, centre of the joint on slider k is displaced, base frame
 //   platform_joint  6 x 3  mm, ball joint of leg k on the platform is displaced, platform frame

@@ -160,6 +160,19 @@ struct Motion {
   SliderTable since_reversal_mm;
 };
 
+constexpr int kMostDerivatives = 4;  // velocity to snap
+
+/// Six coordinates, and how many of their derivatives by time to compute, 1 to kMostDerivatives.
+struct Coordinates {
+  const SliderTable& table;
+  int derivatives;
+};
+
+/// Compute the motion of several tables of coordinates with common times, as motion(); derivatives beyond those wanted
+/// stay empty.
+std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep,
+                            const std::vector<Coordinates>& coordinates);
+
 /// Compute the motion of six coordinates. Rows of a sweep need not be neighbours but must be in order of time,
 /// otherwise std::invalid_argument names the row.
 Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm);

@@ -8,7 +8,7 @@ namespace hexdbb::effects {
 EffectPtr slider_offset(const Context&) {
   return one_to_one({.name = "slider_offset",
                      .group = group::kGeometry,
-                     .physics = "A slider stands further along its guideway than it reports.",
+                     .physics = "A slider is further along its guideway than it reports.",
                      .formula = "slider = offset",
                      .source = "thesis 3.2 (2)",
                      .element_kind = "slider",

@@ -14,8 +14,11 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
+from hexdbb.diagnosis.learned_text import learned_parts
 from hexdbb.discovery import require_usable_effects
 from hexdbb.files.atomic_file import refuse_existing
+from hexdbb.learned import Hypothesis
+from hexdbb.learned.places import is_learned
 from hexdbb.ledger import add_effect
 from hexdbb.ledger.json_form import added_json
 from hexdbb.ledger.words import PLACES, arrow
@@ -50,13 +53,17 @@ def command(
       hexdbb add backlash:4 -m model.toml today.parquet
       hexdbb add backlash:2:4 -m model.toml today.parquet yesterday.csv
       hexdbb add pitch_cyclic -m model.toml today.parquet --json
+      hexdbb add learned:leg:5:turning_rate -m model.toml today.parquet
       hexdbb add my_dent -m model.toml today.parquet --effects mine.py
     """
     refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
     name = Choice.parse(effect).effect
-    model.info(name)  # an unknown name is refused before records are read
-    messages = Console(stderr=True, soft_wrap=True, highlight=False)
+    if is_learned(name):
+        Hypothesis.parse(name)
+    else:
+        model.info(name)  # an unknown name is refused before records are read
+    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
     require_usable_effects(samples, model, [name])
@@ -89,6 +96,10 @@ def print_added(found: Diagnosis, console: Console) -> None:
         name = "" if index else step.effect
         table.add_row(name, size.element, size.name, f"{size.value:{places}}", sigma, readable_unit(size.unit))
     console.print(table)
+    term = found.model.term(step.effect)
+    if term is not None and term.learned is not None:
+        for part in learned_parts(term):
+            console.print(part, soft_wrap=True)
     if any(size.sigma is None for size in step.sizes):
         console.print("~: known only in combination with others.")
     for warning in found.warnings:

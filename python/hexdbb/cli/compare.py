@@ -62,7 +62,7 @@ def command(
         raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")
     if not no_plot:
         refuse_existing(stem.with_name(f"{stem.name}.png"), overwrite=True)
-    messages = Console(stderr=True, soft_wrap=True, highlight=False)
+    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
         comparison = _comparison(records, model_path, effects_path, progress)
         written = [] if no_plot else _draw(comparison, stem, progress)

@@ -15,4 +15,4 @@ table of `hexdbb plan compare` is 103 wide."""
 
 def output_console() -> Console:
     """Return the console that a command prints its results to."""
-    return Console(width=None if sys.stdout.isatty() else REDIRECTED_WIDTH, highlight=False)
+    return Console(width=None if sys.stdout.isatty() else REDIRECTED_WIDTH, highlight=False, emoji=False)

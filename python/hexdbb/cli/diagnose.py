@@ -58,7 +58,7 @@ def command(
       hexdbb diagnose monday.parquet -m model.toml --free leg_length,slider_offset --fix leg_length:6 --robust
     """
     refuse_existing(model_path, overwrite=True)
-    messages = Console(stderr=True, soft_wrap=True, highlight=False)
+    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
     own = own_effects(effects_path)

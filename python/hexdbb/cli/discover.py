@@ -64,7 +64,7 @@ def command(
     if auto:
         refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
-    messages = Console(stderr=True)
+    messages = Console(stderr=True, emoji=False)
     with messages.status("reading records") as status:
         samples = Samples.of([read_record(path) for path in records])
         if auto:

@@ -57,7 +57,7 @@ def make_compensation(
         `effects` lists the corrected effects, `left_out` the others with the reason.
     """
     content = model.path.read_bytes() if model.path is not None and model.path.is_file() else b""
-    unknown = [term.effect for term in model.terms if term.effect in model.own_effects]
+    unknown = [term.effect for term in model.terms if model.own(term.effect) is not None]
     known = replace(model, terms=tuple(term for term in model.terms if term.effect not in unknown))
     return _core.compensation_of(
         known.engine(),

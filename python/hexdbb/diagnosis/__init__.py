@@ -9,6 +9,7 @@ from hexdbb.diagnosis.mounts import fit_mounts
 from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_noise
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
 from hexdbb.diagnosis.result import Diagnosis
+from hexdbb.diagnosis.smoothing import learned_effect, space_of
 from hexdbb.diagnosis.sufficiency import Sufficiency, p_shown, p_words, sufficiency
 from hexdbb.diagnosis.whiteness import is_white
 
@@ -32,11 +33,13 @@ __all__ = [
     "is_white",
     "judging_noise",
     "lap_differences",
+    "learned_effect",
     "noise_of",
     "p_shown",
     "p_words",
     "place_uncertainty",
     "refitter",
+    "space_of",
     "stated_noise",
     "sufficiency",
 ]

@@ -12,6 +12,8 @@ from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
+from hexdbb.diagnosis.shaping import fit_shapes, shaped
+from hexdbb.diagnosis.smoothing import with_bands
 from hexdbb.diagnosis.sufficiency import sufficiency
 from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
@@ -59,22 +61,29 @@ def evaluate_fit(
     RunError
         Where the fit did not end in a usable solution.
     """
-    try:
-        result = _core.fit(
-            samples.engine(model),
-            samples.block(model),
-            samples.reading_mm,
-            noise_mm=noise.sigma_mm,
-            free=[bool(each) for each in free],
-            robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
-            sweep=samples["sweep"],
-            hypothesis=hypothesis,
-        )
-    except ValueError as error:
-        raise InputError(f"{samples.name}: {error}") from None
-    if not result.usable:
-        raise RunError(f"{samples.name}: the fit did not succeed: {result.termination}")
-    return _fitted_model(model, result), result
+
+    def fit(start: Model) -> _core.FitResult:
+        try:
+            result = _core.fit(
+                samples.engine(start),
+                samples.block(start),
+                samples.reading_mm,
+                noise_mm=noise.sigma_mm,
+                free=[bool(each) for each in free],
+                robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
+                sweep=samples["sweep"],
+                hypothesis=hypothesis,
+            )
+        except ValueError as error:
+            raise InputError(f"{samples.name}: {error}") from None
+        if not result.usable:
+            raise RunError(f"{samples.name}: the fit did not succeed: {result.termination}")
+        return result
+
+    if (free & shaped(model)).any():
+        return _with_spread(*fit_shapes(samples, model, free, noise, fit))
+    result = fit(model)
+    return _with_spread(model.with_values(np.where(shaped(model), model.values, result.values)), result)
 
 
 def diagnose(
@@ -118,14 +127,16 @@ def diagnose(
     (fitted, result), either_sign = settle_signs(
         first, lambda start: evaluate_fit(samples, start, start.free, noise, robust=robust), noise.sigma_mm
     )
+    fitted = with_bands(fitted, result.covariance, samples)
     _require_determined(fitted, result, samples)
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
     enough = sufficiency(samples, fitted, result.residual_mm)
     parameters = known.parameters()
-    unknown = unknown_directions(result.covariance, known, result.free_columns)
-    displaced = Displacements.of(samples, known).of_values(result.free_columns)
+    judged = [column for column in result.free_columns if not parameters[column].is_coefficient]
+    unknown = unknown_directions(result.covariance, known, judged)
+    displaced = Displacements.of(samples, known).of_values(judged)
     return Diagnosis(
         samples=samples,
         model=fitted,
@@ -143,7 +154,7 @@ def diagnose(
         residual_before_mm=predict(samples, known).residual_mm,
         residual_mm=result.residual_mm,
         held_out=checked,
-unidentifiable=tuple(sentences(unknown, [parameters[each] for each in result.free_columns], displaced)),
+        unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
         warnings=(*either_sign, *warnings_of(fitted, result, enough, checked, expected)),
         sufficiency=enough,
     )
@@ -182,10 +193,11 @@ def _require_determined(model: Model, result: _core.FitResult, samples: Samples)
         raise InputError(f"{samples.name}: rank 0: the readings determine no free value (expected one at least)")
 
 
-def _fitted_model(model: Model, result: _core.FitResult) -> Model:
+def _with_spread(model: Model, result: _core.FitResult) -> tuple[Model, _core.FitResult]:
+    """Return a fitted model with the uncertainties of its fit, and the fit."""
     spread = np.sqrt(np.diag(result.covariance))
     identifiable = spread <= KNOWN_PART * model.prior_sigma
     held = np.ones(len(spread), bool)
     held[result.free_columns] = False
     sigma = np.where(held, model.sigma, np.where(identifiable, spread, np.nan))
-    return model.with_values(result.values, sigma, np.where(held, model.identifiable, identifiable))
+    return model.with_values(model.values, sigma, np.where(held, model.identifiable, identifiable)), result

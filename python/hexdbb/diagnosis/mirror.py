@@ -74,7 +74,7 @@ def _signed(model: Model, result: _core.FitResult) -> list[int]:
 
 
 def _cost(model: Model, result: _core.FitResult, noise_mm: float) -> float:
-    prior = (model.values / model.prior_sigma)[result.free_columns]
+    prior = ((model.values - model.start) / model.prior_sigma)[result.free_columns]
     return float(np.sum((result.residual_mm / noise_mm) ** 2) + prior @ prior)
 
 

@@ -102,7 +102,7 @@ def _rates(model: Model, sliders: Floats, ball: Floats) -> tuple[Floats, NDArray
     infos = [model.info(term.effect) for term in model.terms]
     # An effect of the user's own is evaluated in measured samples only: it counts as one that needs a state.
     of_place = [
-        not info.needs and info.name not in model.own_effects and not set(info.ports) <= NOT_OF_PLACE for info in infos
+        not info.needs and model.own(info.name) is None and not set(info.ports) <= NOT_OF_PLACE for info in infos
     ]
     terms = [term for term, counts in zip(model.terms, of_place, strict=True) if counts]
     engine = replace(model, terms=tuple(terms)).engine()

@@ -156,7 +156,7 @@ def unknown_directions(covariance: Floats, model: Model, columns: Sequence[int])
     covariance : ndarray, shape (size, size)
     model : Model
     columns : sequence of int
-        The free values.
+        Values among which directions are sought; what the others leave unknown counts as uncertainty.
 
     Returns
     -------
@@ -164,7 +164,11 @@ def unknown_directions(covariance: Floats, model: Model, columns: Sequence[int])
         Orthonormal columns, values in units of their prior standard deviation.
     """
     prior = model.prior_sigma
-    variances, directions = np.linalg.eigh(covariance / np.outer(prior, prior))
+    others = np.ones(len(prior), bool)
+    others[list(columns)] = False
+    scaled = covariance / np.outer(prior, prior)
+    scaled[others], scaled[:, others] = 0.0, 0.0
+    variances, directions = np.linalg.eigh(scaled)
     unknown: Floats = directions[
         np.ix_(np.asarray(columns, dtype=np.intp), np.flatnonzero(variances > UNKNOWN_PART**2))
     ]

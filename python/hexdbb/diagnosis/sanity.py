@@ -56,16 +56,26 @@ def warnings_of(
 def _beyond_reason(model: Model, result: _core.FitResult) -> Iterator[str]:
     free = set(result.free_columns)
     for index, (parameter, value) in enumerate(zip(model.parameters(), model.values, strict=True)):
+        if parameter.is_coefficient:
+            continue
         factor, unit = shown_factor(parameter.unit), readable_unit(shown_unit(parameter.unit))
         shown = f"{parameter.label} is {value * factor:.1f} {unit}"
-        if abs(value) >= 0.999 * parameter.limit:
+        from_start = abs(value - parameter.start)
+        if parameter.shape is not None:
+            near = 0.001 * parameter.prior_sigma
+            for word, bound in (("lower", parameter.shape.lower), ("upper", parameter.shape.upper)):
+                if abs(value - bound) <= near:
+                    yield f"{shown}, at the {word} end of its domain: the readings want it beyond"
+        elif abs(value) >= 0.999 * parameter.limit:
             yield f"{shown}, at its limit of {parameter.limit * factor:g} {unit}: beyond it makes no physical sense"
-        elif index in free and abs(value) > FAR_FROM_PRIOR * parameter.prior_sigma:
-            yield f"{shown}, {abs(value) / parameter.prior_sigma:.0f} prior standard deviations: check it"
+            continue
+        if index in free and from_start > FAR_FROM_PRIOR * parameter.prior_sigma:
+            yield f"{shown}, {from_start / parameter.prior_sigma:.0f} prior standard deviations: check it"
 
 
 def _correlated(model: Model, result: _core.FitResult) -> Iterator[str]:
-    known = np.flatnonzero(model.identifiable)
+    judged = np.array([not each.is_coefficient for each in model.parameters()], dtype=bool)
+    known = np.flatnonzero(model.identifiable & judged)
     known = np.array([column for column in known if column in set(result.free_columns)], dtype=int)
     if len(known) < 2:
         return

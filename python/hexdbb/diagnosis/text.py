@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from hexdbb.diagnosis.learned_text import learned_parts
 from hexdbb.model import Model
 from hexdbb.model.tables import sigma_shown
 from hexdbb.units import readable_unit
@@ -35,6 +36,8 @@ def _parts(found: Diagnosis) -> Iterator[RenderableType]:
         f" condition {found.condition:.0f}, {found.iterations} iterations"
     )
     yield _values_table(found.model)
+    for term in found.model.learned:
+        yield from learned_parts(term)
     yield "~: known only in combination with others; the value shown is the smallest that explains the readings."
     if found.unidentifiable:
         yield "\nNot identifiable from these readings:"
@@ -55,15 +58,18 @@ def _values_table(model: Model) -> Table:
         table.add_column(name, justify="right")
     table.add_column("unit")
     columns = model.columns()
+    # A shape is in its own unit: a width in rad/s may be thousandths.
+    places = [".2f" if each.shape is None else ".4g" for each in model.parameters()]
     last = ""
-    for row in np.flatnonzero(columns["free"] | (columns["value"] != 0.0)):
+    coefficient = np.array([each.is_coefficient for each in model.parameters()], dtype=bool)
+    for row in np.flatnonzero((columns["free"] | (model.values != model.start)) & ~coefficient):
         effect = str(columns["effect"][row])
         table.add_row(
             "" if effect == last else effect,
             columns["element"][row],
             columns["name"][row],
-            f"{columns['value'][row]:.2f}",
-            sigma_shown(columns, row),
+            f"{columns['value'][row]:{places[row]}}",
+            sigma_shown(columns, row, places[row]),
             readable_unit(columns["unit"][row]),
         )
         last = effect

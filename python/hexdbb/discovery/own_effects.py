@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexdbb.effects import UserEffect
+from hexdbb.effects import UserEffect, same_effects
 from hexdbb.model import Model
 from hexdbb.samples import Samples
 
@@ -23,8 +23,10 @@ def require_usable_effects(samples: Samples, model: Model, names: Sequence[str])
     ------
     UserEffectError
         Naming file and line of the first that is wrong: the function raises, or returns a wrong shape, a value that is
-        not finite, or the same push in every sample.
+        not finite, the same push in every sample, or the push of another effect.
     """
-    for name, each in model.own_effects.items():
-        if name in names and isinstance(each, UserEffect):
-            each.require_usable(samples)
+    asked = [each for name, each in model.own_effects.items() if name in names and isinstance(each, UserEffect)]
+    for each in asked:
+        each.require_usable(samples)
+    for error in same_effects(asked, samples).values():
+        raise error

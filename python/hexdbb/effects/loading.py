@@ -6,7 +6,7 @@ import importlib.util
 from pathlib import Path
 
 from hexdbb.effects.traces import line_of
-from hexdbb.effects.user import UserEffect
+from hexdbb.effects.user import LOADING, UserEffect
 from hexdbb.errors import InputError
 
 
@@ -25,6 +25,8 @@ def load_effects(path: Path | str) -> list[UserEffect]:
     if spec is None or spec.loader is None:
         raise InputError(f"{place}: not a Python file (expected NAME.py)")
     module = importlib.util.module_from_spec(spec)
+    declared: list[UserEffect] = []
+    token = LOADING.set(declared)
     try:
         spec.loader.exec_module(module)
     except InputError:
@@ -32,7 +34,12 @@ def load_effects(path: Path | str) -> list[UserEffect]:
     except Exception as error:  # a user's file may raise anything
         words = error.msg if isinstance(error, SyntaxError) else error
         raise InputError(f"{place}:{_line_in(place, error)}: {type(error).__name__}: {words}") from None
-    found = {id(value): value for value in vars(module).values() if isinstance(value, UserEffect)}
+    finally:
+        LOADING.reset(token)
+    # What a loop declares has no name in the file; what another file declares may have one.
+    own = [each for each in declared if each.path == str(place.absolute())]
+    named = [each for each in vars(module).values() if isinstance(each, UserEffect)]
+    found = {id(each): each for each in (*own, *named)}
     effects = sorted(found.values(), key=lambda each: each.line)
     if not effects:
         raise InputError(f"{place}: declares no effect (expected a function under @hexdbb.effects.effect)")

@@ -6,6 +6,7 @@ that is the engine's (`TabulatedEffect`), as for its own effects.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,13 +15,16 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.effects.traces import line_of
 from hexdbb.errors import InputError
-from hexdbb.model import Tabulated
+from hexdbb.model import Shape, Tabulated
 from hexdbb.samples import PUSH_SHAPES, Samples
 
 if TYPE_CHECKING:
     from hexdbb.effects.user import UserEffect
 
 Floats = NDArray[np.float64]
+
+STEP = 1e-3
+"""Step of a shape's derivative in its prior standard deviations: far below what bends, far above rounding."""
 
 
 class UserEffectError(InputError):
@@ -43,7 +47,8 @@ def tabulated(effect: UserEffect, samples: Samples, *, must_vary: bool) -> Tabul
     UserEffectError
         The function raises, or returns a wrong shape or a value that is not finite.
     """
-    columns = [_columns(effect, name, basis, len(samples)) for name, basis in _bases(effect, samples)]
+    starts = {name: shape.start for name, shape in effect.declared_shapes}
+    columns = _pushes(effect, samples, starts)
     if must_vary:
         for name, table in zip(effect.parameters, columns, strict=True):
             _require_variation(f"{effect.where}: {name}", table)
@@ -53,17 +58,85 @@ def tabulated(effect: UserEffect, samples: Samples, *, must_vary: bool) -> Tabul
         width = table.shape[1]
         for column in range(width):
             element = column * effect.elements // width
-            values.append(element * len(columns) + parameter)
+            values.append(element * _stride(effect) + parameter)
             ports.append(first_port + column)
         tables.append(table)
     return Tabulated(effect.info(), tuple(values), tuple(ports), np.hstack(tables))
 
 
-def _bases(effect: UserEffect, samples: Samples) -> list[tuple[str, object]]:
+def tabulated_at(effect: UserEffect, samples: Samples, values: Floats) -> Tabulated:
+    """Evaluate a user's effect with shapes: the push per unit of its parameters, and by each shape.
+
+    Parameters
+    ----------
+    effect : UserEffect
+    samples : Samples
+    values : ndarray, shape (size,)
+        Parameters, then shapes, element by element.
+
+    Returns
+    -------
+    Tabulated
+        What the shapes' values push is to first order about `values`, as differences from there.
+    """
+    count, first_port = len(effect.parameters), _core.PORTS[effect.port][0]
+    known: dict[tuple[float, ...], list[Floats]] = {}
+
+    def at(shapes: Floats) -> list[Floats]:
+        key = tuple(map(float, shapes))
+        if key not in known:
+            names = [name for name, _ in effect.declared_shapes]
+            known[key] = _pushes(effect, samples, dict(zip(names, key, strict=True)))
+        return known[key]
+
+    numbers: list[int] = []
+    ports: list[int] = []
+    tables: list[Floats] = []
+    for element, own in enumerate(values.reshape(effect.elements, -1)):
+        sizes, shapes = own[:count], own[count:]
+        width = at(shapes)[0].shape[1] // effect.elements
+        mine = slice(element * width, (element + 1) * width)
+        parts = [table[:, mine] for table in at(shapes)]
+        for index, (_, shape) in enumerate(effect.declared_shapes):
+            parts.append(_slope(at, shapes, index, shape, sizes)[:, mine] if sizes.any() else 0.0 * parts[0])
+        for parameter, table in enumerate(parts):
+            numbers += [element * _stride(effect) + parameter] * width
+            ports += range(first_port + mine.start, first_port + mine.stop)
+            tables.append(table)
+    return Tabulated(effect.info(), tuple(numbers), tuple(ports), np.hstack(tables))
+
+
+def _slope(at: Callable[[Floats], list[Floats]], shapes: Floats, index: int, shape: Shape, sizes: Floats) -> Floats:
+    """Return the derivative of the push of some sizes by one shape: a central difference, inside its domain."""
+    step = np.zeros(len(shapes))
+    room = min(shape.upper - shapes[index], shapes[index] - shape.lower)
+    step[index] = STEP * shape.prior_sigma
+    if room > step[index]:
+        low, high = shapes - step, shapes + step
+    else:
+        inward = 1.0 if shape.upper - shapes[index] > shapes[index] - shape.lower else -1.0
+        low, high = sorted((shapes, shapes + inward * step), key=lambda each: float(each[index]))
+    change = [above - below for above, below in zip(at(high), at(low), strict=True)]
+    total = sum(size * each for size, each in zip(sizes, change, strict=True))
+    found: Floats = np.asarray(total) / float(high[index] - low[index])
+    return found
+
+
+def _stride(effect: UserEffect) -> int:
+    """Return the number of values of an element."""
+    return len(effect.parameters) + len(effect.declared_shapes)
+
+
+def _pushes(effect: UserEffect, samples: Samples, shapes: Mapping[str, float]) -> list[Floats]:
+    """Return what one unit of each parameter pushes, shape (n, columns of the port) each."""
+    return [_columns(effect, name, basis, len(samples)) for name, basis in _bases(effect, samples, shapes)]
+
+
+def _bases(effect: UserEffect, samples: Samples, shapes: Mapping[str, float]) -> list[tuple[str, object]]:
     """Call the user's function; one result for each parameter."""
     try:
         with np.errstate(all="ignore"):  # a value that is not finite is named below
-            result = effect.basis(samples)
+            result = effect.basis(samples, **shapes)
     except Exception as error:  # a user's function may raise anything
         line = line_of(effect.path, error) or effect.line
         said = f"{type(error).__name__}: {error}"

@@ -4,22 +4,33 @@ The function takes `hexdbb.samples.Samples` and returns the push per unit of the
 every place of the port: shape (n, 6) at the ports `slider` and `leg`, (n, 6, 3) at `slider_joint` and `platform_joint`,
 (n, 3) at `ball` and `cup`, (n,) at `reading`. With six elements each slider (leg) has a value of its own, with three
 each guideway, with one all share it. An effect of several parameters returns a sequence of such arrays, one each.
+
+Shape parameters (where a dent lies, how wide it is) are fitted too. The function takes their values by name, as numbers
+in their own unit; every element has shapes of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hexdbb import _core
-from hexdbb.effects.tabulate import tabulated
+from hexdbb.effects.tabulate import tabulated, tabulated_at
 from hexdbb.errors import InputError
-from hexdbb.model import Tabulated
+from hexdbb.model import Shape, Tabulated
 from hexdbb.samples import PUSH_SHAPES, Samples
+from hexdbb.units import VERBATIM
 
-Basis = Callable[[Samples], Any]
+Basis = Callable[..., Any]
 
+LOADING: ContextVar[list[UserEffect] | None] = ContextVar("LOADING", default=None)
+"""Effects declared while a file is being loaded, those made in a loop among them."""
 KINDS = {1: "machine", 3: "guideway", 6: "slider"}
 """What an element is, by their number."""
 LIMIT_OF_SIGMA = 100.0
@@ -42,6 +53,12 @@ class UserEffect:
     basis: Basis
     path: str
     line: int
+    declared_shapes: tuple[tuple[str, Shape], ...] = ()
+
+    @property
+    def shapes(self) -> Mapping[str, Shape]:
+        """Shape parameters by name."""
+        return dict(self.declared_shapes)
 
     @property
     def where(self) -> str:
@@ -60,6 +77,12 @@ class UserEffect:
             parameters=[
                 _core.ParameterInfo(name=each, unit=self.unit, prior_sigma=self.prior_sigma, limit=self.limit)
                 for each in self.parameters
+            ]
+            + [
+                _core.ParameterInfo(
+                    name=name, unit=VERBATIM + each.unit, prior_sigma=each.prior_sigma, limit=float("inf")
+                )
+                for name, each in self.declared_shapes
             ],
             ports=[self.port],
         )
@@ -73,6 +96,10 @@ class UserEffect:
             Its function raises, or returns a wrong shape or a value that is not finite.
         """
         return tabulated(self, samples, must_vary=False)
+
+    def tabulated_at(self, samples: Samples, values: NDArray[np.float64]) -> Tabulated:
+        """Evaluate it about some values of all its parameters, shape (size,); errors as `tabulated`."""
+        return tabulated_at(self, samples, values)
 
     def require_usable(self, samples: Samples) -> None:
         """Check that it can be fitted to samples.
@@ -93,6 +120,8 @@ def effect(
     elements: int = 1,
     parameters: Sequence[str] = ("size",),
     limit: float | None = None,
+    shapes: Mapping[str, Shape] | None = None,
+    name: str | None = None,
 ) -> Callable[[Basis], UserEffect]:
     """Declare a function of the samples an effect; its docstring's first line is the effect's physics.
 
@@ -110,6 +139,10 @@ def effect(
         Names of an element's values.
     limit : float, optional
         Values beyond +-limit make no physical sense; `LIMIT_OF_SIGMA` prior standard deviations where not given.
+    shapes : mapping of str to Shape, optional
+        Fitted shape parameters; the function takes them by these names.
+    name : str, optional
+        Of the effect, for effects made in a loop; the function's where not given.
 
     Raises
     ------
@@ -121,7 +154,7 @@ def effect(
         code = function.__code__
         text = (function.__doc__ or "").strip().splitlines()
         declared = UserEffect(
-            name=function.__name__,
+            name=name or function.__name__,
             physics=text[0] if text else f"User's effect {function.__name__}.",
             port=port,
             unit=unit,
@@ -132,11 +165,34 @@ def effect(
             basis=function,
             path=code.co_filename,
             line=code.co_firstlineno,
+            declared_shapes=tuple((shapes or {}).items()),
         )
         _check(declared)
+        _check_shapes(declared)
+        loading = LOADING.get()
+        if loading is not None:
+            loading.append(declared)
         return declared
 
     return declare
+
+
+def _check_shapes(declared: UserEffect) -> None:
+    arguments = inspect.signature(declared.basis).parameters
+    takes_any = any(each.kind is inspect.Parameter.VAR_KEYWORD for each in arguments.values())
+    for name, shape in declared.declared_shapes:
+        of = f"{declared.where}: shape {name}"
+        if not isinstance(shape, Shape):
+            raise InputError(f"{of}: {shape!r} (expected Shape(start, prior_sigma=...))")
+        if name in declared.parameters:
+            raise InputError(f"{of}: the name of a parameter too (expected another)")
+        if name not in arguments and not takes_any:
+            raise InputError(f"{of}: the function takes no {name!r} (expected an argument of that name)")
+        if not 0.0 < shape.prior_sigma < float("inf"):
+            raise InputError(f"{of}: prior_sigma {shape.prior_sigma!r} (expected a number > 0)")
+        if not shape.lower < shape.start < shape.upper:
+            domain = f"{shape.lower:g} to {shape.upper:g} {shape.unit}"
+            raise InputError(f"{of}: start {shape.start:g} {shape.unit} (expected it within its domain, {domain})")
 
 
 def _check(declared: UserEffect) -> None:

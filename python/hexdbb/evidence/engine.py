@@ -202,7 +202,8 @@ class Engine:
         """Return the catalogue's and the user's effects that the base has free: effect, element, if it has no other."""
         base = self.base
         mine = self._mine()
-        free = [each for each, is_free in zip(base.parameters(), base.free, strict=True) if is_free]
+        named = zip(base.parameters(), base.free, strict=True)
+        free = [each for each, is_free in named if is_free and not each.is_coefficient]
         found = dict.fromkeys((each.effect, each.element) for each in free if each.effect in mine)
         return [(effect, (element,), len(base.info(effect).elements) == 1) for effect, element in found]
 

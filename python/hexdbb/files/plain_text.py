@@ -13,5 +13,5 @@ WIDTH = 110
 def plain_text(shown: RenderableType) -> str:
     """Return a renderable as text without colours, lines ended by a newline but for the last."""
     lines = io.StringIO()
-    Console(file=lines, width=WIDTH, highlight=False, color_system=None).print(shown, soft_wrap=True)
+    Console(file=lines, width=WIDTH, highlight=False, emoji=False, color_system=None).print(shown, soft_wrap=True)
     return lines.getvalue().rstrip("\n")

@@ -164,4 +164,4 @@ def _readings(run: CircleRun, cycle_rate_hz: float) -> float:
 
 
 def _nominal_jacobian(samples: Samples, model: Model) -> Floats:
-    return linearise(samples, model.with_values(np.zeros(len(model.values)))).jacobian
+    return linearise(samples, model.with_values(model.start)).jacobian

@@ -58,7 +58,7 @@ class Displacements:
         guideways = np.arange(6) // 2
         along = np.array([_core.guideway_direction(each) for each in guideways])
         vertices = np.array([_core.guideway_vertex(engine_machine(model.machine), each) for each in guideways])
-        pushes = effect_pushes(few, model.with_values(np.zeros(len(model.values))))
+        pushes = effect_pushes(few, model.with_values(model.start))
         at_joints = pushes["slider_joint"] + along[None, :, :, None] * pushes["slider"][:, :, None, :]
         others = [pushes[port] for port in PUSH_SHAPES if port not in ("slider", "slider_joint", "cup")]
         places = vertices + along * few["sliders_mm"][:, :, None]

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis import Diagnosis, Refit, as_it_is, diagnose, noise_of, refitter
+from hexdbb.diagnosis import Diagnosis, Refit, as_it_is, diagnose, learned_effect, noise_of, refitter, space_of
+from hexdbb.learned.places import is_learned
 from hexdbb.ledger.step import sizes_of, with_step
 from hexdbb.model import Choice, Model
 from hexdbb.samples import Samples, predict
@@ -55,8 +56,10 @@ def add_effect(samples: Samples, model: Model, choice: str, *, robust: bool = Fa
         Where a fit did not end in a usable solution.
     """
     added = Choice.parse(choice)
-    model.with_mounts(samples.mounts).with_effect(added)  # refused before anything is computed
+    _require_addable(samples, model, added)  # refused before anything is computed
     base, before_mm, refit = _fitted_as_it_is(samples, model, robust)
+    if is_learned(added.effect) and base.own(added.effect) is None:
+        base = base.knowing_effects([learned_effect(samples, base, added.effect)])
     found = diagnose(samples, base.with_effect(added), robust=robust, against=(base, refit))
     return with_step("add", model, before_mm, found, added, sizes_of(found.model, added))
 
@@ -71,6 +74,13 @@ def remove_effect(samples: Samples, model: Model, choice: str, *, robust: bool =
     base, before_mm, refit = _fitted_as_it_is(samples, model, robust)
     found = diagnose(samples, base.without_effect(removed), robust=robust, against=(base, refit))
     return with_step("remove", model, before_mm, found, removed, sizes_of(base, removed))
+
+
+def _require_addable(samples: Samples, model: Model, added: Choice) -> None:
+    if is_learned(added.effect) and model.own(added.effect) is None:
+        space_of(samples, model, added.effect)
+    else:
+        model.with_mounts(samples.mounts).with_effect(added)
 
 
 def _fitted_as_it_is(samples: Samples, model: Model, robust: bool) -> tuple[Model, Floats, Refit]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.diagnosis import Diagnosis
-from hexdbb.model import Choice, LedgerStep, Model, Size
+from hexdbb.model import Choice, LearnedEffect, LedgerStep, Model, Size, Term
 from hexdbb.units import shown_factor, shown_unit
 
 UM_PER_MM = 1e3
@@ -40,12 +40,16 @@ def with_step(
         Its values.
     """
     checked, records = found.held_out, found.samples.records
+    kind = ""
+    if choice is not None:  # a learned effect is known to the model that has it
+        has_it = model if found.model.term(choice.effect) is None else found.model
+        kind = has_it.info(choice.effect).element_kind
     step = LedgerStep(
         step=len(model.ledger) + 1,
         what=what,
         effect="" if choice is None else choice.effect,
         elements=() if choice is None else choice.elements,
-        element_kind="" if choice is None else model.info(choice.effect).element_kind,
+        element_kind=kind,
         sizes=sizes,
         rms_before_um=_rms_um(before_mm),
         rms_after_um=_rms_um(found.residual_mm),
@@ -65,12 +69,28 @@ def with_step(
 def sizes_of(model: Model, choice: Choice) -> tuple[Size, ...]:
     """Return the values of an effect's elements, in their units of output."""
     parameters, values, sigmas = model.parameters(), model.values, model.sigma
+    term = model.term(choice.effect)
+    if term is not None and term.learned is not None:
+        return _sizes_of_learned(term.learned, term)
     sizes = []
     for index in np.flatnonzero(model.values_of(choice)):
         parameter, factor = parameters[index], shown_factor(parameters[index].unit)
         sigma = None if np.isnan(sigmas[index]) else float(sigmas[index]) * factor
         value = float(values[index]) * factor
         sizes.append(Size(parameter.element, parameter.name, value, sigma, shown_unit(parameter.unit)))
+    return tuple(sizes)
+
+
+def _sizes_of_learned(effect: LearnedEffect, term: Term) -> tuple[Size, ...]:
+    """Return how far each function varies, with the median of its band."""
+    element = effect.info().elements[0]
+    sizes = []
+    for number, curve in enumerate(effect.curves(term.values)):
+        name = "range" if len(curve.at) > 1 else "size"
+        value = float(np.ptp(curve.value_mm)) if len(curve.at) > 1 else float(curve.value_mm[0])
+        sigma = float(np.median(curve.sigma_mm)) * UM_PER_MM
+        axis = f"_{'xyz'[number]}" if effect.space.hypothesis.components > 1 else ""
+        sizes.append(Size(element, name + axis, value * UM_PER_MM, None if np.isnan(sigma) else sigma, "um"))
     return tuple(sizes)
 
 

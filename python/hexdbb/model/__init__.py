@@ -3,19 +3,23 @@
 from hexdbb.model.catalogue import default_effects, effect_info, effect_names
 from hexdbb.model.choice import Choice
 from hexdbb.model.file import load_model, save_model
+from hexdbb.model.learned import LearnedEffect
 from hexdbb.model.ledger import LedgerStep, Size, Snapshot
 from hexdbb.model.model import Model, new_model
-from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate, Tabulated
+from hexdbb.model.own import OwnEffect, OwnEffects, Shape, ShapedEffect, Tabulate, Tabulated
 from hexdbb.model.terms import MountKey, Parameter, Term, new_term
 
 __all__ = [
     "Choice",
+    "LearnedEffect",
     "LedgerStep",
     "Model",
     "MountKey",
     "OwnEffect",
     "OwnEffects",
     "Parameter",
+    "Shape",
+    "ShapedEffect",
     "Size",
     "Snapshot",
     "Tabulate",

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
+from hexdbb.learned.places import is_learned
 
 Bools = NDArray[np.bool_]
 
@@ -27,6 +28,8 @@ class Choice:
     @classmethod
     def parse(cls, text: str) -> Choice:
         """Parse ``effect:element...``; whether there are such, `of_effect` checks."""
+        if is_learned(text.strip()):  # a learned effect's name has its place and element in it
+            return cls(text.strip())
         effect, *elements = text.strip().split(":")
         return cls(effect, tuple(elements))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,18 +11,20 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.model.entries import EarlierEffectEntry, EarlierEntry
+from hexdbb.model.learned import LearnedEffect
+from hexdbb.model.learned_entry import learned_effect, learned_entry
 from hexdbb.model.ledger import Snapshot
 from hexdbb.model.shown import engine_values, shown_values, units_of
 from hexdbb.model.terms import MountKey, Term
 
-Describe = Callable[[int, str], _core.EffectInfo]
-"""Describes an effect, given the number of mounts and its name."""
+Describe = Callable[[int, str, LearnedEffect | None], _core.EffectInfo]
+"""Describes an effect, given the number of mounts, its name and, where it is learned, what it is."""
 
 
 def earlier_entry(step: int, snapshot: Snapshot, describe: Describe) -> EarlierEntry:
     """Return the model before a step in the form of the file."""
     mounts = len(snapshot.mounts)
-    effects = tuple(_entry(term, units_of(describe(mounts, term.effect))) for term in snapshot.terms)
+    effects = tuple(_entry(term, units_of(describe(mounts, term.effect, term.learned))) for term in snapshot.terms)
     return EarlierEntry(before_step=step, mounts=mounts, effect=effects)
 
 
@@ -39,10 +42,11 @@ def earlier_snapshot(entry: EarlierEntry, mounts: Sequence[MountKey], describe: 
     for index, effect in enumerate(entry.effects):
         place = f"{where}.effect[{index}]"
         try:
-            units = units_of(describe(entry.mounts, effect.name))
+            learned = None if effect.learned is None else learned_effect(effect.name, effect.learned)
+            units = units_of(describe(entry.mounts, effect.name, learned))
         except InputError as error:
             raise InputError(f"{place}.name: {error}") from None
-        terms.append(_term(effect, units, place))
+        terms.append(replace(_term(effect, units, place), learned=learned))
     return Snapshot(tuple(terms), tuple(mounts[: entry.mounts]))
 
 
@@ -54,6 +58,7 @@ def _entry(term: Term, units: Sequence[str]) -> EarlierEffectEntry:
         sigma=None if unknown else shown_values(term.sigma, units),
         identifiable=_flags(term.identifiable) if term.identifiable.any() else None,
         free=None if term.free.all() else _flags(term.free),
+        learned=None if term.learned is None else learned_entry(term.learned),
     )
 
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from hexdbb.files.validation import FileModel, NotNegative, Number, StrictModel
+from hexdbb.files.validation import FileModel, NotNegative, Number, Positive, StrictModel
 from hexdbb.machine import MachineFile
 
 Names = Annotated[tuple[str, ...], Field(strict=False)]
@@ -27,10 +27,30 @@ class ParameterEntry(StrictModel):
     free: bool = True
 
 
+class LearnedEntry(StrictModel):
+    """What a learned effect is beyond its name: range of the variable, smoothness, prior, and the band of its fit.
+
+    `low` and `high` are in the unit of the variable (of its logarithm where the function is one of a logarithm).
+    """
+
+    low: Number
+    high: Number
+    splines: Annotated[int, Field(ge=1)]
+    period: NotNegative = 0.0
+    sign_width: NotNegative = 0.0
+    middle_s: Number
+    span_s: Positive
+    roughness: Positive
+    prior_sigma_um: Positive
+    sigma_um: Numbers = ()
+    samples: Numbers = ()
+
+
 class EffectEntry(StrictModel):
-    """One effect with its values, element by element."""
+    """One effect with its values, element by element; what a learned effect is stands in `learned`."""
 
     name: str
+    learned: LearnedEntry | None = None
     parameters: tuple[ParameterEntry, ...] = Field(default=(), strict=False, alias="parameter")
 
 
@@ -84,6 +104,7 @@ class EarlierEffectEntry(StrictModel):
     sigma: Sigmas | None = None
     identifiable: Flags | None = None
     free: Flags | None = None
+    learned: LearnedEntry | None = None
 
 
 class EarlierEntry(StrictModel):

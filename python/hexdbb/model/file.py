@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import replacing
 from hexdbb.files.validation import dump_toml, load_toml
@@ -17,6 +18,8 @@ from hexdbb.machine import MachineFile
 from hexdbb.model.catalogue import effect_info
 from hexdbb.model.earlier import Describe, earlier_entry, earlier_snapshot
 from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
+from hexdbb.model.learned import LearnedEffect
+from hexdbb.model.learned_entry import learned_effect, learned_entry
 from hexdbb.model.ledger import LedgerStep, Size
 from hexdbb.model.model import Model
 from hexdbb.model.own import OwnEffect, OwnEffects
@@ -70,7 +73,9 @@ def save_model(model: Model, path: Path | str) -> None:
 
 
 def _describe(machine: MachineFile, own: OwnEffects) -> Describe:
-    return lambda mounts, effect: effect_info(machine, max(mounts, 1), effect, own)
+    return lambda mounts, effect, learned: (
+        effect_info(machine, max(mounts, 1), effect, own) if learned is None else learned.info()
+    )
 
 
 def _ledger(file: ModelFile, mounts: tuple[MountKey, ...], own: OwnEffects, path: str) -> tuple[LedgerStep, ...]:
@@ -107,14 +112,12 @@ def _entry(term: Term, parameters: list[Parameter]) -> EffectEntry:
                 free=bool(term.free[index]),
             )
         )
-    return EffectEntry(name=term.effect, parameter=tuple(entries))
+    learned = None if term.learned is None else learned_entry(term.learned)
+    return EffectEntry(name=term.effect, learned=learned, parameter=tuple(entries))
 
 
 def _term(model: Model, entry: EffectEntry, where: str) -> Term:
-    try:
-        info = model.info(entry.name)
-    except InputError as error:
-        raise InputError(f"{where}.name: {error}; an effect of your own: --effects FILE.py declares it") from None
+    learned, info = _described(model, entry, where)
     expected = [(element, each.name, each.unit) for element in info.elements for each in info.parameters]
     if len(entry.parameters) != len(expected):
         raise InputError(f"{where}.parameter: {len(entry.parameters)} entries (expected {len(expected)})")
@@ -130,4 +133,18 @@ def _term(model: Model, entry: EffectEntry, where: str) -> Term:
             sigma[index] = given.sigma / shown_factor(unit)
     identifiable = np.array([given.identifiable for given in entry.parameters], dtype=bool)
     free = np.array([given.free for given in entry.parameters], dtype=bool)
-    return Term(entry.name, free, values, sigma, identifiable)
+    return Term(entry.name, free, values, sigma, identifiable, learned)
+
+
+def _described(model: Model, entry: EffectEntry, where: str) -> tuple[LearnedEffect | None, _core.EffectInfo]:
+    """Return what an effect of the file is: learned, as the file itself says, or known by name."""
+    if entry.learned is not None:
+        try:
+            learned = learned_effect(entry.name, entry.learned)
+        except InputError as error:
+            raise InputError(f"{where}.learned: {error}") from None
+        return learned, learned.info()
+    try:
+        return None, model.info(entry.name)
+    except InputError as error:
+        raise InputError(f"{where}.name: {error}; an effect of your own: --effects FILE.py declares it") from None

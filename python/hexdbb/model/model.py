@@ -25,7 +25,7 @@ from hexdbb.model.choice import Choice
 from hexdbb.model.ledger import LedgerStep, Snapshot
 from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate
 from hexdbb.model.tables import value_columns, values_html
-from hexdbb.model.terms import Bools, Floats, MountKey, Parameter, Term, extended, new_term, parameters_of
+from hexdbb.model.terms import Bools, Floats, MountKey, Parameter, Term, extended, new_term, parameters_of, started_term
 
 
 @dataclass(frozen=True, repr=False)
@@ -48,11 +48,26 @@ class Model:
 
     def info(self, effect: str) -> _core.EffectInfo:
         """Return the description of one effect as it stands in this model."""
-        return effect_info(self.machine, max(len(self.mounts), 1), effect, self.own_effects)
+        own = self.own(effect)
+        return effect_info(self.machine, max(len(self.mounts), 1), effect) if own is None else own.info()
+
+    def own(self, effect: str) -> OwnEffect | None:
+        """Return an effect that is not the engine's, learned or the user's own; None for one of the engine's."""
+        term = self.term(effect)
+        return self.own_effects.get(effect) if term is None or term.learned is None else term.learned
+
+    @property
+    def learned(self) -> tuple[Term, ...]:
+        """Terms of learned effects."""
+        return tuple(term for term in self.terms if term.learned is not None)
 
     def parameters(self) -> list[Parameter]:
         """Return name and nature of every value, in the order of `values`."""
-        return [parameter for term in self.terms for parameter in parameters_of(self.info(term.effect))]
+        return [
+            parameter
+            for term in self.terms
+            for parameter in parameters_of(self.info(term.effect), self.own(term.effect))
+        ]
 
     @property
     def snapshot(self) -> Snapshot:
@@ -73,6 +88,11 @@ class Model:
     def prior_sigma(self) -> Floats:
         """Prior standard deviations (expected sizes) of the values, engine units, shape (size,)."""
         return np.array([parameter.prior_sigma for parameter in self.parameters()])
+
+    @property
+    def start(self) -> Floats:
+        """Values before any fit, engine units, shape (size,): zero but for shape parameters of the user's effects."""
+        return np.array([parameter.start for parameter in self.parameters()])
 
     @property
     def free(self) -> Bools:
@@ -155,7 +175,8 @@ class Model:
         chosen = choice.of_effect(self.info(choice.effect))
         present = self.term(choice.effect)
         if present is None:
-            return replace(self, terms=(*self.terms, replace(new_term(choice.effect, len(chosen)), free=chosen)))
+            info, own = self.info(choice.effect), self.own(choice.effect)
+            return replace(self, terms=(*self.terms, replace(started_term(choice.effect, own, info), free=chosen)))
         if present.free[chosen].all():
             raise InputError(f"{choice}: {self.name} has it already, free to be fitted (expected what it has not)")
         return self._with_term(replace(present, free=present.free | chosen))
@@ -170,17 +191,18 @@ class Model:
         """
         chosen = choice.of_effect(self.info(choice.effect))
         term = self.term(choice.effect)
-        if term is None or not (term.free[chosen] | (term.values[chosen] != 0.0)).any():
+        start = np.array([each.start for each in parameters_of(self.info(choice.effect), self.own(choice.effect))])
+        if term is None or not (term.free[chosen] | (term.values[chosen] != start[chosen])).any():
             free = ", ".join(each.effect for each in self.terms if each.free.any())
             raise InputError(f"{choice}: not in {self.name} (expected one of {free})")
-        left = Term(
-            choice.effect,
+        left = replace(
+            term,
             free=term.free & ~chosen,
-            values=np.where(chosen, 0.0, term.values),
+            values=np.where(chosen, start, term.values),
             sigma=np.where(chosen, np.nan, term.sigma),
             identifiable=term.identifiable & ~chosen,
         )
-        if left.free.any() or left.values.any():
+        if left.free.any() or (left.values != start).any():
             return self._with_term(left)
         return replace(self, terms=tuple(each for each in self.terms if each.effect != choice.effect))
 
@@ -210,14 +232,16 @@ class Model:
         """
         engine = _core.Model(engine_machine(self.machine))
         for term in self.terms:
-            own = self.own_effects.get(term.effect)
+            own = self.own(term.effect)
             if own is None:
                 engine.add(term.effect, max(len(self.mounts), 1))
             elif tabulate is None:
-                raise InputError(f"{term.effect}: an effect of your own is known in measured samples only, not here")
+                kind = "a learned effect" if term.learned is not None else "an effect of your own"
+                raise InputError(f"{term.effect}: {kind} is known in measured samples only, not here")
             else:
-                tabulate(own).add_to(engine)
-        engine.values = self.values
+                tabulate(own, term.values).add_to(engine)
+        # A user's effect is tabulated at its shapes: to the engine they are differences from there.
+        engine.values = np.where([each.shape is not None for each in self.parameters()], 0.0, self.values)
         return engine
 
     def columns(self) -> dict[str, NDArray[Any]]:

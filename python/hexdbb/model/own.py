@@ -7,9 +7,10 @@ the user names the file that declares it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,12 +30,12 @@ class Tabulated:
     ports: tuple[int, ...]
     per_unit: NDArray[np.float64]
 
-    def pushes(self) -> NDArray[np.float64]:
-        """Return the pushes at every port, shape (n, 55, size): mm per unit of the value."""
+    def pushes(self, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Return the pushes at every port in some rows, shape (n, 55, size): mm per unit of the value."""
         ports = sum(count for _, count in _core.PORTS.values())
-        every = np.zeros((len(self.per_unit), ports, self.info.size))
+        every = np.zeros((len(rows), ports, self.info.size))
         for index, (value, port) in enumerate(zip(self.values, self.ports, strict=True)):
-            every[:, port, value] += self.per_unit[:, index]
+            every[:, port, value] += self.per_unit[rows, index]
         return every
 
     def add_to(self, engine: _core.Model) -> None:
@@ -59,7 +60,44 @@ class OwnEffect(Protocol):
         ...
 
 
+@dataclass(frozen=True)
+class Shape:
+    """A fitted shape parameter of a user's effect: where a dent lies, how wide it is.
+
+    Attributes
+    ----------
+    start : float
+        Value before any fit, and mean of its prior.
+    prior_sigma : float
+        Standard deviation of its prior.
+    lower, upper : float
+        Physical domain: no fit leaves it.
+    unit : str
+        Of all of these; nothing converts it.
+    """
+
+    start: float
+    prior_sigma: float
+    lower: float = -math.inf
+    upper: float = math.inf
+    unit: str = "mm"
+
+
+@runtime_checkable
+class ShapedEffect(Protocol):
+    """A user's effect with shape parameters: what it pushes depends on their values, by element."""
+
+    @property
+    def shapes(self) -> Mapping[str, Shape]:
+        """Shape parameters by name."""
+        ...
+
+    def tabulated_at(self, samples: Any, values: NDArray[np.float64]) -> Tabulated:
+        """Evaluate it and its derivatives about some values of all its parameters, shape (size,)."""
+        ...
+
+
 OwnEffects = Mapping[str, OwnEffect]
 """Users' effects by name."""
-Tabulate = Callable[[OwnEffect], Tabulated]
-"""Evaluates a user's effect for the samples that are to be predicted."""
+Tabulate = Callable[[OwnEffect, NDArray[np.float64]], Tabulated]
+"""Evaluates a user's effect with these values for the samples that are to be predicted."""

@@ -55,8 +55,8 @@ def values_html(columns: Columns) -> str:
     return html_table(("effect", "element", "parameter", "value", "± 1 sigma", "unit"), rows)
 
 
-def sigma_shown(columns: Columns, row: np.intp) -> str:
+def sigma_shown(columns: Columns, row: np.intp, places: str = ".2f") -> str:
     """Return a value's standard deviation for people: ``held`` where it is not free, ``~`` where not identifiable."""
     if not columns["free"][row]:
         return "held"
-    return f"{columns['sigma'][row]:.2f}" if columns["identifiable"][row] else "~"
+    return f"{columns['sigma'][row]:{places}}" if columns["identifiable"][row] else "~"

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.model.learned import LearnedEffect
+from hexdbb.model.own import OwnEffect, Shape, ShapedEffect
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -35,11 +38,20 @@ class Parameter:
     is_set_up: bool
     is_shape: bool = False
     """Pushes nothing by itself: it shapes what the effect's other values push."""
+    is_coefficient: bool = False
+    """A coefficient of a learned function: the function is judged, not its coefficients one by one."""
+    shape: Shape | None = None
+    """Start and domain of a shape parameter of the user's; its value is what it is, not a difference from the start."""
 
     @property
     def label(self) -> str:
         """Name for people: effect, element, parameter."""
         return f"{self.effect}:{self.element} {self.name}"
+
+    @property
+    def start(self) -> float:
+        """Value before any fit, and mean of the prior."""
+        return 0.0 if self.shape is None else self.shape.start
 
 
 @dataclass(frozen=True)
@@ -52,6 +64,8 @@ class Term:
     values: Floats
     sigma: Floats
     identifiable: Bools
+    learned: LearnedEffect | None = None
+    """What a learned effect is; None for effects of the engine and of the user's own."""
 
 
 def new_term(effect: str, size: int, *, free: bool = True) -> Term:
@@ -64,8 +78,8 @@ def extended(term: Term, size: int) -> Term:
     more = size - len(term.values)
     if more <= 0:
         return term
-    return Term(
-        term.effect,
+    return replace(
+        term,
         free=np.append(term.free, np.full(more, bool(term.free.any()) or not len(term.free))),
         values=np.append(term.values, np.zeros(more)),
         sigma=np.append(term.sigma, np.full(more, np.nan)),
@@ -73,10 +87,30 @@ def extended(term: Term, size: int) -> Term:
     )
 
 
-def parameters_of(info: _core.EffectInfo) -> list[Parameter]:
-    """Return name and nature of every value of an effect, element by element."""
-    return [
+def started_term(effect: str, own: OwnEffect | None, info: _core.EffectInfo) -> Term:
+    """Make the term of an effect that joins a model, values at their start."""
+    learned = own if isinstance(own, LearnedEffect) else None
+    starts = np.array([each.start for each in parameters_of(info, own)])
+    return replace(new_term(effect, info.size), values=starts, learned=learned)
+
+
+def parameters_of(info: _core.EffectInfo, own: OwnEffect | None = None) -> list[Parameter]:
+    """Return name and nature of every value of an effect, element by element; `own` where it is not the engine's."""
+    shapes: Mapping[str, Shape] = own.shapes if isinstance(own, ShapedEffect) else {}
+    is_coefficient = isinstance(own, LearnedEffect)
+    found = [
         Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)
         for element in info.elements
         for each in info.parameters
+    ]
+    if not shapes and not is_coefficient:
+        return found
+    return [
+        replace(
+            each,
+            is_shape=each.is_shape or each.name in shapes,
+            is_coefficient=is_coefficient,
+            shape=shapes.get(each.name),
+        )
+        for each in found
     ]

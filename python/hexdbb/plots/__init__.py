@@ -6,7 +6,8 @@
         save_figure(page.draw(), Path("demo-compare" + page.suffix))
 """
 
+from hexdbb.plots.learned import learned_figure
 from hexdbb.plots.magnification import Scale, choose_scale
 from hexdbb.plots.pages import Page, comparison_pages, save_figure
 
-__all__ = ["Page", "Scale", "choose_scale", "comparison_pages", "save_figure"]
+__all__ = ["Page", "Scale", "choose_scale", "comparison_pages", "learned_figure", "save_figure"]

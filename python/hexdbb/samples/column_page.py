@@ -15,12 +15,15 @@ from hexdbb.record.file_pages import replaced
 BEGIN = "<!-- columns: made by `python -m hexdbb.samples.column_page docs/glossary.md`; do not edit -->"
 END = "<!-- end of columns -->"
 OWN = {
-    "record": ("1", "index of the record in `Samples.records`"),
-    "set_up": ("1", "index of cup, ball and bar in `Samples.set_ups`: one for each circle of each record"),
-    "mount": ("1", "index of the fixing of the cup in `Samples.mounts`"),
-    "reading_mm": ("mm", "ball-bar length minus nominal length"),
+    "record": ("sample", "1", "index of the record in `Samples.records`"),
+    "set_up": ("sample", "1", "index of cup, ball and bar in `Samples.set_ups`: one for each circle of each record"),
+    "mount": ("sample", "1", "index of the fixing of the cup in `Samples.mounts`"),
+    "reading_mm": ("sample", "mm", "ball-bar length minus nominal length"),
+    "swing_angle_rad": ("leg", "rad", "angle of the leg about its guideway, from the guideway's sideways axis"),
+    "swing_rate_rad_s": ("leg", "rad/s", "rate of the leg's swing about its guideway"),
+    "bar_angle_rad": ("sample", "rad", "polar angle less the yaw of the nominal platform"),
 }
-"""Unit and meaning of the columns that are no part of the engine's state."""
+"""What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}
 """Columns that the engine fills in for parts of a table; a table of samples has `Samples.row_numbers`."""
 SHAPES = {"sample": "(n,)", "axis": "(n, 3)", "slider": "(n, 6), sliders", "leg": "(n, 6), legs"}
@@ -32,7 +35,7 @@ UNITS = {"1": "", "degC": "°C"}
 def column_table() -> str:
     """Return the Markdown table of every column that `Samples` can have: name, shape, unit, meaning."""
     lines = ["| column | shape | unit | meaning |", "|---|---|---|---|"]
-    lines += [_line(name, "sample", unit, meaning) for name, (unit, meaning) in OWN.items()]
+    lines += [_line(name, *described) for name, described in OWN.items()]
     known = [each for each in _core.state_columns() if each.name not in INSIDE_THE_ENGINE]
     lines += [_line(each.name, each.of, each.unit, each.meaning) for each in known]
     return "\n".join(lines)

@@ -128,8 +128,9 @@ def effect_pushes(samples: Samples, model: Model) -> dict[str, Floats]:
     block, machine = samples.block(model), engine_machine(model.machine)
     every = []
     for term in model.terms:
-        if term.effect in model.own_effects:
-            every.append(samples.pushes_of(model.own_effects[term.effect]))
+        own = model.own(term.effect)
+        if own is not None:
+            every.append(samples.pushes_of(own, term.values))
         else:
             mounts = max(len(model.mounts), 1)
             every.append(_core.effect_pushes(machine, mounts, term.effect, block, term.values))

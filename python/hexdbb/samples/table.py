@@ -21,9 +21,10 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table, to_frame
 from hexdbb.machine import MachineFile
-from hexdbb.model import Model, MountKey, OwnEffect, Tabulated
+from hexdbb.model import Model, MountKey, OwnEffect, ShapedEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.samples.swing import DERIVED
 from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
 Floats = NDArray[np.float64]
@@ -125,7 +126,7 @@ class Samples:
         KeyError
             A column that is not known, with those that are.
         """
-        column = self._whole.columns.get(name)
+        column = self._whole.column(name)
         if column is None:
             raise KeyError(f"samples have no column {name!r} (expected one of {', '.join(self.column_names)})")
         return column if self._rows is None else column[self._rows]
@@ -133,14 +134,14 @@ class Samples:
     if not TYPE_CHECKING:  # users' functions may write samples.angle_rad for samples["angle_rad"]; ours may not
 
         def __getattr__(self, name: str) -> Column:
-            if name.startswith("_") or name not in self._whole.columns:
+            if name.startswith("_") or name not in self.column_names:
                 raise AttributeError(f"'Samples' object has no attribute {name!r}")
             return self[name]
 
     @property
     def column_names(self) -> tuple[str, ...]:
         """Names of the columns that are known."""
-        return tuple(self._whole.columns)
+        return tuple(dict.fromkeys((*self._whole.columns, *DERIVED)))
 
     @property
     def records(self) -> tuple[Record, ...]:
@@ -211,9 +212,9 @@ class Samples:
         """
         return model.engine(self._tabulated)
 
-    def pushes_of(self, effect: OwnEffect) -> Floats:
-        """Return what a user's effect pushes in these samples, shape (n, 55, size), mm per engine unit of a value."""
-        return self._tabulated(effect).pushes()[self.row_numbers]
+    def pushes_of(self, effect: OwnEffect, values: Floats) -> Floats:
+        """Return what an effect that is not the engine's pushes at its values, (n, 55, size), mm per unit of one."""
+        return self._tabulated(effect, values).pushes(self.row_numbers)
 
     def columns(self) -> Columns:
         """Return every column with shape (n,): ``velocity_mm_s_1`` of slider 1, ``position_mm_x``."""
@@ -242,12 +243,17 @@ class Samples:
         rows = [[_cell(flat[name][row]) for name in SHOWN] for row in range(min(SHOWN_ROWS, len(self)))]
         return f"<p>{len(self)} samples; columns {', '.join(self.column_names)}</p>{html_table(SHOWN, rows)}"
 
-    def _tabulated(self, effect: OwnEffect) -> Tabulated:
+    def _tabulated(self, effect: OwnEffect, values: Floats) -> Tabulated:
         """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs."""
         known = self._whole.tabulated
-        if effect not in known:
-            known[effect] = effect.tabulated(Samples(self._whole))
-        return known[effect]
+        if not isinstance(effect, ShapedEffect) or not effect.shapes:
+            if effect not in known:
+                known[effect] = effect.tabulated(Samples(self._whole))
+            return known[effect]
+        at = values.tobytes()  # another fit's values need another table; the last one serves most calls
+        if effect not in self._whole.shaped or self._whole.shaped[effect][0] != at:
+            self._whole.shaped[effect] = (at, effect.tabulated_at(Samples(self._whole), values))
+        return self._whole.shaped[effect][1]
 
     def _require_known(self, model: Model) -> None:
         for place in np.unique(self["mount"]):

@@ -17,6 +17,7 @@ from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.samples.state import planned_columns, state_columns
+from hexdbb.samples.swing import DERIVED, derived_columns
 
 Floats = NDArray[np.float64]
 Columns = dict[str, NDArray[Any]]
@@ -39,10 +40,18 @@ class Whole:
     origin: str
     """What errors call it."""
     tabulated: dict[OwnEffect, Tabulated] = field(default_factory=dict)
+    shaped: dict[OwnEffect, tuple[bytes, Tabulated]] = field(default_factory=dict)
+    """Effects with shape parameters, evaluated at the values of which these are the bytes."""
     blocks: dict[tuple[MountKey, ...], _core.Samples] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.columns["set_up"])
+
+    def column(self, name: str) -> NDArray[Any] | None:
+        """Return a column, None where there is no such; those of `DERIVED` are computed when first asked for."""
+        if name in DERIVED and name not in self.columns:
+            self.columns |= derived_columns(self.machine, self.columns)
+        return self.columns.get(name)
 
     def block(self, mounts: tuple[MountKey, ...]) -> _core.Samples:
         """Return the engine's form, mounts numbered as in `mounts`; those not among them count as the first."""

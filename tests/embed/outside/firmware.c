@@ -1,4 +1,4 @@
-/* A controller in C without files: the same data as constants give the same targets as the file. */
+/* A controller in C without files: data as constants, with the same targets as from the file. */
 #include <stdio.h>
 
 #include "compensation_constants.h"

@@ -149,7 +149,7 @@ def test_the_file_names_its_machine_from_where_it_stands(tmp_path: Path) -> None
         (["--circles", "0"], r"^circles 0: no circle to choose \(expected 1 or more\)$"),
         (["--circles", "3", "--mounts", "0"], r"^mounts 0: no position for the cup \(expected 1 or more\)$"),
         (["--circles", "3", "--criterion", "E"], r"^criterion E: not known \(expected one of D, minmax\)$"),
-        (["--circles", "3", "--aim", "rust"], r'^no effect is called "rust" \(known: leg_length, '),
+        (["--circles", "3", "--aim", "rust"], r'^no effect has the name "rust" \(known: leg_length, '),
         (["--circles", "3", "--like", "none"], r"^none: no such file"),
         (["--circles", "999"], r"^circles 999: fewer candidates about 1 cup position\(s\)"),
     ],

@@ -149,7 +149,7 @@ def test_too_many_circles_are_refused() -> None:
 
 @pytest.mark.parametrize(
     ("aim", "message"),
-    [("bar_lenth", 'no effect is called "bar_lenth"'), ("cup_position", "cup_position: belongs to each mount")],
+    [("bar_lenth", 'no effect has the name "bar_lenth"'), ("cup_position", "cup_position: belongs to each mount")],
 )
 def test_an_aim_that_no_plan_can_have_is_named(aim: str, message: str) -> None:
     with pytest.raises(InputError, match=message):

@@ -1,0 +1,12 @@
+"""Functions learned from readings: where they push, on which variable they depend, and what form they have.
+
+Everything here is data and arithmetic on it: a hypothesis is chosen by name from closed lists (`places`, `variables`),
+its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
+"""
+
+from hexdbb.learned.places import ALL, Hypothesis, hypotheses
+from hexdbb.learned.space import Curve, Space, Table
+from hexdbb.learned.variables import Variable
+from hexdbb.learned.words import Form, describe
+
+__all__ = ["ALL", "Curve", "Form", "Hypothesis", "Space", "Table", "Variable", "describe", "hypotheses"]

@@ -1,0 +1,120 @@
+"""Forms that a function may have: each is fitted by weighted least squares, and explains a part of its variation.
+
+y = constant + linear combination of a few functions of x, of which some have shapes (centre and width of a bump,
+period of a sine) that are searched on a grid and refined (variable projection; Golub and Pereyra 1973).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+Floats = NDArray[np.float64]
+Basis = Callable[[Floats, Floats], Floats]
+
+FWHM = 2.0 * np.sqrt(2.0 * np.log(2.0))
+"""Full width at half height of a Gaussian, in its standard deviations."""
+WIDEST = 0.6
+"""Width of a bump over the variable's range above which it is no bump but a bend."""
+LONGEST = 1.0
+"""Period of a sine over the range above which less than a period is seen."""
+SHORTEST = 1.0 / 12.0
+"""Period of a sine over the range below which a function's splines hardly follow it."""
+GRID = 24
+"""Starts of a shape: neighbours overlap for the narrowest width that is looked for."""
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A form fitted: `constant`, coefficients of its functions, shapes, and the part of the variation it explains."""
+
+    kind: str
+    constant: float
+    coefficients: Floats
+    shapes: Floats
+    explained: float
+
+    def at(self, x: Floats) -> Floats:
+        """Return its values at some places, shape (m,)."""
+        found: Floats = self.constant + BASES[self.kind](x, self.shapes) @ self.coefficients
+        return found
+
+
+def _linear(x: Floats, shapes: Floats) -> Floats:
+    return x[:, None]
+
+
+def _step(x: Floats, shapes: Floats) -> Floats:
+    return np.sign(x)[:, None]
+
+
+def _bump(x: Floats, shapes: Floats) -> Floats:
+    centre, width = shapes
+    found: Floats = np.exp(-0.5 * (FWHM * (x - centre) / width) ** 2)[:, None]
+    return found
+
+
+def _sine(x: Floats, shapes: Floats) -> Floats:
+    turn = 2.0 * np.pi * x / shapes[0]
+    return np.column_stack([np.sin(turn), np.cos(turn)])
+
+
+BASES: dict[str, Basis] = {"linear": _linear, "step": _step, "sine": _sine, "bump": _bump}
+"""The functions of every form, the simplest form first."""
+
+
+def fits(x: Floats, y: Floats, weights: Floats, period: float = 0.0) -> Iterator[Fit]:
+    """Yield every form fitted to a function, the simplest first.
+
+    Parameters
+    ----------
+    x, y, weights : ndarray, shape (m,)
+    period : float
+        Of the variable, in which whole sines must fit; 0 where it is not periodic.
+    """
+    low, high = float(x.min()), float(x.max())
+    if period:
+        best = max((_fitted("sine", x, y, weights, np.array([period / k])) for k in (1, 2, 3)), key=_explained)
+        yield best
+    else:
+        yield _fitted("linear", x, y, weights, np.empty(0))
+        if low < 0.0 < high:
+            yield _fitted("step", x, y, weights, np.empty(0))
+        periods = np.geomspace(SHORTEST, LONGEST, GRID)[:, None] * (high - low)
+        yield _searched("sine", x, y, weights, periods, [(SHORTEST * (high - low), LONGEST * (high - low))])
+    spacing = float(np.median(np.diff(x)))
+    widths = np.geomspace(2.0 * spacing, WIDEST * (high - low), 8)
+    grid = np.array([(centre, width) for centre in np.linspace(low, high, GRID) for width in widths])
+    yield _searched("bump", x, y, weights, grid, [(low, high), (2.0 * spacing, WIDEST * (high - low))])
+
+
+def _searched(kind: str, x: Floats, y: Floats, weights: Floats, grid: Floats, bounds: list[tuple[float, float]]) -> Fit:
+    start = max((_fitted(kind, x, y, weights, shapes) for shapes in grid), key=_explained)
+    scale = np.array([upper - lower for lower, upper in bounds])
+    found = minimize(
+        lambda scaled: -_fitted(kind, x, y, weights, scaled * scale).explained,
+        start.shapes / scale,
+        method="L-BFGS-B",
+        bounds=[(lower / size, upper / size) for (lower, upper), size in zip(bounds, scale, strict=True)],
+        options={"ftol": 1e-14, "gtol": 1e-10},
+    )
+    return max(start, _fitted(kind, x, y, weights, found.x * scale), key=_explained)
+
+
+def _fitted(kind: str, x: Floats, y: Floats, weights: Floats, shapes: Floats) -> Fit:
+    table = np.column_stack([np.ones(len(x)), BASES[kind](x, shapes)])
+    root = np.sqrt(weights)
+    coefficients, *_ = np.linalg.lstsq(root[:, None] * table, root * y, rcond=None)
+    left = float(np.sum(weights * (y - table @ coefficients) ** 2))
+    mean = float(np.average(y, weights=weights))
+    whole = float(np.sum(weights * (y - mean) ** 2))
+    explained = 1.0 - left / whole if whole > 0.0 else 0.0
+    return Fit(kind, float(coefficients[0]), coefficients[1:], shapes, explained)
+
+
+def _explained(fit: Fit) -> float:
+    return fit.explained

@@ -1,0 +1,126 @@
+"""Where a learned function may push, and the names of hypotheses: `learned:leg:5:turning_rate`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from hexdbb import _core
+from hexdbb.errors import InputError
+from hexdbb.learned import variables as v
+from hexdbb.learned.variables import Variable
+
+PREFIX = "learned"
+ALL = 0
+"""Element number of a function that all elements share, or of a place that has one element only."""
+WHOLE = "all"
+
+VARIABLES: dict[str, tuple[Variable, ...]] = {
+    "slider": v.OF_SLIDER,
+    "leg": v.OF_LEG,
+    "lateral": v.OF_GUIDEWAY,
+    "vertical": v.OF_GUIDEWAY,
+    "platform_joint": v.OF_PLATFORM_JOINT,
+    "ball": v.OF_BALL,
+    "cup": v.OF_BALL,
+    "reading": v.OF_READING,
+}
+"""The variables of every place."""
+ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "platform_joint": 6}
+"""Number of elements of those places that have more than one."""
+KINDS = {"slider": "slider", "leg": "leg", "lateral": "guideway", "vertical": "guideway", "platform_joint": "leg"}
+SHARED = ("slider", "leg")
+"""Places whose elements may share one function."""
+GUIDEWAY_PORT = "slider_joint"
+AXIS = {"lateral": 0, "vertical": 2}
+"""Axis of a guideway's frame (`_core.guideway_axes`) along which a place pushes."""
+
+Push = tuple[int, tuple[tuple[int, float], ...]]
+"""Element of the variable, from 0, and the engine's port columns that are pushed, each with its weight."""
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """A place, its element and a variable."""
+
+    place: str
+    element: int
+    variable: Variable
+
+    @classmethod
+    def parse(cls, name: str) -> Hypothesis:
+        """Find a hypothesis by name.
+
+        Raises
+        ------
+        InputError
+            Naming the part of the name that is not known and what was expected.
+        """
+        prefix, *parts = name.split(":")
+        place = parts[0] if parts else ""
+        if prefix != PREFIX or place not in VARIABLES:
+            raise InputError(f"{name}: place {place!r} (expected {PREFIX}:PLACE, one of {', '.join(VARIABLES)})")
+        elements = _element_names(place)
+        given = parts[1] if elements and len(parts) > 1 else ""
+        if elements and given not in elements:
+            raise InputError(f"{name}: element {given!r} (expected one of {', '.join(elements)})")
+        rest = parts[2:] if elements else parts[1:]
+        known = {each.name: each for each in VARIABLES[place]}
+        if len(rest) != 1 or rest[0] not in known:
+            raise InputError(f"{name}: variable {':'.join(rest)!r} (expected one of {', '.join(known)})")
+        return cls(place, ALL if given in ("", WHOLE) else int(given), known[rest[0]])
+
+    @property
+    def name(self) -> str:
+        """Name, as `hexdbb add` takes it."""
+        element = str(self.element) if self.element else WHOLE if self.place in SHARED else ""
+        return ":".join(filter(None, (PREFIX, self.place, element, self.variable.name)))
+
+    @property
+    def port(self) -> str:
+        """Port of the engine that is pushed."""
+        return GUIDEWAY_PORT if self.place in AXIS else self.place
+
+    @property
+    def kind(self) -> str:
+        """What an element is: `slider`, `leg`, `guideway`, `machine`."""
+        return KINDS.get(self.place, "machine")
+
+    @property
+    def components(self) -> int:
+        """Number of functions: one for each axis where the direction is not known."""
+        return 3 if self.place in ("platform_joint", "ball", "cup") else 1
+
+    def pushes(self, component: int) -> tuple[Push, ...]:
+        """Return by which element's variable one function goes, and what it pushes."""
+        first = _core.PORTS[self.port][0]
+        if self.place in SHARED:
+            chosen = range(6) if self.element == ALL else (self.element - 1,)
+            return tuple((each, ((first + each, 1.0),)) for each in chosen)
+        if self.place in AXIS:
+            axis = _core.guideway_axes(self.element - 1)[:, AXIS[self.place]]
+            sliders = (2 * self.element - 2, 2 * self.element - 1)
+            return tuple(
+                (each, tuple((first + 3 * each + k, float(axis[k])) for k in range(3) if axis[k] != 0.0))
+                for each in sliders
+            )
+        element = max(self.element - 1, 0)
+        return ((element, ((first + 3 * element + component, 1.0),)),)
+
+
+def is_learned(name: str) -> bool:
+    """Check whether an effect's name is that of a learned one."""
+    return name.startswith(f"{PREFIX}:")
+
+
+def hypotheses() -> Iterator[Hypothesis]:
+    """Yield every hypothesis there is; whether its variable varies in some samples, `Space.of` checks."""
+    for place, variables in VARIABLES.items():
+        for name in _element_names(place) or ("",):
+            for variable in variables:
+                yield Hypothesis(place, ALL if name in ("", WHOLE) else int(name), variable)
+
+
+def _element_names(place: str) -> list[str]:
+    names = [str(each + 1) for each in range(ELEMENTS.get(place, 0))]
+    return [*names, WHOLE] if place in SHARED else names

@@ -1,0 +1,57 @@
+"""A learned function for people: one sentence, and a short table of its values."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexdbb.learned.places import ALL, Hypothesis
+from hexdbb.learned.space import Curve
+from hexdbb.learned.words import UM_PER_MM, describe, shown_places
+
+ROWS = 9
+"""Rows of a table in the terminal: enough to see a form."""
+PLACES = {
+    "slider": "slider {} along its guideway",
+    "leg": "length of leg {}",
+    "lateral": "guideway {}, sideways",
+    "vertical": "guideway {}, up and down",
+    "platform_joint": "platform's joint of leg {}",
+    "ball": "ball",
+    "cup": "cup",
+    "reading": "reading of the gauge",
+}
+ALL_OF = {"slider": "all sliders along their guideways", "leg": "length of all legs"}
+AXES = (" along x", " along y", " along z")
+
+
+def place_words(hypothesis: Hypothesis, component: int = 0) -> str:
+    """Return where a function pushes, in words."""
+    if hypothesis.element == ALL and hypothesis.place in ALL_OF:
+        return ALL_OF[hypothesis.place]
+    axis = AXES[component] if hypothesis.components > 1 else ""
+    return PLACES[hypothesis.place].format(hypothesis.element) + axis
+
+
+def sentence(hypothesis: Hypothesis, curve: Curve, period: float = 0.0, component: int = 0) -> str:
+    """Return what a function is, in one sentence: where it pushes, on what it depends, its form."""
+    form = describe(curve, period)
+    band = float(np.median(curve.sigma_mm)) * UM_PER_MM
+    known = "" if np.isnan(band) else f" (± {band:.2f} µm)"
+    over = f" over the {curve.variable}" if curve.column and form.kind != "step" else ""
+    return f"{place_words(hypothesis, component)}{over}: {form.text}{known}"
+
+
+def rows(curve: Curve) -> list[tuple[str, str, str]]:
+    """Return a short table: place, value and standard deviation (µm), evenly chosen where samples are."""
+    seen = np.flatnonzero(np.nan_to_num(curve.samples, nan=1.0) > 0.0)
+    seen = seen if len(seen) else np.arange(len(curve.at))
+    unit, at = shown_places(curve)
+    chosen = seen[np.unique(np.linspace(0, len(seen) - 1, ROWS).round().astype(int))]
+    return [
+        (
+            f"{at[row]:.4g} {unit}".strip() if curve.column else "",
+            f"{curve.value_mm[row] * UM_PER_MM:.2f}",
+            "" if np.isnan(curve.sigma_mm[row]) else f"{curve.sigma_mm[row] * UM_PER_MM:.2f}",
+        )
+        for row in chosen
+    ]

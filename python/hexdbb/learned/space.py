@@ -1,0 +1,253 @@
+"""The functions of a hypothesis on the samples at hand: their range, their design, and the function they add up to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.errors import InputError
+from hexdbb.learned import splines
+from hexdbb.learned.places import Hypothesis, Push
+from hexdbb.learned.variables import ELAPSED, SCREW_LEAD
+
+Floats = NDArray[np.float64]
+
+NEVER = 1e5
+"""Times and distances since a reversal beyond this stand for a reversal that never was (the engine's 1e6)."""
+SHORTEST = 1e-3
+"""Shortest time (s) or distance (mm) since a reversal that a logarithm is taken of: below the samples' spacing."""
+SIGN_PART = 0.05
+"""A step with the sign of a column is smeared over this part of the column's RMS, within which noise sets the sign."""
+POINTS = 41
+"""Points of a function's table where the function has few splines: a cubic between two of 12 knots bends little over
+three intervals."""
+POINTS_PER_SPLINE = 3
+SIGN_POINTS = (-3.0, -2.5, -2.0, -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.0)
+"""Further points about a step, in its widths, on either side: lines between them miss tanh by 2 % at most."""
+SAMPLES_PER_SPLINE = 5
+"""Fewest different samples per spline: fewer leave some splines to the prior alone."""
+SMALLEST_RANGE = 1e-9
+"""Relative range below which a variable is constant but for rounding."""
+
+
+class Columns(Protocol):
+    """Samples, of which this package knows the columns alone (`hexdbb.samples.Samples`)."""
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """Return a column, shape (n,) or (n, 6)."""
+        ...
+
+    def __len__(self) -> int: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """A function over its variable.
+
+    Attributes
+    ----------
+    variable : str
+        In words.
+    unit : str
+        Of `at`.
+    column : str
+        Empty where the function is one number.
+    times : str
+        Column that multiplies; empty where none does.
+    at, value_mm, sigma_mm : ndarray, shape (m,)
+        Places, the function there, and its standard deviation (nan where it was never fitted).
+    samples : ndarray, shape (m,)
+        Number of samples nearest to each place.
+    """
+
+    variable: str
+    unit: str
+    column: str
+    times: str
+    at: Floats
+    value_mm: Floats
+    sigma_mm: Floats
+    samples: Floats
+
+
+@dataclass(frozen=True)
+class Table:
+    """A function as a compensation needs it: linear between the knots, held beyond them.
+
+    The push at a port column is weight times `times` times the value at the variable of the element.
+
+    Attributes
+    ----------
+    port : str
+    column : str
+        Variable, a column of the samples; empty where the value is one number.
+    times : str
+        Column that multiplies; empty where none does.
+    period : float
+        Of the variable, which is wrapped into 0 to `period`; 0 where it is not periodic.
+    pushes : tuple of Push
+        Elements of the variable, and what each pushes.
+    knots, values_mm : tuple of float
+        Knots rise.
+    """
+
+    port: str
+    column: str
+    times: str
+    period: float
+    pushes: tuple[Push, ...]
+    knots: tuple[float, ...]
+    values_mm: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Space:
+    """The functions of one hypothesis, with the limits that samples once set.
+
+    Attributes
+    ----------
+    hypothesis : Hypothesis
+    low, high : float
+        Range of the splines' argument: of the column, or of its logarithm.
+    period : float
+        0 where not periodic.
+    sign_width : float
+        Width of the step with the column's sign; 0 where none.
+    middle_s, span_s : float
+        Of the time that a growing function grows over.
+    """
+
+    hypothesis: Hypothesis
+    low: float = 0.0
+    high: float = 1.0
+    period: float = 0.0
+    sign_width: float = 0.0
+    middle_s: float = 0.0
+    span_s: float = 1.0
+
+    @classmethod
+    def of(cls, hypothesis: Hypothesis, samples: Columns, screw_lead_mm: float) -> Space:
+        """Set the limits from samples.
+
+        Raises
+        ------
+        InputError
+            Where the variable is not measured or hardly varies.
+        """
+        variable, name = hypothesis.variable, hypothesis.name
+        elements = [element for element, _ in hypothesis.pushes(0)]
+        period = screw_lead_mm if variable.period == SCREW_LEAD else variable.period
+        low, high, width = 0.0, period or 1.0, 0.0
+        if variable.column:
+            values = np.concatenate([_of(samples, variable.column, each) for each in elements])
+            known = values[np.isfinite(values) & (np.abs(values) < NEVER)]
+            if len(known) and float(np.ptp(known)) <= SMALLEST_RANGE * max(float(np.abs(known).max()), SMALLEST_RANGE):
+                raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
+            different = min(len(np.unique(known)), len(known) // len(elements))
+            if different < SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count:
+                raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
+            width = SIGN_PART * float(np.sqrt(np.mean(known**2))) if variable.signed else 0.0
+            if not period:
+                argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
+                low, high = float(argument.min()), float(argument.max())
+        if variable.times and variable.times != ELAPSED and not np.any(samples[variable.times]):
+            raise InputError(f"{name}: {variable.times} is zero in all samples (expected it to vary)")
+        time_s = samples["time_s"]
+        first, last = float(np.min(time_s)), float(np.max(time_s))
+        return cls(hypothesis, low, high, period, width, 0.5 * (first + last), max(last - first, SMALLEST_RANGE))
+
+    @property
+    def size(self) -> int:
+        """Number of coefficients."""
+        return self.hypothesis.components * self.hypothesis.variable.columns
+
+    def prior_factor(self, roughness: float) -> Floats:
+        """Return T of the prior covariance T T' of one function's coefficients, shape (columns, columns)."""
+        variable = self.hypothesis.variable
+        factor = np.eye(variable.columns)
+        factor[: variable.count, : variable.count] = splines.prior_factor(
+            variable.count, roughness, periodic=self.period > 0.0
+        )
+        return factor
+
+    def design(self, samples: Columns, element: int) -> Floats:
+        """Return the functions in every sample for the variable of one element, shape (n, columns)."""
+        variable = self.hypothesis.variable
+        if variable.times == ELAPSED:
+            weight = (samples["time_s"] - self.middle_s) / self.span_s
+        else:
+            weight = _of(samples, variable.times, element) if variable.times else np.ones(len(samples))
+        if not variable.column:
+            return weight[:, None].copy()
+        found: Floats = weight[:, None] * self.functions(_of(samples, variable.column, element))
+        return found
+
+    def functions(self, at: Floats) -> Floats:
+        """Return the functions at some values of the column, what multiplies them aside; shape (m, columns)."""
+        variable = self.hypothesis.variable
+        if not variable.column:
+            return np.ones((len(at), 1))
+        known = np.where(np.abs(at) < NEVER, at, np.inf if variable.is_log else np.nan)
+        argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
+        if variable.count == 1:
+            basis = np.nan_to_num(argument)[:, None]
+        else:
+            low, high = (0.0, self.period) if self.period else (self.low, self.high)
+            basis = splines.design(argument, low, high, variable.count, periodic=self.period > 0.0)
+        if not variable.signed:
+            return basis
+        return np.column_stack([basis, np.tanh(np.nan_to_num(at) / self.sign_width)])
+
+    def points(self) -> Floats:
+        """Return the places of the function's table, in the column's unit; shape (m,)."""
+        variable = self.hypothesis.variable
+        if not variable.column:
+            return np.zeros(1)
+        count = max(POINTS, POINTS_PER_SPLINE * variable.count) if variable.count > 1 else 2
+        low, high = (0.0, self.period) if self.period else (self.low, self.high)
+        at = np.linspace(low, high, count)
+        if variable.is_log:
+            return np.exp(at)
+        if self.sign_width:
+            about = self.sign_width * np.array(SIGN_POINTS)
+            about = np.concatenate([about, -about])
+            at = np.union1d(at, about[(about > low) & (about < high)])
+        return at
+
+    def counts(self, samples: Columns) -> Floats:
+        """Return how many samples lie nearest to each point, shape (m,)."""
+        points, column = self.points(), self.hypothesis.variable.column
+        if len(points) < 2:
+            return np.full(1, float(len(samples)))
+        values = np.concatenate([_of(samples, column, element) for element, _ in self.hypothesis.pushes(0)])
+        values = values[np.isfinite(values) & (np.abs(values) < NEVER)]
+        if self.period:
+            values = np.mod(values, self.period)
+        edges = 0.5 * (points[1:] + points[:-1])
+        return np.bincount(np.searchsorted(edges, values), minlength=len(points)).astype(np.float64)
+
+    def tables(self, coefficients: Floats) -> tuple[Table, ...]:
+        """Return the functions of some coefficients (mm), shape (size,), as a compensation needs them."""
+        found, points, variable = [], self.points(), self.hypothesis.variable
+        basis = self.functions(points)
+        for component, part in enumerate(coefficients.reshape(self.hypothesis.components, -1)):
+            table = Table(
+                port=self.hypothesis.port,
+                column=variable.column,
+                times=variable.times,
+                period=self.period,
+                pushes=self.hypothesis.pushes(component),
+                knots=tuple(map(float, points)),
+                values_mm=tuple(map(float, basis @ part)),
+            )
+            found.append(table)
+        return tuple(found)
+
+
+def _of(samples: Columns, name: str, element: int) -> Floats:
+    """Return a column, that of one element where it has six."""
+    values = np.asarray(samples[name], np.float64)
+    return values if values.ndim == 1 else values[:, element]

@@ -1,0 +1,116 @@
+"""A fitted function in words: a bump, a sine, a step, a line, a drift; else between what values it varies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hexdbb.learned.forms import Fit, Floats, fits
+from hexdbb.learned.space import Curve
+from hexdbb.learned.variables import ELAPSED
+
+ENOUGH = 0.95
+"""Part of a function's variation that a form must explain to be named: what is left is then below a quarter of it."""
+MUCH_BETTER = 0.5
+"""A more complicated form is named where it leaves less than this part of what the simpler leaves."""
+CERTAIN = 2.0
+"""Standard deviations of the band that a function must leave zero by, somewhere, to be told from it."""
+UM_PER_MM = 1e3
+S_PER_H = 3600.0
+SHOWN = {"rad": ("deg", 180.0 / np.pi), "rad/s": ("deg/s", 180.0 / np.pi)}
+"""Unit of a variable to that in which people read it, with the factor."""
+TIMES = {
+    "": "",
+    "travel_direction": ", its sign turning over with the direction of travel",
+    "direction": ", its sign turning over with the direction of the circle",
+    ELAPSED: ", growing with time",
+}
+
+
+@dataclass(frozen=True)
+class Form:
+    """What a function looks like.
+
+    Attributes
+    ----------
+    kind : str
+        `nothing`, `constant`, `linear`, `drift`, `step`, `sine`, `bump`; `varies` where none of these.
+    fit : Fit or None
+        The form in numbers, variable in its own unit, function in mm; None for `nothing`, `constant` and `varies`.
+    text : str
+        In words.
+    """
+
+    kind: str
+    fit: Fit | None
+    text: str
+
+
+def describe(curve: Curve, period: float = 0.0) -> Form:
+    """Describe a function.
+
+    Parameters
+    ----------
+    curve : Curve
+    period : float
+        Of its variable; 0 where it is not periodic.
+    """
+    turned = TIMES.get(curve.times, "")
+    values = curve.value_mm - (np.median(curve.value_mm) if len(curve.at) > 2 and not curve.times else 0.0)
+    if not np.any(np.abs(values) > CERTAIN * np.nan_to_num(curve.sigma_mm)):
+        return Form("nothing", None, "not distinguishable from zero")
+    if len(curve.at) < 2:
+        return Form("constant", None, f"{curve.value_mm[0] * UM_PER_MM:.2f} µm{turned}")
+    if len(curve.at) == 2:
+        fit = next(fits(curve.at, curve.value_mm, np.ones(2)))
+        return Form("linear", fit, _words(fit, curve) + turned)
+    weights = _weights(curve)
+    best: Fit | None = None
+    for fit in fits(curve.at, curve.value_mm, weights, period):
+        if fit.explained >= ENOUGH and (
+            best is None or 1.0 - fit.explained < MUCH_BETTER * (1.0 - best.explained) - 1e-12
+        ):
+            best = fit
+    if best is None or _is_too_small(best, curve):
+        low, high = curve.value_mm.min() * UM_PER_MM, curve.value_mm.max() * UM_PER_MM
+        return Form("varies", None, f"varies between {low:.1f} and {high:.1f} µm{turned}")
+    kind = "drift" if best.kind == "linear" and curve.column == "time_s" else best.kind
+    return Form(kind, best, _words(best, curve) + turned)
+
+
+def shown_places(curve: Curve) -> tuple[str, Floats]:
+    """Return the unit in which people read a function's variable, and its places in it."""
+    unit, factor = SHOWN.get(curve.unit, (curve.unit, 1.0))
+    return unit, curve.at * factor
+
+
+def _weights(curve: Curve) -> Floats:
+    """Return weights of the points: the length of variable each stands for, none where no sample is near."""
+    lengths: Floats = np.gradient(curve.at)
+    seen = np.nan_to_num(curve.samples, nan=1.0) > 0.0
+    weights = np.where(seen, lengths, 0.0)
+    return weights if np.count_nonzero(weights) > 5 else lengths
+
+
+def _is_too_small(fit: Fit, curve: Curve) -> bool:
+    """Check whether a form varies no more than the function's band."""
+    size = float(np.ptp(fit.at(curve.at)))
+    return size < CERTAIN * float(np.nanmedian(np.nan_to_num(curve.sigma_mm)))
+
+
+def _words(fit: Fit, curve: Curve) -> str:
+    unit, factor = SHOWN.get(curve.unit, (curve.unit, 1.0))
+    size_um = UM_PER_MM * fit.coefficients
+    if fit.kind == "linear":
+        if curve.column == "time_s":
+            return f"a drift of {size_um[0] * S_PER_H:.4g} µm/h"
+        return f"linear, {size_um[0] / factor:.3g} µm per {unit or 'unit'}"
+    if fit.kind == "step":
+        return f"a step of {2.0 * size_um[0]:.3g} µm with the sign of the {curve.variable}"
+    if fit.kind == "sine":
+        amplitude = float(np.hypot(*size_um))
+        return f"a sine of period {fit.shapes[0] * factor:.4g} {unit} and amplitude {amplitude:.3g} µm"
+    centre, width = fit.shapes * factor
+    name = "bump" if size_um[0] > 0.0 else "dip"
+    return f"a {name} of {abs(size_um[0]):.3g} µm at {centre:.4g} {unit}, {width:.3g} {unit} wide at half height"

@@ -1,0 +1,50 @@
+"""Columns that few ask for, computed when they are: the legs' swing about their guideways, the bar in the platform.
+
+The swing of a leg is the angle about its guideway at which it stands, from the guideway's own axes; its rate is the
+central difference along the slider's smoothed velocity, so that the encoders' steps do not show in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.kinematics import engine_machine, forward
+from hexdbb.machine import MachineFile
+
+Floats = NDArray[np.float64]
+
+DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "bar_angle_rad")
+STEP_S = 1e-3
+"""Half the time over which the swing is differenced: sliders move some 0.1 mm in it, far above rounding, far below
+lengths over which the swing bends."""
+
+
+def derived_columns(machine: MachineFile, columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Return the columns `DERIVED`: (n, 6), (n, 6) and (n,); rad and rad/s."""
+    sliders_mm, way_mm = columns["sliders_mm"], STEP_S * np.nan_to_num(columns["velocity_mm_s"])
+    later, earlier = _swing(machine, sliders_mm + way_mm), _swing(machine, sliders_mm - way_mm)
+    _, rotation, _ = forward(machine, sliders_mm)
+    return {
+        "swing_angle_rad": _swing(machine, sliders_mm),
+        "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
+        "bar_angle_rad": columns["angle_rad"] - np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0]),
+    }
+
+
+def _swing(machine: MachineFile, sliders_mm: Floats) -> Floats:
+    position_mm, rotation, _ = forward(machine, sliders_mm)
+    nominal = engine_machine(machine)
+    swing = np.empty(sliders_mm.shape)
+    for leg in range(6):
+        guideway = leg // 2
+        axes = _core.guideway_axes(guideway)
+        along = _core.guideway_direction(guideway)
+        foot = _core.guideway_vertex(nominal, guideway) + sliders_mm[:, [leg]] * along
+        reach = position_mm + rotation @ _core.platform_joint(nominal, guideway) - foot
+        swing[:, leg] = np.arctan2(reach @ axes[:, 2], reach @ axes[:, 0])
+    return swing

@@ -1,0 +1,80 @@
+"""Words for functions: each synthetic form is named with its numbers, and no form is named where there is none."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from hexdbb.learned import Curve, describe
+
+AT = np.linspace(100.0, 500.0, 41)
+RATE = np.linspace(-0.02, 0.02, 41)
+
+
+def curve(at: np.ndarray, value_um: np.ndarray, *, column: str = "sliders_mm", unit: str = "mm", times: str = ""):
+    rng = np.random.default_rng(3)
+    noisy_mm = 1e-3 * (value_um + rng.normal(0.0, 0.05, len(at)))
+    return Curve("position", unit, column, times, at, noisy_mm, np.full(len(at), 5e-5), np.full(len(at), 10.0))
+
+
+def numbers(text: str) -> list[float]:
+    return [float(each) for each in re.findall(r"-?\d+\.?\d*(?:e[+-]?\d+)?", text)]
+
+
+@pytest.mark.parametrize(("height", "name"), [(12.0, "bump"), (-7.0, "dip")])
+def test_a_bump_is_named_with_place_height_and_width(height: float, name: str) -> None:
+    width = 60.0
+    bell = height * np.exp(-4.0 * np.log(2.0) * ((AT - 262.0) / width) ** 2) + 3.0
+    form = describe(curve(AT, bell))
+    assert form.kind == "bump" and f"a {name} of" in form.text
+    assert numbers(form.text) == pytest.approx([abs(height), 262.0, width], rel=0.03)
+
+
+def test_a_sine_is_named_with_period_and_amplitude() -> None:
+    form = describe(curve(AT, 4.0 * np.sin(2.0 * np.pi * AT / 87.0 + 0.7) - 2.0))
+    assert form.kind == "sine"
+    assert numbers(form.text) == pytest.approx([87.0, 4.0], rel=0.03)
+
+
+def test_a_sine_of_a_periodic_variable_has_a_part_of_its_period() -> None:
+    at = np.linspace(0.0, 5.0, 41)
+    form = describe(curve(at, 2.0 * np.cos(2.0 * np.pi * at / 2.5)), period=5.0)
+    assert form.kind == "sine"
+    assert numbers(form.text) == pytest.approx([2.5, 2.0], rel=0.03)
+
+
+def test_a_step_is_named_with_the_sign_of_its_variable() -> None:
+    form = describe(curve(RATE, 3.0 * np.sign(RATE) + 1.0, column="slider_joint_rate_rad_s", unit="rad/s"))
+    assert form.kind == "step" and "with the sign of the position" in form.text
+    assert numbers(form.text) == pytest.approx([6.0], rel=0.03)
+
+
+def test_a_line_and_a_drift() -> None:
+    line = describe(curve(RATE, 400.0 * RATE, column="slider_joint_rate_rad_s", unit="rad/s"))
+    assert line.kind == "linear" and "µm per deg/s" in line.text
+    assert numbers(line.text) == pytest.approx([400.0 * np.pi / 180.0], rel=0.03)
+    hours = np.linspace(0.0, 3600.0, 41)
+    drift = describe(curve(hours, 5.0 * hours / 3600.0, column="time_s", unit="s"))
+    assert drift.kind == "drift" and drift.text.endswith("µm/h")
+    assert numbers(drift.text) == pytest.approx([5.0], rel=0.03)
+
+
+def test_no_form_is_named_where_there_is_none() -> None:
+    rng = np.random.default_rng(5)
+    knots = rng.normal(0.0, 5.0, 9)
+    wild = np.interp(AT, np.linspace(100.0, 500.0, 9), knots)
+    form = describe(curve(AT, wild))
+    assert form.kind == "varies" and form.fit is None
+    assert numbers(form.text) == pytest.approx([knots.min(), knots.max()], abs=0.5)
+
+
+def test_what_lies_within_its_band_is_nothing() -> None:
+    flat = Curve("time", "s", "time_s", "", AT, np.full(41, 1e-4), np.full(41, 1e-3), np.ones(41))
+    assert describe(flat).kind == "nothing"
+
+
+def test_what_multiplies_the_function_is_said() -> None:
+    form = describe(curve(AT, 0.05 * AT, times="travel_direction"))
+    assert form.text.endswith("turning over with the direction of travel")
