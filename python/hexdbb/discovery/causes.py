@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import Sufficiency, evaluate_fit
 from hexdbb.discovery import words
 from hexdbb.discovery.next_test import next_test
-from hexdbb.discovery.result import Candidate, Cause, GroupError, NextTest, Verdict
+from hexdbb.discovery.result import GROUPINGS, Candidate, Cause, GroupError, Grouping, NextTest, Verdict
 from hexdbb.effects.words import effect_clause
 from hexdbb.errors import RunError
 from hexdbb.evidence.families import Learned
@@ -162,9 +162,7 @@ def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
         return 0.0
 
 
-def _fitted(
-    search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]
-) -> tuple[Model, _core.FitResult | None]:
+def _fitted(search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]) -> tuple[Model, _core.FitResult | None]:
     """Fit the known ones of a trial's hypotheses to all readings in their exact form, as they would be added."""
     engine = search.engine
     known = [each for each in hypotheses if isinstance(each, Known)]
@@ -185,7 +183,8 @@ def _cause(
     hypothesis = found.hypothesis
     values: tuple[Size, ...] = ()
     if isinstance(hypothesis, Learned):
-        effect, elements, clause = hypothesis.name, (), words.learned_clause(hypothesis)
+        effect, clause = hypothesis.name, words.learned_clause(hypothesis)
+        elements: tuple[str, ...] = ()
     else:
         assert result is not None
         effect, elements = hypothesis.effect, hypothesis.elements
@@ -249,7 +248,8 @@ def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:
     one_um = search.engine.noise.sigma_mm * 1e3
     left, before = node.trial.left, search.root.trial.left
     checked = search.checked(node) if is_checked else None
-    heldout = {} if checked is None else {name: _group(each, noise_um) for name, each in checked.heldout.items()}
+    held = {} if checked is None else checked.heldout
+    heldout: dict[Grouping, GroupError] = {name: _group(held[name], noise_um) for name in GROUPINGS if name in held}
     return Candidate(
         names=tuple(choice_of(each) for each in node.hypotheses),
         log_evidence=node.score - search.root.score,
@@ -275,7 +275,7 @@ def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> Next
     return None
 
 
-def _sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: dict[str, HeldOut]) -> str:
+def _sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
     unseen = words.unseen_words(heldout, share)
     explained = f"{words.percent(share)} of what the model missed" + (f", {unseen}" if unseen else "")
     if grade == "unknown":
@@ -284,7 +284,7 @@ def _sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: di
     clause = words.capital("; ".join(named))
     it = "it explains" if len(causes) == 1 else "together they explain" if len(named) == len(causes) else ""
     if grade == "ambiguous":
-        others = words.joined([each.partition(":")[0] and each for each in causes[0].rivals])
+        others = words.joined(causes[0].rivals)
         return f"{clause}, or these readings do not tell it from {others}; {it or 'all together explain'} {explained}"
     beside = [each.choice for each in causes if each.verdict == "unknown"]
     if beside:

@@ -15,7 +15,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, judging_noise, sufficiency
 from hexdbb.discovery.causes import Told, is_form_alone, told, told_forms
 from hexdbb.discovery.own_effects import require_usable_effects
-from hexdbb.discovery.result import Discovery
+from hexdbb.discovery.result import Discovery, Structure
 from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.discovery.words import NOTHING
 from hexdbb.errors import InputError
@@ -108,7 +108,7 @@ def _nothing(engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Disc
 def _outcome(found: Told, engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Discovery:
     remaining, residual_mm = found.remaining, found.residual_mm
     left = enough if remaining is None else remaining
-    structure = ()
+    structure: tuple[Structure, ...] = ()
     if found.verdict != "none" and left.matters:
         structure = unexplained_structure(engine.samples, found.model, residual_mm, judging.noise)
     outcome = Discovery(

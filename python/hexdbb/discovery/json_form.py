@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from hexdbb.diagnosis.json_form import SufficiencyJson
-from hexdbb.files.results import JsonPart, JsonResult, NotNegative, Share
+from hexdbb.files.results import JsonPart, JsonResult, NotNegative
 from hexdbb.ledger.json_form import AddedJson, SizeJson
 
 

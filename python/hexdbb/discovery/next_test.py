@@ -38,9 +38,7 @@ YAWS_DEG = (-15.0, 0.0, 15.0)
 FEEDS_MM_MIN = (300.0, 1000.0, 3000.0)
 
 
-def next_test(
-    samples: Samples, noise: Noise, models: tuple[Model, Model], names: tuple[str, str]
-) -> NextTest | None:
+def next_test(samples: Samples, noise: Noise, models: tuple[Model, Model], names: tuple[str, str]) -> NextTest | None:
     """Find the circle that tells two explanations apart best.
 
     Parameters

@@ -20,6 +20,8 @@ from hexdbb.ledger.json_form import SizeJson, added_json
 from hexdbb.model import Model, Size
 from hexdbb.plan import Circle
 
+Grouping = Literal["circle", "feed", "direction", "lap"]
+GROUPINGS: tuple[Grouping, ...] = ("circle", "feed", "direction", "lap")
 Verdict = Literal["effect", "ambiguous", "none", "unknown"]
 
 
@@ -57,7 +59,7 @@ class Candidate:
     log_evidence: float
     rms_after_um: float
     share: float
-    heldout: Mapping[str, GroupError]
+    heldout: Mapping[Grouping, GroupError]
     refused: tuple[str, ...]
 
     @property
@@ -233,7 +235,7 @@ class Discovery:
         return self.causes[0].rivals if self.verdict == "ambiguous" else ()
 
     @property
-    def heldout(self) -> Mapping[str, GroupError]:
+    def heldout(self) -> Mapping[Grouping, GroupError]:
         """How the causes predict what was left out."""
         return self.candidates[0].heldout if self.causes and self.candidates else {}
 

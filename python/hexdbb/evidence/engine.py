@@ -17,12 +17,16 @@ from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.joints import joint_state
 from hexdbb.evidence.readings import Linear, Readings, State
-from hexdbb.model import Model, OwnEffect, Tabulated, new_term
+from hexdbb.model import Model, OwnEffect, Tabulated, Term, new_term
+from hexdbb.model.own import ShapedEffect
+from hexdbb.model.terms import started_term
 from hexdbb.samples import PUSH_SHAPES, Samples
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
+SHAPE_ROUNDS = 3
+"""Steps of Gauss and Newton for shapes of users' effects: enough to compare hypotheses; what is added is fitted on."""
 FIRST_PORT = {"slider": 0, "leg": 6, "platform_joint": 30, "ball": 48, "cup": 51, "reading": 54}
 PLACE_PORT = {**{place: place for place in FIRST_PORT}, "lateral": "slider_joint", "vertical": "slider_joint"}
 
@@ -144,6 +148,14 @@ class Engine:
         RunError
             Where the fit did not end in a usable solution.
         """
+        shaped = np.array([each.shape is not None for each in model.parameters()])
+        rounds = SHAPE_ROUNDS if (shaped & model.free).any() else 1
+        for _ in range(rounds):
+            model = self._fitted_once(model, shaped)
+        return self.linearised(model)
+
+    def _fitted_once(self, model: Model, shaped: NDArray[np.bool_]) -> Model:
+        """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""
         fewer = self._fitted_rows
         part = self._fitted_part
         result = _core.fit(
@@ -157,7 +169,12 @@ class Engine:
         )
         if not result.usable:
             raise RunError(f"{self.samples.name}: the fit did not succeed: {result.termination}")
-        return self.linearised(model.with_values(result.values))
+        values = result.values + np.where(shaped, model.values, 0.0)
+        for place in np.flatnonzero(shaped):
+            domain = model.parameters()[place].shape
+            assert domain is not None
+            values[place] = np.clip(values[place], domain.lower, domain.upper)
+        return model.with_values(values)
 
     def linearised(self, model: Model) -> Fitted:
         """Linearise the rows about a model as it is."""
@@ -165,12 +182,13 @@ class Engine:
         prediction = _core.predict(engine, block, want_jacobian=True)
         free = np.flatnonzero(model.free)
         prior = model.prior_sigma[free]
+        start = np.array([each.start for each in model.parameters()])
         weight = 1.0 / self.row_noise_mm[:, None]
         own = prediction.jacobian[:, free] * prior * weight
         linear = Linear(
             residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
             own=own,
-            standing=model.values[free] / prior,
+            standing=(model.values - start)[free] / prior,
             pushes=_pushes(_core.port_sensitivity(engine, block) * weight),
         )
         covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
@@ -185,7 +203,7 @@ class Engine:
         whose : list of (effect, element, parameter, prior standard deviation)
         """
         present = {term.effect for term in model.terms}
-        terms = [new_term(name, model.info(name).size, free=False) for name in effects if name not in present]
+        terms = [_held(model, name) for name in effects if name not in present]
         full = replace(model, terms=(*model.terms, *terms))
         jacobian = _core.predict(self._engine(full), self.part.block(full), want_jacobian=True).jacobian
         wanted = [
@@ -218,7 +236,7 @@ class Engine:
     def with_effect(self, model: Model, effect: str, elements: Sequence[str]) -> Model:
         """Return the model with some elements of an effect of the catalogue free as well, at zero."""
         if effect not in {term.effect for term in model.terms}:
-            model = replace(model, terms=(*model.terms, new_term(effect, model.info(effect).size, free=False)))
+            model = replace(model, terms=(*model.terms, _held(model, effect)))
         freed = [each.effect == effect and each.element in elements for each in model.parameters()]
         return model.with_free(model.free | np.array(freed))
 
@@ -231,13 +249,21 @@ class Engine:
     def _engine(self, model: Model) -> _core.Model:
         return model.engine(self._tabulate)
 
-    def _tabulate(self, effect: OwnEffect) -> Tabulated:
+    def _tabulate(self, effect: OwnEffect, values: Floats) -> Tabulated:
         """Evaluate an effect for the whole table; a user's is kept, a learned one belongs to one fit."""
         if isinstance(effect, TabulatedLearned):
             return effect.tabulated(self.samples)
+        if isinstance(effect, ShapedEffect) and effect.shapes:
+            return effect.tabulated_at(self.samples, values)
         if effect.name not in self._tabulated:
             self._tabulated[effect.name] = effect.tabulated(self.samples)
         return self._tabulated[effect.name]
+
+
+def _held(model: Model, effect: str) -> Term:
+    """Return a term of an effect that a model lacks, at its start, held."""
+    info = model.info(effect)
+    return replace(started_term(effect, model.own(effect), info), free=np.zeros(info.size, bool))
 
 
 def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:

@@ -18,6 +18,7 @@ from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Known
 from hexdbb.units import shown_factor, shown_unit
 
+
 def outside_domain(
     fitted: Fitted, hypotheses: Sequence[Known | Learned], criteria: Criteria
 ) -> tuple[tuple[str, ...], float]:

@@ -73,9 +73,7 @@ class Search:
         fitted = self.engine.linearised(self.engine.base)
         geometry = self.engine.geometry(fitted)
         # An effect that the model has already has its home too: what its own values take away is not geometry's.
-        linear = replace(
-            fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry]
-        )
+        linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
         self.thinned = Thinned(readings)

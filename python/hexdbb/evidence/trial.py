@@ -166,7 +166,10 @@ class Trials:
                 assert member.factor is not None
                 model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
         free, added = model.free, {m.hypothesis.effect for m in members if isinstance(m.hypothesis, Known)}
-        shapes = np.array([each.is_shape and each.effect in added for each in model.parameters()]) & free
+        shapes = (
+            np.array([each.is_shape and each.shape is None and each.effect in added for each in model.parameters()])
+            & free
+        )
         if not shapes.any():
             return self.engine.fit(model)
         found = []

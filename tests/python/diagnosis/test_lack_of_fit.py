@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from tests.truth.cases import case
 from tests.truth.plans import PACE
 
