@@ -53,6 +53,8 @@ class Criteria:
         Sets of hypotheses that are followed where one does not explain all.
     max_expansions : int
         Sets beside which all hypotheses are screened, at most: bounds the time of a search.
+    most_expansions : int
+        The same with those by which a set is looked at again (`verdict.py`).
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
     leaves_structure : float
@@ -92,6 +94,7 @@ class Criteria:
     heldout_ratio: float = 1.5
     beam: int = 2
     max_expansions: int = 4
+    most_expansions: int = 6
     complete: float = 0.02
     leaves_structure: float = 1.3
     explained_min: float = 0.75

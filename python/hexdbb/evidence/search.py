@@ -75,7 +75,7 @@ class Search:
         self.hypotheses = list(learned_hypotheses(readings))
         self.thinned = Thinned(readings)
         self.homes = Homes(linear, self.thinned, self.hypotheses)
-        self.trials = Trials(self.engine, self.homes, self.criteria)
+        self.trials = Trials(self.engine, self.homes, self.criteria, self.known)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
@@ -111,6 +111,8 @@ class Search:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
         key = frozenset(node.trial.names)
         if key not in self._expanded:
+            if len(self._expanded) >= self.criteria.most_expansions:
+                return []
             self._expanded[key] = self._children(node)
             self.nodes += self._expanded[key]
         return self._expanded[key]
@@ -177,8 +179,8 @@ class Search:
         """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""
         parent = self.trials.of(node.members[:-1])
         gain = node.score - self._score(parent)
-        removed, explained = parent.left - node.trial.left, self.root.trial.left - parent.left
-        small = len(node.members) > 1 and removed < self.criteria.secondary * self.criteria.form_sigma**2 * explained
+        explained = self.root.trial.left - parent.left + self.trials.explained_before
+        small = parent.left - node.trial.left < self.criteria.secondary * self.criteria.form_sigma**2 * explained
         return gain >= self.criteria.detect_nats and not small and not node.trial.refused
 
     def _score(self, trial: Trial) -> float:

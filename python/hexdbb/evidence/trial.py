@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +73,8 @@ class Trial:
         Why a member is not admissible, one sentence each.
     left : float
         Mean square of the residual in noise variances, discrepancies explained.
+    present : tuple of Form or None
+        Of the effects that were in the model before, one an element.
     """
 
     members: tuple[Member, ...]
@@ -80,6 +83,7 @@ class Trial:
     forms: tuple[Form | None, ...]
     refused: tuple[str, ...]
     left: float
+    present: tuple[Form | None, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -95,10 +99,13 @@ class Trials:
     engine : Engine
     homes : Homes
     criteria : Criteria
+    known : sequence of str
+        Effects that may be the cause; those that are in the model already have their discrepancies beside them.
     """
 
-    def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
+    def __init__(self, engine: Engine, homes: Homes, criteria: Criteria, known: Sequence[str] = ()) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
+        self.present = _present(engine.base, known)
         self._known: dict[frozenset[str], Trial] = {}
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
 
@@ -123,10 +130,24 @@ class Trials:
         self._linear.move_to_end(key)
         return self._linear[key]
 
+    @cached_property
+    def explained_before(self) -> float:
+        """Mean square of what the effects in the model explain that its other values do not, in noise variances."""
+        fitted = self.engine.linearised(self.engine.base)
+        names = {(each.effect, each.elements[0]) for each in self.present}
+        every = [self.engine.base.parameters()[column] for column in fitted.free]
+        own = np.array([(each.effect, each.element) in names for each in every])
+        if not own.any():
+            return 0.0
+        part = fitted.linear.own[:, own] @ fitted.linear.standing[own]
+        others = fitted.linear.own[:, ~own]
+        imitated = others @ np.linalg.solve(others.T @ others + np.eye(others.shape[1]), others.T @ part)
+        return float(np.mean((part - imitated) ** 2))
+
     def _tried(self, members: tuple[Member, ...]) -> Trial:
         fitted = self._fitted(members)
         linear, forms = fitted.linear, []
-        for member in members:
+        for member in (*map(Member, self.present), *members):
             linear, form = self._with_form(linear, fitted, member)
             forms.append(form)
         refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
@@ -142,7 +163,8 @@ class Trials:
             members=members,
             model=fitted.model,
             log_evidence=linear.log_evidence + gain + penalty + prior,
-            forms=tuple(forms),
+            forms=tuple(forms[len(self.present) :]),
+            present=tuple(forms[: len(self.present)]),
             refused=refused,
             left=float(np.mean(residual**2)),
         )
@@ -241,6 +263,12 @@ class HeldOut:
     after: float
     share: float
     expected: float
+
+
+def _present(model: Model, known: Sequence[str]) -> list[Known]:
+    """Return the elements of known effects that are in a model and fitted."""
+    free = [each for each, is_free in zip(model.parameters(), model.free, strict=True) if is_free]
+    return [Known(*each) for each in dict.fromkeys((p.effect, (p.element,)) for p in free if p.effect in known)]
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:
