@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 def joint_state(samples: Samples) -> dict[str, Floats]:
-    """Return the legs' swing (rad) and its rate (rad/s), the bar's angle in the platform, the platform's yaw and tilt."""
+    """Return the legs' swing (rad) and its rate (rad/s), the bar's angle in the platform, yaw and tilt."""
     position_mm, rotation, sliders_mm = samples.position_mm, samples.rotation, samples["sliders_mm"]
     nominal = engine_machine(samples.machine)
     swing = np.empty(sliders_mm.shape)
