@@ -12,18 +12,21 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.families import Learned, learned_hypotheses
-from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.homes import SAME_FORM, Homes
 from hexdbb.evidence.proposals import proposals
-from hexdbb.evidence.readings import Thinned
+from hexdbb.evidence.readings import Linear, Thinned
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
+
+Floats = NDArray[np.float64]
 
 MOST_OF_ONE_EFFECT = 2
 """Elements of one effect that get a full fit in one step."""
@@ -167,8 +170,29 @@ class Search:
             return known, []
         proposed = proposals(screen.sums.linear, self.engine.readings, self.thinned, self.criteria)
         self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+        self._add_kin(screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
         every = [*self.hypotheses, *(each.hypothesis for each in proposed)]
         return known, screen.learned([each for each in every if each not in present])
+
+    @property
+    def by_name(self) -> dict[str, Learned]:
+        """Learned hypotheses, those that the readings propose among them."""
+        proposed = [each for each in self._chosen if isinstance(each, Learned)]
+        return {each.name: each for each in (*self.hypotheses, *proposed)}
+
+    def _add_kin(
+        self,
+        linear: Linear,
+        proposed: Sequence[Learned],
+        signatures: Floats,
+        whose: Sequence[tuple[str, str, str, float]],
+    ) -> None:
+        """Count what is proposed among the kin of known effects whose form it contains: a pitch error is periodic."""
+        homes = Homes(linear, self.thinned, proposed).of_each(signatures)
+        for (effect, element, _, _), found in zip(whose, homes, strict=True):
+            name = Known(effect, (element,), self._is_whole(effect)).name
+            same = {each.hypothesis.name for each in found if each.explained >= SAME_FORM}
+            self.kin.setdefault(name, set()).update(same)
 
     def _log_prior(self, hypothesis: Hypothesis) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""

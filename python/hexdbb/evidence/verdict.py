@@ -155,7 +155,7 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     """Split a set into causes, and learned functions that refine one of them at its own place."""
     causes: list[Hypothesis] = [each for each in node.hypotheses if isinstance(each, Known)]
     refinements: dict[str, tuple[str, ...]] = {}
-    by_name = {each.name: each for each in search.hypotheses}
+    by_name = search.by_name
     for each in node.hypotheses:
         if isinstance(each, Known):
             continue
