@@ -126,6 +126,10 @@ format: $(VENV)/.dependencies  ## rewrite sources in the house format
 stubs: setup  ## python/hexdbb/_core.pyi from the compiled module
 	$(BIN)/python .ci/scripts/make_stubs.py python/hexdbb/_core.pyi
 
+.PHONY: schemas
+schemas: setup  ## published JSON schemas from the result types
+	@$(BIN)/python -m hexdbb.cli.schemas
+
 .PHONY: clean
 clean:  ## remove the builds, the virtual environment and the demo's results
 	rm -rf build demo $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -73,6 +73,11 @@ void bind_diagnosis(py::module_& module) {
              py::arg("absolute") = 0.0,
              "Compute rank, condition and directions of a scaled Jacobian.\n\n"
              "The rank counts singular values above relative times the largest and above absolute.");
+  module.def("schur_complement", &schur_complement, py::arg("information"), py::arg("wanted"), py::arg("nuisance"),
+             "Return J'J of the unknowns wanted, what the unknowns nuisance can explain projected out.\n\n"
+             "Parameters\n----------\ninformation : ndarray, shape (k, k)\n    J'J of all unknowns.\n"
+             "wanted, nuisance : sequence of int\n    Indices of unknowns; redundant nuisance unknowns do no harm.\n\n"
+             "Raises\n------\nValueError\n    Where an index is out of range.");
   module.def(
       "project_out", &project_out, py::arg("jacobian"), py::arg("nuisance"),
       "Return the part of a Jacobian (n, k) that nuisance columns (n, m) cannot explain. ValueError where n differs.");

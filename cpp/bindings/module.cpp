@@ -6,8 +6,8 @@ PYBIND11_MODULE(_core, module) {
   using namespace hexdbb::bindings;
   bind_machine(module);
   bind_kinematics(module);
-  bind_effects(module);
   bind_samples(module);
+  bind_effects(module);
   bind_prediction(module);
   bind_diagnosis(module);
   bind_compensation(module);

@@ -1,18 +1,18 @@
 #include "hexdbb/ball_bar.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
-#include "multiversion.hpp"
-#include "sample_kernel.hpp"
+#include "kernel_types.hpp"
+#include "six_kernel.hpp"
 
 namespace hexdbb {
 
 namespace {
 
-constexpr double kSingularRatio = 1e-9;
+using Vec = rssr::Vec<double>;
+using rssr::vec;
 
-rssr::Vec<double> vec(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+constexpr double kSingularRatio = 1e-9;  // as in kinematics.cpp
 
 struct Bar {
   Vector3 ball;       // platform frame
@@ -33,9 +33,9 @@ Bar bar(const Pose& pose, const SetUp& set_up, const Ports& push) {
 
 /// Fill the sensitivities; `share[k] * leg_k` is the force in leg k, leg_k the vector from slider joint to ball joint.
 void fill(const NominalGeometry& nominal, const Mechanism& mechanism, const Pose& pose, const Bar& along,
-          const Matrix36& leg, const Vector6& share, Ports& out) {
+          const Vec (&leg)[kLegs], const double (&share)[kLegs], Ports& out) {
   for (int k = 0; k < kLegs; ++k) {
-    const Vector3 force = share[k] * leg.col(k);
+    const Vector3 force = share[k] * rssr::vector(leg[k]);
     out.slider()[k] = force.dot(nominal.direction.col(k));
     out.leg()[k] = share[k] * mechanism.leg_length[k];
     out.slider_joint(k) = force;
@@ -59,27 +59,11 @@ bool reading_sensitivity(const NominalGeometry& nominal, const Mechanism& mechan
   sensitivity.value.setZero();
   const Bar along = bar(pose, set_up, push);
   if (!(along.length_mm > 0.0)) return false;
-  rssr::Joints<double> joints;
-  for (int k = 0; k < kLegs; ++k) joints.base[k] = vec(mechanism.slider_joint.col(k));
-  for (int i = 0; i < kGuideways; ++i) joints.platform[i] = vec(triangle.joints.col(i));
-  rssr::TriangleFrame<double> frame;
-  rssr::PlacedPlatform<double> platform;
-  platform.position = vec(pose.position);
-  for (int i = 0; i < 3; ++i) {
-    frame.row[i] = vec(triangle.frame_inverse.row(i).transpose());
-    frame.side_squared[i] = triangle.side_squared[i];
-    platform.column[i] = vec(pose.rotation.col(i));
-  }
   const rssr::LegForces<double> forces =
-      rssr::leg_forces(joints, frame, platform, vec(along.ball), vec(along.direction));
+      rssr::leg_forces(rssr::joints_of(mechanism.slider_joint, triangle), rssr::frame_of(triangle), rssr::placed(pose),
+                       vec(along.ball), vec(along.direction));
   if (!(forces.determinant * forces.determinant > kSingularRatio * kSingularRatio * forces.scale)) return false;
-  Matrix36 leg;
-  Vector6 share;
-  for (int k = 0; k < kLegs; ++k) {
-    leg.col(k) << forces.leg[k].x, forces.leg[k].y, forces.leg[k].z;
-    share[k] = forces.share[k];
-  }
-  fill(nominal, mechanism, pose, along, leg, share, sensitivity);
+  fill(nominal, mechanism, pose, along, forces.leg, forces.share, sensitivity);
   return true;
 }
 
@@ -88,19 +72,19 @@ bool reading_sensitivity_six(const NominalGeometry& nominal, const Mechanism& me
   sensitivity.value.setZero();
   const Bar along = bar(pose, set_up, push);
   if (!(along.length_mm > 0.0)) return false;
-  Matrix36 leg;
-  Eigen::Matrix<double, 6, 6> wrench;  // of a unit force per mm of leg, about the platform's reference point
+  Vec base[kLegs], joint[kLegs];
+  double length[kLegs], share[kLegs];
   for (int k = 0; k < kLegs; ++k) {
-    const Vector3 arm = pose.rotation * mechanism.platform_joint.col(k);
-    leg.col(k) = pose.position + arm - mechanism.slider_joint.col(k);
-    wrench.col(k) << leg.col(k), arm.cross(Vector3(leg.col(k)));
+    base[k] = vec(mechanism.slider_joint.col(k));
+    joint[k] = vec(mechanism.platform_joint.col(k));
+    length[k] = mechanism.leg_length[k];
   }
-  Vector6 wanted;
-  wanted << along.direction, along.arm.cross(along.direction);
-  const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> lu(wrench);
-  const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-  if (!(pivots.minCoeff<Eigen::PropagateNaN>() > kSingularRatio * pivots.maxCoeff())) return false;
-  fill(nominal, mechanism, pose, along, leg, lu.solve(wanted), sensitivity);
+  const rssr::SixLegs<double> legs = rssr::six_legs(base, length, joint, rssr::placed(pose));
+  const rssr::Wrenches<double> wrenches = rssr::factor(legs.column);
+  if (!(wrenches.least_squared > kSingularRatio * kSingularRatio)) return false;
+  wrenches.forces(rssr::wrench(vec(along.direction), vec(along.arm)), share);
+  for (int k = 0; k < kLegs; ++k) share[k] *= legs.inverse[k];
+  fill(nominal, mechanism, pose, along, legs.leg, share, sensitivity);
   return true;
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "hexdbb/compensation.hpp"
-#include "sample_kernel.hpp"
+#include "kernel_types.hpp"
 #include "slider_dependence.hpp"
 
 namespace hexdbb {
@@ -29,8 +29,6 @@ bool needs(const Effect& effect, const std::string& column) {
   const std::vector<std::string>& all = effect.info().needs;
   return std::find(all.begin(), all.end(), column) != all.end();
 }
-
-rssr::Vec<double> vec(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
 
 double largest(const Vector6& v) { return v.cwiseAbs().maxCoeff(); }
 
@@ -122,20 +120,10 @@ void Compensator::set_state(const Direction& direction, const Vector6& travel_di
 /// point, tension positive.
 Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept {
   const NominalGeometry& nominal = model_.nominal;
-  rssr::Joints<double> joints;
-  rssr::TriangleFrame<double> frame;
-  rssr::PlacedPlatform<double> platform;
-  for (int k = 0; k < kLegs; ++k)
-    joints.base[k] = vec(nominal.vertex.col(k) + nominal_mm[k] * nominal.direction.col(k));
-  platform.position = vec(pose.position);
-  for (int i = 0; i < kGuideways; ++i) {
-    joints.platform[i] = vec(nominal_triangle_.joints.col(i));
-    frame.row[i] = vec(nominal_triangle_.frame_inverse.row(i).transpose());
-    frame.side_squared[i] = nominal_triangle_.side_squared[i];
-    platform.column[i] = vec(pose.rotation.col(i));
-  }
+  const Mechanism mechanism = assemble(nominal, nominal_mm, none_);
   const rssr::LegForces<double> carried =
-      rssr::leg_forces(joints, frame, platform, vec(Vector3::Zero()), vec(Vector3::UnitZ()));
+      rssr::leg_forces(rssr::joints_of(mechanism.slider_joint, nominal_triangle_), rssr::frame_of(nominal_triangle_),
+                       rssr::placed(pose), rssr::vec(Vector3::Zero()), rssr::vec(Vector3::UnitZ()));
   const bool is_held = carried.determinant * carried.determinant > 1e-18 * carried.scale;
   Vector6 out;
   for (int k = 0; k < kLegs; ++k) out[k] = is_held ? -carried.share[k] * nominal.machine.leg_length_mm : 0.0;

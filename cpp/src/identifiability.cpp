@@ -37,22 +37,34 @@ Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double re
   return out;
 }
 
+Eigen::MatrixXd schur_complement(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& wanted,
+                                 const std::vector<Eigen::Index>& nuisance) {
+  for (const std::vector<Eigen::Index>* indices : {&wanted, &nuisance}) {
+    for (const Eigen::Index index : *indices) {
+      if (index < 0 || index >= information.rows() || index >= information.cols()) {
+        throw std::invalid_argument("unknown " + std::to_string(index) + " does not exist, expected 0 to " +
+                                    std::to_string(std::min(information.rows(), information.cols()) - 1));
+      }
+    }
+  }
+  Eigen::MatrixXd out = information(wanted, wanted);
+  if (nuisance.empty()) return out;
+  const Eigen::MatrixXd cross = information(wanted, nuisance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(information(nuisance, nuisance));
+  const double floor = kNuisanceRank * kNuisanceRank * own.eigenvalues().maxCoeff();
+  for (Eigen::Index k = 0; k < own.eigenvalues().size(); ++k) {
+    if (own.eigenvalues()[k] <= floor) continue;
+    const Eigen::VectorXd shared = cross * own.eigenvectors().col(k);
+    out -= shared * shared.transpose() / own.eigenvalues()[k];
+  }
+  return out;
+}
+
 Identifiability identifiability_of(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& wanted,
                                    const std::vector<Eigen::Index>& nuisance, double relative, double absolute) {
   Identifiability out;
   if (wanted.empty()) return out;
-  Eigen::MatrixXd left = information(wanted, wanted);
-  if (!nuisance.empty()) {
-    const Eigen::MatrixXd cross = information(wanted, nuisance);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(information(nuisance, nuisance));
-    const double floor = kNuisanceRank * kNuisanceRank * own.eigenvalues().maxCoeff();
-    for (Eigen::Index k = 0; k < own.eigenvalues().size(); ++k) {
-      if (own.eigenvalues()[k] <= floor) continue;
-      const Eigen::VectorXd shared = cross * own.eigenvectors().col(k);
-      left -= shared * shared.transpose() / own.eigenvalues()[k];
-    }
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(left);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(schur_complement(information, wanted, nuisance));
   out.singular_values = principal.eigenvalues().reverse().cwiseMax(0.0).cwiseSqrt();
   out.directions = principal.eigenvectors().rowwise().reverse();
   count_rank(out, relative, absolute);

@@ -1,23 +1,19 @@
 #include "hexdbb/kinematics.hpp"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "kernel_types.hpp"
 #include "multiversion.hpp"
-#include "rssr_kernel.hpp"
+#include "six_kernel.hpp"
 
 namespace hexdbb {
 
 namespace {
 
-using rssr::Vec;
-
-Vec<double> vec(const Matrix36& columns, int k) { return {columns(0, k), columns(1, k), columns(2, k)}; }
-
-Vector3 vector(const Vec<double>& v) { return {v.x, v.y, v.z}; }
+using rssr::vec;
 
 // Ratio of a determinant to the size of its terms below which locked sliders do not hold the platform: at 1e-9 an error
 // of 1 nm in a leg moves it by a metre.
@@ -49,7 +45,7 @@ bool pose_problem(const Mechanism& mechanism, const PlatformTriangle& triangle, 
   out.limit_squared = kFraction;
   for (int i = 0; i < kGuideways; ++i) {
     rssr::Circle<double>& circle = out.circle[i];
-    circle = rssr::meeting_circle(vec(mechanism.slider_joint, 2 * i), vec(mechanism.slider_joint, 2 * i + 1),
+    circle = rssr::meeting_circle(vec(mechanism.slider_joint.col(2 * i)), vec(mechanism.slider_joint.col(2 * i + 1)),
                                   mechanism.leg_length[2 * i], mechanism.leg_length[2 * i + 1]);
     if (!(circle.radius_squared > 0.0) || !(circle.span_squared > 0.0)) return false;
     out.side_squared[i] = triangle.side_squared[i];
@@ -179,18 +175,22 @@ void check_limits(const Machine& machine, InverseResult& out) {
   }
 }
 
-/// Position and orientation from three ball joints: R maps Q2-Q1, Q3-Q1 and their cross product. The reference point
-/// lies below the joint plane along the platform's own normal, not along base z as thesis (2.26) has it.
-Pose align(const PlatformTriangle& triangle, const rssr::Loops<double>& loops) {
-  const Vec<double> x = loops.q[1] - loops.q[0];
-  const Vec<double> y = loops.q[2] - loops.q[0];
-  const Vec<double> n = rssr::cross(x, y);
-  Matrix3 frame;
-  frame << x.x, y.x, n.x, x.y, y.y, n.y, x.z, y.z, n.z;
-  Pose pose;
-  pose.rotation.noalias() = frame.lazyProduct(triangle.frame_inverse);
-  pose.position = vector(loops.q[0]) - pose.rotation * triangle.joints.col(0);
-  return pose;
+/// Return the largest magnitude; NaN where there is one.
+double largest_magnitude(const double (&values)[kLegs]) {
+  double out = 0.0;
+  for (const double each : values) {
+    if (!(std::abs(each) <= out || std::isnan(out))) out = std::abs(each);
+  }
+  return out;
+}
+
+/// Shorten a long step to half a radian or 200 mm, so that a search from a distant start stays on its branch.
+rssr::Six<double> shortened(const rssr::Six<double>& step) {
+  constexpr double kLongestTurn_rad = 0.5, kLongestMove_mm = 200.0, kTiny = 1e-300;
+  const double turn_rad = std::sqrt(rssr::dot(step.moment, step.moment)) / rssr::kLever_mm;
+  const double move_mm = std::sqrt(rssr::dot(step.force, step.force));
+  return std::min({1.0, kLongestTurn_rad / std::max(turn_rad, kTiny), kLongestMove_mm / std::max(move_mm, kTiny)}) *
+         step;
 }
 
 }  // namespace
@@ -260,7 +260,7 @@ ForwardResult forward(const Mechanism& mechanism, const PlatformTriangle& triang
   if (out.status != Status::kOk) out.status = track(mechanism, triangle, state, out.iterations);
   out.residual_mm = std::isnan(state.residual_mm) ? std::numeric_limits<double>::infinity() : state.residual_mm;
   if (out.status != Status::kOk) return out;
-  out.pose = align(triangle, state.loops);
+  out.pose = rssr::pose_of(rssr::align(state.loops.q, rssr::frame_of(triangle), vec(triangle.joints.col(0))));
   angles.cosine << state.c[0], state.c[1], state.c[2];
   angles.sine << state.s[0], state.s[1], state.s[2];
   return out;
@@ -273,46 +273,36 @@ ForwardResult forward(const Mechanism& mechanism, RssrAngles& angles) noexcept {
 ForwardResult forward_six(const Mechanism& mechanism, const Pose& start) noexcept {
   ForwardResult out;
   out.pose = start;
-  for (;;) {
-    Eigen::Matrix<double, 6, 6> jacobian;
-    Vector6 error;
-    for (int k = 0; k < kLegs; ++k) {
-      const Vector3 arm = out.pose.rotation * mechanism.platform_joint.col(k);
-      const Vector3 leg = out.pose.position + arm - mechanism.slider_joint.col(k);
-      const double length = leg.norm();
-      error[k] = length - mechanism.leg_length[k];
-      jacobian.row(k) << leg.transpose() / length, arm.cross(leg).transpose() / length;
-    }
-    out.residual_mm = error.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  rssr::Vec<double> base[kLegs], joint[kLegs];
+  double length[kLegs];
+  for (int k = 0; k < kLegs; ++k) {
+    base[k] = vec(mechanism.slider_joint.col(k));
+    joint[k] = vec(mechanism.platform_joint.col(k));
+    length[k] = mechanism.leg_length[k];
+  }
+  rssr::PlacedPlatform<double> platform = rssr::placed(start);
+  for (;; ++out.iterations) {
+    const rssr::SixLegs<double> legs = rssr::six_legs(base, length, joint, platform);
+    out.residual_mm = largest_magnitude(legs.too_long);
     if (!(out.residual_mm < 1e6)) {
       out.residual_mm = std::numeric_limits<double>::infinity();
-      out.pose = start;
       out.status = Status::kUnreachable;
       return out;
     }
-    if (out.residual_mm <= kResidualTolerance_mm) return out;
+    if (out.residual_mm <= kResidualTolerance_mm) {
+      out.pose = rssr::pose_of(platform);
+      return out;
+    }
     if (out.iterations == kMaxIterations) {
-      out.pose = start;
       out.status = Status::kIterationLimit;
       return out;
     }
-    const Eigen::PartialPivLU<Eigen::Matrix<double, 6, 6>> lu(jacobian);
-    if (!(lu.matrixLU().diagonal().cwiseAbs().minCoeff<Eigen::PropagateNaN>() > kSingularRatio)) {
-      out.pose = start;
+    const rssr::Wrenches<double> wrenches = rssr::factor(legs.column);
+    if (!(wrenches.least_squared > kSingularRatio * kSingularRatio)) {
       out.status = Status::kSingular;
       return out;
     }
-    const Vector6 step = -lu.solve(error);
-    const Vector3 turn = step.tail<3>();
-    const double angle = turn.norm();
-    // Long steps are shortened to half a radian or 200 mm, so that a search from a distant start stays on its branch.
-    const double fraction =
-        std::min({1.0, 0.5 / std::max(angle, 1e-300), 200.0 / std::max(step.head<3>().norm(), 1e-300)});
-    out.pose.position += fraction * step.head<3>();
-    if (angle > 0.0) {
-      out.pose.rotation = Eigen::AngleAxisd(fraction * angle, turn / angle).toRotationMatrix() * out.pose.rotation;
-    }
-    ++out.iterations;
+    rssr::move_back(shortened(wrenches.movement(legs.too_long)), platform);
   }
 }
 

@@ -1,8 +1,8 @@
 #include "hexdbb/mechanism.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
+
+#include "kernel_types.hpp"
 
 namespace hexdbb {
 
@@ -15,13 +15,13 @@ NominalGeometry::NominalGeometry(const Machine& machine_in) : machine(machine_in
 }
 
 PlatformTriangle::PlatformTriangle(const Matrix3& joints_in) : joints(joints_in) {
-  const Vector3 x = joints.col(1) - joints.col(0);
-  const Vector3 y = joints.col(2) - joints.col(0);
-  side_squared << x.squaredNorm(), (x - y).squaredNorm(), y.squaredNorm();
+  const rssr::Vec<double> q[] = {rssr::vec(joints.col(0)), rssr::vec(joints.col(1)), rssr::vec(joints.col(2))};
+  const rssr::TriangleFrame<double> frame = rssr::triangle_frame(q);
+  for (int i = 0; i < 3; ++i) {
+    frame_inverse.row(i) = rssr::vector(frame.row[i]).transpose();
+    side_squared[i] = frame.side_squared[i];
+  }
   mm_per_f = 0.5 / std::sqrt(side_squared.minCoeff());
-  Matrix3 frame;
-  frame << x, y, x.cross(y);
-  frame_inverse = frame.inverse();
 }
 
 Mechanism assemble(const NominalGeometry& nominal, const Vector6& sliders_mm, const Ports& push) noexcept {

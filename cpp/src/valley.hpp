@@ -6,6 +6,15 @@
 // derivative of the predictions along v and a = -(J'J + damping)^-1 J' r_vv, the step is v + a / 2. About a thousand
 // evenly spaced readings determine the coarse minimum and the acceleration of every step: both are smooth along a
 // circle.
+//
+// Beside Ceres (diagnosis.hpp), because neither replaces the other. Measured on 19,600 readings of four random machines,
+// geometry, cup and ball free, one effect of the catalogue at a time at its prior size:
+//   problem                             same chi-square (+-1)   geodesic lower   Ceres lower   median time, ms
+//   complete model, from nominal                       4 of 4                -             -         123 : 122
+//   complete model, from the incomplete              60 of 60                -             -         185 : 268
+//   model that lacks the effect                      38 of 60               12            10         223 : 731
+// Ceres reached its limit of 50 iterations in 12 of the last 60. Incomplete models with large residuals have several
+// minima. Huber's loss is supported by Ceres alone.
 #pragma once
 
 #include <functional>

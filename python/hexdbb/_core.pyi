@@ -27,10 +27,11 @@ __all__: list[str] = [
     "Prediction",
     "Samples",
     "SetUp",
+    "StateColumn",
     "compensation_of",
     "effect_info",
     "effect_names",
-    "expected_sizes",
+    "effect_pushes",
     "fit",
     "forward_one",
     "forward_six_one",
@@ -45,12 +46,15 @@ __all__: list[str] = [
     "platform_joint",
     "port_sensitivity",
     "predict",
+    "prior_sigmas",
     "project_out",
     "read_compensation",
     "require_machine",
     "rotation_from_rpy",
     "rpy_from_rotation",
     "rssr_angles",
+    "schur_complement",
+    "state_columns",
     "status_name",
 ]
 
@@ -90,67 +94,6 @@ class Machine:
     @property
     def travel_min_mm(self) -> float: ...
 
-class ParameterInfo:
-    """
-    One parameter of an effect, in the engine's units.
-    """
-    def __init__(
-        self,
-        *,
-        name: str,
-        unit: str,
-        prior_sigma: typing.SupportsFloat | typing.SupportsIndex,
-        limit: typing.SupportsFloat | typing.SupportsIndex,
-    ) -> None: ...
-    @property
-    def is_shape(self) -> bool: ...
-    @property
-    def limit(self) -> float: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def prior_sigma(self) -> float: ...
-    @property
-    def unit(self) -> str: ...
-
-class EffectInfo:
-    """
-    What an effect is: physics, source, elements, parameters, ports.
-    """
-    def __init__(
-        self,
-        *,
-        name: str,
-        physics: str,
-        source: str,
-        element_kind: str,
-        elements: collections.abc.Sequence[str],
-        parameters: collections.abc.Sequence[ParameterInfo],
-        ports: collections.abc.Sequence[str],
-    ) -> None: ...
-    @property
-    def element_kind(self) -> str: ...
-    @property
-    def elements(self) -> list[str]: ...
-    @property
-    def group(self) -> str: ...
-    @property
-    def is_set_up(self) -> bool: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def needs(self) -> list[str]: ...
-    @property
-    def parameters(self) -> list[ParameterInfo]: ...
-    @property
-    def physics(self) -> str: ...
-    @property
-    def ports(self) -> list[str]: ...
-    @property
-    def size(self) -> int: ...
-    @property
-    def source(self) -> str: ...
-
 class SetUp:
     """
     One fixing of the bar: nominal cup, ball and bar length.
@@ -163,11 +106,43 @@ class SetUp:
         bar_length_mm: typing.SupportsFloat | typing.SupportsIndex,
     ) -> None: ...
     @property
-    def ball_offset_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def ball_offset_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Centre ball, platform frame.
+        """
     @property
     def bar_length_mm(self) -> float: ...
     @property
-    def cup_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]: ...
+    def cup_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
+        """
+        Tool cup, base frame.
+        """
+
+class StateColumn:
+    """
+    Description of one column of a sample's state.
+    """
+    @property
+    def may_be_nan(self) -> bool:
+        """
+        Whether nan is a value: not measured.
+        """
+    @property
+    def meaning(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def of(self) -> str:
+        """
+        What its numbers belong to: sample (shape (n,)), axis ((n, 3): x, y, z or roll, pitch, yaw), slider or leg ((n, 6)).
+        """
+    @property
+    def unit(self) -> str: ...
+    @property
+    def width(self) -> int:
+        """
+        Numbers per sample: 1, 3 or 6.
+        """
 
 class Samples:
     """
@@ -183,16 +158,44 @@ class Samples:
         state: dict = {},
     ) -> None:
         """
-        `state`: columns by name; any may be missing, an effect that needs one says so.
+        Build samples.
+
+        Parameters
+        ----------
+        sliders_mm : ndarray, shape (n, 6)
+            As the encoders report them.
+        set_up : ndarray of int, shape (n,)
+            Index into set_ups.
+        mount : ndarray of int, shape (n,)
+            Fixing of the tool cup, from 0.
+        set_ups : sequence of SetUp
+        state : dict of str to ndarray, optional
+            Columns by name (state_columns()), each of n rows; any may be missing.
+
+        Raises
+        ------
+        ValueError
+            An unknown column, a column of another length, an index out of range.
         """
     def derive(self, machine: Machine) -> None:
         """
-        Fill what follows from time_s, sweep and the sliders: motion, leg forces, nominal readings.
+        Compute every column that follows from time_s, sweep, angle_rad and the sliders.
+
+        Raises
+        ------
+        ValueError
+            Where time_s or sweep is missing, or time does not rise within a sweep.
         """
     def rows(self, which: typing.Annotated[numpy.typing.ArrayLike, numpy.int64]) -> Samples:
         """
-        Some rows; what is tabulated for the whole stays right for the part.
+        Return some rows, by index from 0; they remember their place in the table. ValueError where there is no such row.
         """
+    @property
+    def mount(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]: ...
+    @property
+    def set_up(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]: ...
+    @property
+    def set_ups(self) -> list[SetUp]: ...
     @property
     def size(self) -> int: ...
     @property
@@ -203,6 +206,128 @@ class Samples:
         Columns of the state that are known, by name.
         """
 
+class ParameterInfo:
+    """
+    One parameter of an effect, in the engine's units.
+    """
+    def __init__(
+        self,
+        *,
+        name: str,
+        unit: str,
+        prior_sigma: typing.SupportsFloat | typing.SupportsIndex,
+        limit: typing.SupportsFloat | typing.SupportsIndex,
+        is_nonnegative: bool = False,
+    ) -> None: ...
+    @property
+    def is_shape(self) -> bool:
+        """
+        Whether it pushes nothing by itself but shapes what the effect's other parameters push.
+        """
+    @property
+    def limit(self) -> float:
+        """
+        Largest magnitude with a physical meaning; the fit's bound.
+        """
+    @property
+    def lower(self) -> float:
+        """
+        Lower end of the physical domain.
+        """
+    @property
+    def name(self) -> str: ...
+    @property
+    def prior_sigma(self) -> float:
+        """
+        Prior standard deviation.
+        """
+    @property
+    def unit(self) -> str: ...
+    @property
+    def upper(self) -> float:
+        """
+        Upper end of the physical domain.
+        """
+
+class EffectInfo:
+    """
+    Description of an effect: physics, elements, parameters, ports.
+    """
+    def __init__(
+        self,
+        *,
+        name: str,
+        physics: str,
+        source: str,
+        element_kind: str,
+        elements: collections.abc.Sequence[str],
+        parameters: collections.abc.Sequence[ParameterInfo],
+        ports: collections.abc.Sequence[str],
+        formula: str = "",
+    ) -> None: ...
+    @property
+    def element_kind(self) -> str:
+        """
+        leg, slider, guideway, side, mount or machine.
+        """
+    @property
+    def elements(self) -> list[str]:
+        """
+        Label of each element.
+        """
+    @property
+    def formula(self) -> str:
+        """
+        What is pushed, as plain text.
+        """
+    @property
+    def group(self) -> str:
+        """
+        geometry, set-up, catalogue or user.
+        """
+    @property
+    def is_free_at_first(self) -> bool:
+        """
+        Whether a new model fits its values.
+        """
+    @property
+    def is_set_up(self) -> bool:
+        """
+        Whether it belongs to the measurement, not to the machine.
+        """
+    @property
+    def name(self) -> str: ...
+    @property
+    def needs(self) -> list[str]:
+        """
+        Columns of the samples' state it needs.
+        """
+    @property
+    def parameters(self) -> list[ParameterInfo]:
+        """
+        Parameters of one element.
+        """
+    @property
+    def physics(self) -> str:
+        """
+        One sentence.
+        """
+    @property
+    def ports(self) -> list[str]:
+        """
+        Ports it may push, keys of PORTS.
+        """
+    @property
+    def size(self) -> int:
+        """
+        Number of values: elements times parameters.
+        """
+    @property
+    def source(self) -> str:
+        """
+        Thesis section, standard or paper.
+        """
+
 class Model:
     """
     A machine and a list of effects with their values.
@@ -210,7 +335,7 @@ class Model:
     def __init__(self, machine: Machine) -> None: ...
     def add(self, name: str, mounts: typing.SupportsInt | typing.SupportsIndex) -> None:
         """
-        Append the effect of that name with all values zero.
+        Append an effect with all values zero. ValueError where no effect has that name.
         """
     def add_tabulated(
         self,
@@ -221,7 +346,22 @@ class Model:
         per_unit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     ) -> None:
         """
-        Append an effect whose value values[j] pushes port ports[j] by per_unit[:, j], a row a sample.
+        Append an effect given as numbers: its value values[j] pushes port ports[j] by per_unit[:, j].
+
+        Parameters
+        ----------
+        info : EffectInfo
+        values : sequence of int
+            Indices of the effect's values.
+        ports : sequence of int
+            Indices of ports, 0 to 54.
+        per_unit : ndarray, shape (n, len(ports))
+            Push per unit of the value, one row per sample, mm.
+
+        Raises
+        ------
+        ValueError
+            An index that does not exist, lengths that differ, a number not finite.
         """
     @property
     def size(self) -> int: ...
@@ -232,100 +372,157 @@ class Model:
 
 class Prediction:
     """
-    Readings in mm, status, Jacobian (samples x values).
+    Predicted readings.
     """
     @property
-    def first_failure(self) -> int: ...
+    def first_failure(self) -> int:
+        """
+        First row without a solution, or -1.
+        """
     @property
-    def jacobian(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def jacobian(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        d reading / d value, shape (n, size); empty unless asked for.
+        """
     @property
-    def reading_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    def reading_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Shape (n,); 0 where there is no solution.
+        """
     @property
-    def status(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]: ...
+    def status(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]:
+        """
+        Shape (n,); 0: solved, see status_name.
+        """
 
 class NormalEquations:
     """
-    J'J, J'r and r'r of all readings, r = measured - predicted.
+    Normal equations of all readings, r = measured - predicted, J = d predicted / d value.
     """
     @property
-    def failure(self) -> int: ...
+    def failure(self) -> int:
+        """
+        First sample without a solution, or -1.
+        """
     @property
-    def gradient(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    def gradient(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        J'r, shape (size,).
+        """
     @property
-    def information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def information(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        J'J, shape (size, size).
+        """
     @property
-    def squared(self) -> float: ...
+    def squared(self) -> float:
+        """
+        r'r, mm^2.
+        """
 
 class Identifiability:
     """
     Singular values and directions of a scaled Jacobian.
     """
     @property
-    def condition(self) -> float: ...
+    def condition(self) -> float:
+        """
+        Largest over smallest singular value within the rank.
+        """
     @property
     def directions(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
     @property
-    def identifiable(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def identifiable(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Directions within the rank, as columns.
+        """
     @property
     def rank(self) -> int: ...
     @property
     def singular_values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
     @property
-    def unidentifiable(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def unidentifiable(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        The other directions, as columns.
+        """
 
 class FitResult:
     """
     Estimates, covariance, rank, unidentifiable directions, termination.
     """
     @property
-    def correlation(self) -> float: ...
+    def correlation(self) -> float:
+        """
+        Integrated autocorrelation time of the residuals, rows.
+        """
     @property
-    def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]: ...
+    def covariance(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        Shape (size, size), prior included; 0 where not free.
+        """
     @property
-    def free_columns(self) -> list[int]: ...
+    def free_columns(self) -> list[int]:
+        """
+        Indices of the free values.
+        """
     @property
     def iterations(self) -> int: ...
     @property
-    def machine(self) -> Identifiability: ...
+    def machine(self) -> Identifiability:
+        """
+        Identifiability of the machine's own free values.
+        """
     @property
-    def noise_mm(self) -> float: ...
+    def noise_mm(self) -> float:
+        """
+        The larger of the given noise and the RMS residual.
+        """
     @property
-    def residual_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    def residual_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Measured minus predicted, shape (n,).
+        """
     @property
     def rms_after_mm(self) -> float: ...
     @property
     def rms_before_mm(self) -> float: ...
     @property
-    def termination(self) -> str: ...
+    def termination(self) -> str:
+        """
+        Why the iteration ended.
+        """
     @property
     def usable(self) -> bool: ...
     @property
-    def values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]: ...
+    def values(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+        """
+        Shape (size,), engine units.
+        """
 
 class CompensationError(ValueError):
     pass
 
 class CompensationData:
     """
-    What a controller loads; see compensation_file.hpp.
+    Compensation data that a controller loads; see compensation_file.hpp.
     """
     def header(self) -> str:
         """
-        The same as constants of a C program.
+        Return the same as constants of a C program.
         """
     def text(self) -> str:
         """
-        Content of a compensation file.
+        Return the content of a compensation file.
         """
     @property
     def effects(self) -> list[str]:
         """
-        Names of the effects it corrects.
+        Names of the effects that are corrected.
         """
     @property
     def left_out(self) -> list[tuple[str, str]]:
         """
-        Effects it does not correct, each with the reason.
+        Effects that are not corrected, each with the reason.
         """
     @property
     def machine(self) -> Machine: ...
@@ -347,15 +544,15 @@ class Compensator:
     def __init__(self, data: CompensationData, source: str) -> None: ...
     def enable(self, on: bool) -> None:
         """
-        Off or on; it fades over the next 500 poses.
+        Switch compensation off or on; it fades over the next 500 poses.
         """
     def poses_of(self, sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"]) -> tuple:
         """
-        Poses (n, 12) as x, y, z and the rotation row by row, status (n,), of rows of slider coordinates.
+        Compute the poses, (n, 12) as x, y, z in mm and the rotation row by row, and status (n,), of slider coordinates (n, 6).
         """
     def reset(self) -> None:
         """
-        Forget how the machine moved before.
+        Forget the motion so far, as after homing.
         """
     def sliders_along(
         self,
@@ -363,14 +560,25 @@ class Compensator:
         rpy_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
         time_s: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
         temperature_c: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
-        side: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"] | None = None,
+        travel_direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"] | None = None,
     ) -> tuple:
         """
-        Targets, corrections (n, 6) in mm, status, slider at fault (n,) of poses in order of motion.
+        Compute slider targets of poses in order of motion.
 
-        A row refused has the last targets, and where a correction is too large, its size.
-        side (n, 6), -1 .. 1, is where each slider comes from, if the motion to come is known;
-        without it the sides follow from the motion so far.
+        Parameters
+        ----------
+        position_mm, rpy_rad : ndarray, shape (n, 3)
+        time_s, temperature_c : ndarray, shape (n,)
+            Temperature nan where not measured.
+        travel_direction : ndarray, shape (n, 6), optional
+            -1 to 1 per slider, where the motion to come is known; from the motion so far where not given.
+
+        Returns
+        -------
+        sliders_mm, correction_mm : ndarray, shape (n, 6)
+            A refused row has the last targets and, where a correction is too large, its size.
+        status, slider : ndarray of int, shape (n,)
+            Slider at fault from 0, or -1.
         """
 
 def compensation_of(
@@ -384,24 +592,73 @@ def compensation_of(
     unknown: collections.abc.Sequence[str] = [],
 ) -> CompensationData:
     """
-    What of a model a controller can correct, and why the rest not.
+    Select the effects of a model that a controller can correct, and state why the others are left out.
 
-    reference_temperature_c: nan where not known; unknown: effects of the model that the engine does not have.
+    Parameters
+    ----------
+    model : Model
+    name : str
+        Of the machine.
+    model_sha256 : str
+        Of the model file.
+    max_correction_mm, reversal_travel_mm : float
+    reference_temperature_c : float
+        Temperature at which no growth is corrected; nan where not known.
+    unknown : sequence of str, optional
+        Effects of the model that the engine does not have.
     """
 
 def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
     """
-    The effect of that name; ValueError where there is none.
+    Return the description of an effect.
+
+    Parameters
+    ----------
+    machine : Machine
+    mounts : int
+        Fixings of the tool cup the model distinguishes.
+    name : str
+
+    Raises
+    ------
+    ValueError
+        Where no effect has that name, with the known names.
     """
 
 def effect_names(group: str = "") -> list[str]:
     """
-    Names of the effects of a group (geometry, set-up, catalogue), or of all.
+    Return the names of the effects of a group (geometry, set-up, catalogue), or of all.
     """
 
-def expected_sizes(model: Model) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+def effect_pushes(
+    machine: Machine,
+    mounts: typing.SupportsInt | typing.SupportsIndex,
+    name: str,
+    samples: Samples,
+    values: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] | None = None,
+) -> numpy.typing.NDArray[numpy.float64]:
     """
-    Prior sigma of each value of a model.
+    Compute what an effect pushes at every port per unit of each of its values.
+
+    Parameters
+    ----------
+    machine : Machine
+    mounts : int
+        Fixings of the tool cup the model distinguishes.
+    name : str
+    samples : Samples
+    values : ndarray, shape (size,), optional
+        Values at which the derivative is taken, engine units; zero where not given.
+
+    Returns
+    -------
+    ndarray, shape (n, 55, size)
+        d push / d value, mm per unit of the value; ports in the order of PORTS.
+
+    Raises
+    ------
+    ValueError
+        An unknown effect, values of another length, or samples without a column that the effect needs.
     """
 
 def fit(
@@ -414,10 +671,34 @@ def fit(
     max_iterations: typing.SupportsInt | typing.SupportsIndex = 50,
     robust_mm: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"] = ...,
-    judging: bool = False,
+    hypothesis: bool = False,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.
+
+    Parameters
+    ----------
+    model : Model
+        Its values are the start.
+    samples : Samples
+    measured_mm : ndarray, shape (n,)
+    noise_mm : float
+        Standard deviation of one reading.
+    free : sequence of bool, optional
+        One per value; all are free where empty.
+    max_iterations : int
+    robust_mm : float
+        Huber's limit; 0: least squares.
+    sweep : ndarray of int, shape (n,), optional
+        Capture of each sample, within which neighbours may be correlated.
+    hypothesis : bool
+        Full fit of a hypothesis: faster, its covariance to first order.
+
+    Raises
+    ------
+    ValueError
+        Lengths that differ, no readings, nothing free, or a sample without a
+        solution at the start.
     """
 
 def forward_one(
@@ -426,7 +707,7 @@ def forward_one(
     push: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[55, 1]"],
 ) -> tuple:
     """
-    RSSR solution from home: position, rotation, residual_mm, iterations, status.
+    Solve the RSSR loops from home: position, rotation, residual_mm, iterations, status.
     """
 
 def forward_six_one(
@@ -435,7 +716,7 @@ def forward_six_one(
     push: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[55, 1]"],
 ) -> tuple:
     """
-    Six-coordinate solution from home: position, rotation, residual_mm, iterations, status.
+    Solve the six pose coordinates from home: position, rotation, residual_mm, iterations, status.
     """
 
 def forward_table(
@@ -445,35 +726,35 @@ def forward_table(
     typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"],
 ]:
     """
-    Poses (n, 12) as x, y, z and the rotation row by row; status (n,).
+    Compute the platform's poses, (n, 12) as x, y, z in mm and the rotation row by row, and their status, (n,).
     """
 
 def guideway_axes(
     guideway: typing.SupportsInt | typing.SupportsIndex,
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """
-    Local axes of guideway 0..2 as columns: outward, -d, up.
+    Return the local axes of guideway 0..2 as columns (3, 3): outward, -d, up. IndexError for any other guideway.
     """
 
 def guideway_direction(
     guideway: typing.SupportsInt | typing.SupportsIndex,
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    d of guideway 0..2, unit vector.
+    Return d of guideway 0..2, unit vector (3,), base frame. IndexError for any other guideway.
     """
 
 def guideway_midpoint(
     machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    Point of guideway 0..2 nearest to the base centre, mm, base frame.
+    Return the point of guideway 0..2 nearest to the base centre, (3,) in mm, base frame. IndexError for any other guideway.
     """
 
 def guideway_vertex(
     machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    V of guideway 0..2, mm, base frame.
+    Return V of guideway 0..2, (3,) in mm, base frame. IndexError for any other guideway.
     """
 
 def identifiability(
@@ -483,7 +764,9 @@ def identifiability(
     absolute: typing.SupportsFloat | typing.SupportsIndex = 0.0,
 ) -> Identifiability:
     """
-    Rank, condition and directions of a scaled Jacobian.
+    Compute rank, condition and directions of a scaled Jacobian.
+
+    The rank counts singular values above relative times the largest and above absolute.
     """
 
 def inverse_table(
@@ -492,31 +775,50 @@ def inverse_table(
     rpy_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 3]", "flags.c_contiguous"],
 ) -> tuple:
     """
-    Slider coordinates (n, 6) in mm, status (n,) and leg at fault (n,) of nominal poses.
+    Compute the slider coordinates of poses of the nominal machine.
+
+    Parameters
+    ----------
+    machine : Machine
+    position_mm : ndarray, shape (n, 3)
+    rpy_rad : ndarray, shape (n, 3)
+
+    Returns
+    -------
+    sliders_mm : ndarray, shape (n, 6)
+    status : ndarray of int, shape (n,)
+        0: reached; see status_name.
+    leg : ndarray of int, shape (n,)
+        Leg at fault from 0, or -1.
     """
 
 def normal_equations(
     model: Model, samples: Samples, measured_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
 ) -> NormalEquations:
     """
-    Normal equations for all values of a model, in one pass.
+    Compute the normal equations for all values of a model in one pass. ValueError where lengths differ.
     """
 
 def platform_joint(
     machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    Nominal ball joint 0..2, mm, platform frame.
+    Return the nominal ball joint of guideway 0..2, (3,) in mm, platform frame. IndexError for any other guideway.
     """
 
 def port_sensitivity(model: Model, samples: Samples) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
-    d reading / d push at each port, (n, 55), mm per mm.
+    Compute d reading / d push at each port, (n, 55), mm per mm.
     """
 
 def predict(model: Model, samples: Samples, want_jacobian: bool = False) -> Prediction:
     """
-    What the ball bar reads under a model.
+    Predict the readings of the ball bar under a model.
+    """
+
+def prior_sigmas(model: Model) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Return the prior standard deviation of each value of a model, (size,).
     """
 
 def project_out(
@@ -524,17 +826,17 @@ def project_out(
     nuisance: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
     """
-    The part of a Jacobian that nuisance columns cannot explain.
+    Return the part of a Jacobian (n, k) that nuisance columns (n, m) cannot explain. ValueError where n differs.
     """
 
 def read_compensation(path: str) -> CompensationData:
     """
-    Read a compensation file; CompensationError says why it is refused.
+    Read a compensation file. CompensationError where it is refused, with the reason.
     """
 
 def require_machine(of_data: Machine, of_controller: Machine, source: str) -> None:
     """
-    CompensationError naming the first dimension that differs.
+    Raise CompensationError, naming the first dimension that differs, unless both machines are the same.
     """
 
 def rotation_from_rpy(
@@ -543,26 +845,52 @@ def rotation_from_rpy(
     yaw_rad: typing.SupportsFloat | typing.SupportsIndex,
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """
-    Rz(yaw) Ry(pitch) Rx(roll), thesis (2.27).
+    Compute Rz(yaw) Ry(pitch) Rx(roll), (3, 3), thesis (2.27).
     """
 
 def rpy_from_rotation(
     rotation: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[3, 3]"],
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    (roll, pitch, yaw) in rad.
+    Compute roll, pitch and yaw in rad, (3,), for |pitch| below 90 deg; inverse of rotation_from_rpy.
     """
 
 def rssr_angles(
     machine: Machine, sliders_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[6, 1]"]
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
-    theta, delta, phi of the nominal machine in rad, as the thesis counts them.
+    Compute theta, delta, phi of the nominal machine, (3,) in rad, with the thesis' signs.
+    """
+
+def schur_complement(
+    information: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
+    wanted: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+    nuisance: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    Return J'J of the unknowns wanted, what the unknowns nuisance can explain projected out.
+
+    Parameters
+    ----------
+    information : ndarray, shape (k, k)
+        J'J of all unknowns.
+    wanted, nuisance : sequence of int
+        Indices of unknowns; redundant nuisance unknowns do no harm.
+
+    Raises
+    ------
+    ValueError
+        Where an index is out of range.
+    """
+
+def state_columns() -> list[StateColumn]:
+    """
+    Return every column of a sample's state, sliders_mm first: the one vocabulary of names and units.
     """
 
 def status_name(code: typing.SupportsInt | typing.SupportsIndex) -> str:
     """
-    What a status code of the kinematics means.
+    Return what a status code of the kinematics means. ValueError for an unknown code.
     """
 
 CORRECTION_LIMIT: int = 6

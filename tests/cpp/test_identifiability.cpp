@@ -66,6 +66,18 @@ TEST(Identifiability, NoUnknowns) {
   EXPECT_EQ(identifiability(RowMajorMatrix(10, 0), 1e-9, 0.0).rank, 0);
 }
 
+TEST(SchurComplement, IsTheInformationOfTheProjectedJacobian) {
+  Drawing drawing(74);
+  RowMajorMatrix jacobian = random_matrix(drawing, 30, 9);
+  jacobian.col(8) = jacobian.col(6) - 3.0 * jacobian.col(7);  // a redundant nuisance unknown
+  const std::vector<Eigen::Index> wanted = {0, 2, 4}, nuisance = {1, 6, 7, 8};
+  const Eigen::MatrixXd found = schur_complement(jacobian.transpose() * jacobian, wanted, nuisance);
+  const RowMajorMatrix rest = project_out(jacobian(Eigen::all, wanted), jacobian(Eigen::all, nuisance));
+  EXPECT_LT((found - rest.transpose() * rest).cwiseAbs().maxCoeff(), 1e-10);
+  EXPECT_THROW(schur_complement(found, {0, 3}, {}), std::invalid_argument);
+  EXPECT_THROW(schur_complement(found, {0}, {-1}), std::invalid_argument);
+}
+
 TEST(ProjectOut, RestIsOrthogonalToTheNuisance) {
   Drawing drawing(73);
   const RowMajorMatrix jacobian = random_matrix(drawing, 30, 5);

@@ -1,21 +1,83 @@
-"""What pages take for granted before their first command."""
+"""What pages take for granted before their first command: records, models, truth files."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
 
+from tests.documents.shown import blocks
+
 Run = Callable[[str, Path], str]
 ROOT = Path(__file__).parents[2]
+PLAY = '[[mechanism]]\nkind = "backlash"\nslider = 4\nwidth_um = 15.0\n'
+DENT = '[[mechanism]]\nkind = "dent"\nguideway = 1\ndepth_um = 30.0\nat_mm = 250.0\nwidth_mm = 10.0\n'
 
 
 def _readme(folder: Path, run: Run) -> None:
-    """Write the hidden machine as `make demo` does."""
+    """Make the folder that `make demo` makes."""
     (folder / "demo").mkdir()
-    run(f"source {ROOT}/.ci/scripts/hidden_machine.sh && hidden_machine demo/hidden.toml", folder)
 
 
-def _discovery(folder: Path, run: Run) -> None: ...
+def _measured(folder: Path, run: Run, fault: str, truth: str, record: str) -> None:
+    """Measure the random machine of README with a fault: the same commands, hence one measurement for all pages."""
+    run(f"hexdbb rig --seed 11 --write-truth {truth} --no-serve", folder)
+    with (folder / truth).open("a", encoding="utf-8") as file:
+        file.write(f"\n{fault}")
+    run(f"hexdbb-run --plan standard --rate 20 --truth {truth} -o {record}", folder)
 
 
-PREPARED: dict[str, Callable[[Path, Run], None]] = {"README.md": _readme}
+def _today(folder: Path, run: Run) -> None:
+    _measured(folder, run, PLAY, "hidden.toml", "today.parquet")
+
+
+def _diagnosed(folder: Path, run: Run) -> None:
+    _today(folder, run)
+    run("hexdbb diagnose today.parquet -m model.toml", folder)
+
+
+def _discovery(folder: Path, run: Run) -> None:
+    """Add the effect that the page shows as a file, and a machine with the fault that it describes."""
+    _diagnosed(folder, run)
+    (folder / "mine.py").write_text(_block("docs/discovery.md", "python"), encoding="utf-8")
+    _measured(folder, run, DENT, "dented.toml", "dent.parquet")
+    run("hexdbb diagnose dent.parquet -m dent.toml", folder)
+
+
+def _compensation(folder: Path, run: Run) -> None:
+    """Give the model, the nominal model and a path of two poses."""
+    _diagnosed(folder, run)
+    run("hexdbb add backlash:4 -m model.toml today.parquet", folder)
+    run("hexdbb model new sp120 -o nominal.toml --effects none", folder)
+    run("hexdbb-run --plan thesis --rate 20 --truth hidden.toml -o before.parquet", folder)
+    poses = "x_mm,y_mm,z_mm,roll_deg,pitch_deg,yaw_deg\n0,0,260,0,0,0\n10,0,260,0,0,0\n"
+    (folder / "path.csv").write_text(poses, encoding="utf-8")
+
+
+def _planning(folder: Path, run: Run) -> None:
+    """Link the pages' plans, which commands name from the project's folder."""
+    (folder / "docs").symlink_to(ROOT / "docs")
+
+
+def _simulated_rig(folder: Path, run: Run) -> None:
+    """Write the truth file that the page shows."""
+    (folder / "truth.toml").write_text(_block("docs/simulated-rig.md", "toml"), encoding="utf-8")
+
+
+def _thesis_tables(folder: Path, run: Run) -> None:
+    run("hexdbb-run --plan thesis -o demo.parquet", folder)
+
+
+def _block(page: str, language: str) -> str:
+    """Return the first block of a page in some language."""
+    return blocks(ROOT / page, language)[0]
+
+
+PREPARED: dict[str, Callable[[Path, Run], None]] = {
+    "README.md": _readme,
+    "docs/compensation.md": _compensation,
+    "docs/discovery.md": _discovery,
+    "docs/ledger.md": _today,
+    "docs/planning.md": _planning,
+    "docs/simulated-rig.md": _simulated_rig,
+    "docs/thesis-tables.md": _thesis_tables,
+}

@@ -1,6 +1,6 @@
 """Whether a command printed what a page shows.
 
-``...`` alone on a line stands for any number of lines, at the end of a line for its rest. White space may differ.
+``...`` alone on a line stands for any number of lines, within a line for any number of words. White space may differ.
 Numbers may differ by one unit of their last place or by `RELATIVE`: another processor sums in another order, and a fit
 ends an iteration earlier. Speeds of the computer are not compared.
 """
@@ -36,17 +36,15 @@ def first_difference(expected: Sequence[str], printed: Sequence[str]) -> str | N
 
 
 def _same(shown: str, line: str) -> bool:
-    shown, line = SPEED.sub("", shown), SPEED.sub("", line)
-    if shown.rstrip().endswith("..."):
-        shown = shown.rstrip().removesuffix("...")
-        words, others = _words(shown), _words(line)[: len(_words(shown))]
-    else:
-        words, others = _words(shown), _words(line)
-    return len(words) == len(others) and all(map(_same_word, words, others))
+    return _same_words(SPEED.sub("", shown).split(), SPEED.sub("", line).split())
 
 
-def _words(line: str) -> list[str]:
-    return line.split()
+def _same_words(shown: Sequence[str], printed: Sequence[str]) -> bool:
+    if not shown:
+        return not printed
+    if shown[0].rstrip(",") == "...":
+        return any(_same_words(shown[1:], printed[k:]) for k in range(len(printed) + 1))
+    return bool(printed) and _same_word(shown[0], printed[0]) and _same_words(shown[1:], printed[1:])
 
 
 def _same_word(shown: str, printed: str) -> bool:

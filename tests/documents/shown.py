@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-BLOCK = re.compile(r"^```\n(.*?)^```$", flags=re.MULTILINE | re.DOTALL)
+FENCED = re.compile(r"^```(\w*)\n(.*?)^```$", flags=re.MULTILINE | re.DOTALL)
+"""Language and lines of a block. Blocks of a language match too, so that none ends where another begins."""
 TYPED = re.compile(r"^(?:hexdbb|hexdbb-run|make|python|\.|cmake|pip|cat|cd|source|git) ")
 
 
@@ -23,10 +24,14 @@ class Shown:
     output: tuple[str, ...] | None
 
 
+def blocks(page: Path, language: str = "") -> list[str]:
+    """Return the blocks of a page that are in a language, or in none."""
+    return [text for named, text in FENCED.findall(page.read_text(encoding="utf-8")) if named == language]
+
+
 def shown_commands(page: Path) -> list[Shown]:
     """Return the commands of a page in the order in which they stand."""
-    text = page.read_text(encoding="utf-8")
-    return [each for block in BLOCK.findall(text) for each in _of_block(block.splitlines())]
+    return [each for block in blocks(page) for each in _of_block(block.splitlines())]
 
 
 def _of_block(lines: list[str]) -> Iterator[Shown]:

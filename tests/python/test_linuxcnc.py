@@ -179,7 +179,7 @@ def test_a_wrong_file_is_refused_by_name(
         ("", "no compensation named (expected compensation=FILE.hexcomp or without_compensation=1)"),
         ("compensation=none.hexcomp", "compensation refused: cannot_read: none.hexcomp: "),
         ("compensation=sp120.hexcomp leg_length_mm=long", "leg_length_mm=long (expected a finite number)"),
-        ("without_compensation=1 leg_length_mm=-4", "bad_argument: no such machine can stand"),
+        ("without_compensation=1 leg_length_mm=-4", "bad_argument: no machine of these dimensions can be assembled"),
     ],
     ids=["none_named", "no_such_file", "no_number", "no_machine"],
 )

@@ -23,7 +23,7 @@ from tests.truth.forms.labels import Label
 from tests.truth.forms.sizes import UnreachableSizeError
 
 from hexdbb import _core
-from hexdbb.discovery.judging import judging_noise
+from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search

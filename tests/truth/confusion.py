@@ -102,7 +102,7 @@ def _is_right(one: Case, found: Discovery) -> bool:
         return found.verdict == "none"
     if not one.catalogued:
         return found.verdict == "unknown"
-    named = {found.best.effect, *found.ambiguous_with} if found.best is not None else set()
+    named = {found.best.effect, *(each.partition(":")[0] for each in found.ambiguous_with)} if found.best is not None else set()
     return bool(named & set(one.kinds))
 
 

@@ -22,6 +22,12 @@ struct Identifiability {
 /// Factor a scaled Jacobian. The rank counts singular values above `relative` times the largest and above `absolute`.
 Identifiability identifiability(const RowMajorMatrix& scaled_jacobian, double relative, double absolute);
 
+/// Return J'J of the unknowns `wanted`, what the unknowns `nuisance` can explain projected out: the Schur complement,
+/// with the pseudo-inverse where the nuisance unknowns are redundant. Indices into `information`; std::invalid_argument
+/// where one is out of range.
+Eigen::MatrixXd schur_complement(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& wanted,
+                                 const std::vector<Eigen::Index>& nuisance);
+
 /// Compute the same from J'J alone, for the unknowns `wanted`, what the unknowns `nuisance` can explain projected out.
 /// Singular values below about 1e-8 of the largest are lost in rounding, so `relative` should stay well above.
 Identifiability identifiability_of(const Eigen::MatrixXd& information, const std::vector<Eigen::Index>& wanted,

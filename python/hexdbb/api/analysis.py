@@ -101,6 +101,8 @@ def discover(
     model: Model,
     candidates: Sequence[str] | None = None,
     progress: Callable[[str], None] = lambda _: None,
+    *,
+    matters_um: float | None = None,
 ) -> Discovery:
     """Decide whether anything is missing from a model, and which physical effect it is.
 
@@ -109,14 +111,17 @@ def discover(
     measured : Record, sequence of Record, or Samples
     model : Model
     candidates : sequence of str, optional
-        Effects to try; all that are not in the model where not given.
+        Known effects to try, beside what is learned from the readings; all that are not in the model where not given.
     progress : callable
         Called with what is being done.
+    matters_um : float, optional
+        Unexplained RMS, µm, below which nothing is missing that matters; a quarter of the noise, or a thousandth of
+        the reading error that the model explains, where not given.
 
     Returns
     -------
     Discovery
-        `verdict`, `sentence`, `candidates`; `best.choice` is what `add_effect` takes.
+        `verdict`, `sentence`, `causes`, `candidates`; `best.choice` is what `add_effect` takes.
 
     Raises
     ------
@@ -125,14 +130,18 @@ def discover(
     RunError
         The model itself cannot be fitted.
     """
-    return discovery.discover(table_of(measured), model, candidates, progress)
+    return discovery.discover(table_of(measured), model, candidates, progress, matters_um=matters_um)
 
 
 def discover_all(
-    measured: Measured, model: Model, progress: Callable[[str], None] = lambda _: None
+    measured: Measured,
+    model: Model,
+    progress: Callable[[str], None] = lambda _: None,
+    *,
+    matters_um: float | None = None,
 ) -> Iterator[AutoStep | Discovery]:
     """Add missing effects one by one until nothing is missing; yield every step, last of all the final verdict."""
-    return discovery.discover_all(table_of(measured), model, progress=progress)
+    return discovery.discover_all(table_of(measured), model, progress=progress, matters_um=matters_um)
 
 
 def add_effect(measured: Measured, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:

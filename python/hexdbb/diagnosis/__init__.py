@@ -3,19 +3,26 @@
 from hexdbb.diagnosis.extrapolation import ExpectedError, expected_error
 from hexdbb.diagnosis.fit import diagnose, evaluate_fit, refitter
 from hexdbb.diagnosis.heldout import HeldOut, Refit, as_it_is, held_out
+from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
+from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
 from hexdbb.diagnosis.mounts import fit_mounts
 from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_noise
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
 from hexdbb.diagnosis.result import Diagnosis
+from hexdbb.diagnosis.sufficiency import Sufficiency, p_shown, p_words, sufficiency
 from hexdbb.diagnosis.whiteness import is_white
 
 __all__ = [
     "Diagnosis",
     "ExpectedError",
+    "FitTest",
     "HeldOut",
+    "JudgingNoise",
+    "LackOfFit",
     "Noise",
     "PlaceUncertainty",
     "Refit",
+    "Sufficiency",
     "as_it_is",
     "diagnose",
     "evaluate_fit",
@@ -23,9 +30,13 @@ __all__ = [
     "fit_mounts",
     "held_out",
     "is_white",
+    "judging_noise",
     "lap_differences",
     "noise_of",
+    "p_shown",
+    "p_words",
     "place_uncertainty",
     "refitter",
     "stated_noise",
+    "sufficiency",
 ]

@@ -12,8 +12,9 @@ from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
+from hexdbb.diagnosis.sufficiency import sufficiency
 from hexdbb.errors import InputError, RunError
-from hexdbb.identifiability import KNOWN_PART, sentences
+from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 
@@ -34,7 +35,7 @@ def evaluate_fit(
     noise: Noise,
     *,
     robust: bool = False,
-    judging: bool = False,
+    hypothesis: bool = False,
 ) -> tuple[Model, _core.FitResult]:
     """Fit chosen values of a model, no more: no held-out circles, no words.
 
@@ -48,7 +49,7 @@ def evaluate_fit(
     noise : Noise
     robust : bool
         Huber's loss beyond `GLITCH_SIGMAS`.
-    judging : bool
+    hypothesis : bool
         A fit that only serves to compare models: it ends sooner, and its covariance is to first order.
 
     Raises
@@ -67,7 +68,7 @@ def evaluate_fit(
             free=[bool(each) for each in free],
             robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
             sweep=samples["sweep"],
-            judging=judging,
+            hypothesis=hypothesis,
         )
     except ValueError as error:
         raise InputError(f"{samples.name}: {error}") from None
@@ -121,8 +122,10 @@ def diagnose(
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
+    enough = sufficiency(samples, fitted, result.residual_mm)
     parameters = known.parameters()
     unknown = unknown_directions(result.covariance, known, result.free_columns)
+    displaced = Displacements.of(samples, known).of_values(result.free_columns)
     return Diagnosis(
         samples=samples,
         model=fitted,
@@ -140,8 +143,9 @@ def diagnose(
         residual_before_mm=predict(samples, known).residual_mm,
         residual_mm=result.residual_mm,
         held_out=checked,
-        unidentifiable=tuple(sentences(unknown, [parameters[column] for column in result.free_columns])),
-        warnings=(*either_sign, *warnings_of(fitted, result, noise, checked, expected)),
+unidentifiable=tuple(sentences(unknown, [parameters[each] for each in result.free_columns], displaced)),
+        warnings=(*either_sign, *warnings_of(fitted, result, enough, checked, expected)),
+        sufficiency=enough,
     )
 
 
@@ -149,7 +153,7 @@ def refitter(noise: Noise, robust: bool = False) -> Refit:
     """Return a function that fits a model's free values to samples."""
 
     def refit(samples: Samples, model: Model) -> Model:
-        return evaluate_fit(samples, model, model.free, noise, robust=robust, judging=True)[0]
+        return evaluate_fit(samples, model, model.free, noise, robust=robust, hypothesis=True)[0]
 
     return refit
 

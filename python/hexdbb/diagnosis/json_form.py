@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from hexdbb.files.results import Count, JsonPart, JsonResult, NotNegative, number_or_none
+from hexdbb.files.results import Count, JsonPart, JsonResult, NotNegative, Share, number_or_none
 from hexdbb.model import Model
 
 
@@ -40,6 +40,26 @@ class PlaceSigmaJson(JsonPart):
 
 
 @dataclass(frozen=True)
+class SufficiencyJson(JsonPart):
+    """Whether a model is sufficient."""
+
+    sufficient: bool
+    """Whether nothing that matters is missing."""
+    significant: bool
+    """Whether what is left differs from noise."""
+    unexplained_um: NotNegative
+    """RMS of what is left beyond the noise."""
+    matters_um: NotNegative
+    """Unexplained RMS from which it matters."""
+    level: float
+    """Excess of the residual over the noise, in standard deviations of that excess."""
+    whiteness_p: Share
+    """Probability of so smooth a residual by chance."""
+    sentence: str
+    """All of it in words."""
+
+
+@dataclass(frozen=True)
 class DiagnosisJson(JsonResult):
     """Values of a model's effects that explain measured readings best."""
 
@@ -65,6 +85,8 @@ class DiagnosisJson(JsonResult):
     """Whether the fit ended in a usable solution."""
     parameters: tuple[ValueJson, ...]
     """Every value of the model, effect by effect, element by element."""
+    sufficiency: SufficiencyJson
+    """Whether the model is sufficient: the answer of hexdbb discover."""
     unidentifiable: tuple[str, ...]
     """What the readings do not determine, in sentences."""
     warnings: tuple[str, ...]

@@ -20,6 +20,7 @@ from hexdbb.diagnosis.heldout import HeldOut
 from hexdbb.diagnosis.json_form import DiagnosisJson, PlaceSigmaJson, value_json
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
+from hexdbb.diagnosis.sufficiency import Sufficiency
 from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.files.frames import to_frame
 from hexdbb.files.plain_text import plain_text
@@ -65,6 +66,8 @@ class Diagnosis:
         None with one circle, or where it was not asked for.
     unidentifiable, warnings : tuple of str
         Sentences.
+    sufficiency : Sufficiency
+        Whether the model is sufficient; `hexdbb.discover` answers by the same.
     """
 
     samples: Samples
@@ -85,6 +88,7 @@ class Diagnosis:
     held_out: HeldOut | None
     unidentifiable: tuple[str, ...]
     warnings: tuple[str, ...]
+    sufficiency: Sufficiency
 
     @cached_property
     def place(self) -> PlaceUncertainty:
@@ -137,6 +141,7 @@ class Diagnosis:
             condition=self.condition,
             usable=self.usable,
             parameters=value_json(self.model),
+            sufficiency=self.sufficiency.to_json(),
             unidentifiable=self.unidentifiable,
             warnings=self.warnings,
             place_sigma_um=PlaceSigmaJson(self.place.median_um, self.place.worst_um),

@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import connected_components
 from hexdbb import _core
 from hexdbb.diagnosis.extrapolation import ExpectedError
 from hexdbb.diagnosis.heldout import HeldOut
-from hexdbb.diagnosis.noise import Noise
+from hexdbb.diagnosis.sufficiency import Sufficiency
 from hexdbb.model import Model, Parameter
 from hexdbb.units import readable_unit, shown_factor, shown_unit
 
@@ -22,16 +22,17 @@ FEW_READINGS = 2
 TOGETHER = 0.95
 """Correlation above which only a sum or difference of two values is known: its standard deviation is then a sixth of
 theirs."""
-LACK_OF_FIT = 1.5
-"""Residual over noise above which the model lacks something: more than the noise itself is then unexplained, as
-1.5^2 = 1 + 1.12^2."""
 NO_BETTER = 0.98
 """Part of the start's error to which the cross-validation error must fall where the training error did: 2 % is
 the scatter of a root mean square over a thousand readings."""
 
 
 def warnings_of(
-    model: Model, result: _core.FitResult, noise: Noise, checked: HeldOut | None, expected: ExpectedError | None = None
+    model: Model,
+    result: _core.FitResult,
+    enough: Sufficiency,
+    checked: HeldOut | None,
+    expected: ExpectedError | None = None,
 ) -> Iterator[str]:
     """Yield the warnings, one sentence each."""
     readings, values = len(result.residual_mm), len(result.free_columns)
@@ -39,12 +40,8 @@ def warnings_of(
         yield f"{readings} readings for {values} values: most values are prior-dominated, not measured"
     yield from _beyond_reason(model, result)
     yield from _correlated(model, result)
-    noise_um, after_um = noise.sigma_mm * 1e3, result.rms_after_mm * 1e3
-    if after_um > LACK_OF_FIT * noise_um:
-        yield (
-            f"residual {after_um:.2f} µm RMS, noise {noise_um:.2f} µm ({noise.source}): the model lacks something,"
-            " and the uncertainties are scaled up to match"
-        )
+    if enough.matters:
+        yield f"the model lacks something: {enough.sentence}; hexdbb discover looks for it"
     if checked is not None and expected is not None and expected.extrapolates:
         yield expected.sentence(checked.after_um)
         return

@@ -1,24 +1,24 @@
 """Discovery: whether anything is missing from a model, and which effect it is."""
 
-from hexdbb.discovery.auto import AutoStep, discover_all, is_needed, without_needless
-from hexdbb.discovery.discover import discover
-from hexdbb.discovery.lack_of_fit import FitTest, LackOfFit
-from hexdbb.discovery.own_effects import failing_effects
-from hexdbb.discovery.result import Candidate, Discovery, NextTest, Structure
-from hexdbb.discovery.search import absent_effects
+from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, without_needless
+from hexdbb.discovery.discover import Progress, absent_effects, discover
+from hexdbb.discovery.own_effects import require_usable_effects
+from hexdbb.discovery.result import Candidate, Cause, Discovery, GroupError, NextTest, Structure
 
 __all__ = [
     "AutoStep",
     "Candidate",
+    "Cause",
     "Discovery",
-    "FitTest",
-    "LackOfFit",
+    "GroupError",
     "NextTest",
+    "Progress",
     "Structure",
     "absent_effects",
+    "closing_sentence",
     "discover",
     "discover_all",
-    "failing_effects",
     "is_needed",
+    "require_usable_effects",
     "without_needless",
 ]

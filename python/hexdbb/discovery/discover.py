@@ -1,30 +1,37 @@
-"""See where the model fails, learn which effect is missing.
+"""See where the model fails, learn what is missing.
 
-The way of a verdict: fit the model; test what is left against noise (`lack_of_fit`); screen all absent effects at once
-to first order (`screen`); give the best a fit of their own (`search`, `trial`); judge (`verdict`).
+The model's free values are fitted and what is left is judged (`hexdbb.diagnosis.sufficiency`). Hypotheses, known and
+learned, are searched and decided by their evidence (`hexdbb.evidence`); their outcome is told here (`causes`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from hexdbb.discovery.judging import JudgingNoise, judging_noise
-from hexdbb.discovery.lack_of_fit import FitTest
-from hexdbb.discovery.own_effects import failing_effects
+import numpy as np
+
+from hexdbb import _core
+from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, judging_noise, sufficiency
+from hexdbb.discovery.causes import Told, is_form_alone, told, told_forms
+from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery
-from hexdbb.discovery.search import Progress, Search, absent_effects
-from hexdbb.discovery.trial import Base, fitted_base
 from hexdbb.discovery.unexplained import unexplained_structure
-from hexdbb.discovery.verdict import judge
+from hexdbb.discovery.words import NOTHING
 from hexdbb.errors import InputError
+from hexdbb.evidence.criteria import DEFAULT, Criteria
+from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
 from hexdbb.samples import Samples
 
-MOST_TRIED = 8
-"""So many effects get a fit of their own."""
+Progress = Callable[[str], None]
+
 LEAST_READINGS = 200
+"""Readings below which nothing is judged: a model has some forty values."""
 LEAST_SWEEPS = 2
+"""Sweeps below which no direction, circle or feed can be held out."""
 
 
 def discover(
@@ -32,8 +39,11 @@ def discover(
     model: Model,
     candidates: Sequence[str] | None = None,
     progress: Progress = lambda _: None,
+    *,
+    matters_um: float | None = None,
+    criteria: Criteria = DEFAULT,
 ) -> Discovery:
-    """Look for one missing effect.
+    """Look for what is missing from a model.
 
     Parameters
     ----------
@@ -41,46 +51,108 @@ def discover(
     model : Model
         Its free values are fitted first.
     candidates : sequence of str, optional
-        Effects to try; all that are not wholly in the model where not given.
+        Known effects to try, beside the learned hypotheses; all that are not wholly in the model where not given.
     progress : callable
         Is told what is being done.
-
-    Returns
-    -------
-    Discovery
+    matters_um : float, optional
+        Unexplained RMS below which nothing is missing that matters (`hexdbb.diagnosis.sufficiency`).
+    criteria : Criteria
+        Constants that decide.
 
     Raises
     ------
     InputError
-        Too few readings or sweeps to judge; records of another machine.
+        Too few readings or sweeps to judge; records of another machine; a candidate that is not known; an effect of
+        the user's own that fails, with file and line.
     RunError
         Where the model itself cannot be fitted.
     """
     _require_enough(samples)
+    _require_size(matters_um)
     known = model.with_mounts(samples.mounts)
+    names = _asked(known, candidates)
+    require_usable_effects(samples, known, names)
     judging = judging_noise(samples)
+    test = FitTest(samples, judging.noise)
     progress("fitting the model as it is")
-    base = fitted_base(samples, known, judging.noise)
-    asked = list(candidates) if candidates is not None else absent_effects(base.model)
-    failed = failing_effects(samples, base.model, asked)
-    names = tuple(name for name in asked if name not in failed)
-    search = Search(base, FitTest(samples, judging.noise), names, progress)
-    progress("screening all effects")
-    ranked, tried = search.ranked()
-    found = judge(search, search.trials([each for each in ranked if each.gain > 0.0][:MOST_TRIED], tried))
-    found = replace(found, remarks=(*found.remarks, *(f"left out: {error}" for error in failed.values())))
-    return _with_remark(found, base, judging)
+    engine = Engine(samples, known, judging.noise, criteria)
+
+    def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
+        return sufficiency(samples, fitted, residual_mm, noise=judging, matters_um=matters_um, test=test)
+
+    enough = judged(engine.base, engine.residual_mm)
+    if not enough.matters:
+        return _nothing(engine, enough, judging)
+    progress("screening all hypotheses, fitting the best")
+    search = Search(engine, names, criteria)
+    if is_form_alone(search, enough.matters_um):
+        return _outcome(told_forms(search), engine, enough, judging)
+    found = told(search, judge(search), judged, enough.matters_um)
+    return _outcome(found, engine, enough, judging)
 
 
-def _with_remark(found: Discovery, base: Base, judging: JudgingNoise) -> Discovery:
-    """Say what laps tell of the noise; a machine that does not repeat does not lack nothing."""
+def absent_effects(model: Model) -> list[str]:
+    """Return the effects that could be missing: known ones that the model lacks, or holds in part."""
+    partly = {term.effect for term in model.terms if not term.free.all() and not np.any(term.values[~term.free])}
+    wholly = {term.effect for term in model.terms} - partly
+    return [name for name in (*_core.effect_names("catalogue"), *model.own_effects) if name not in wholly]
+
+
+def _nothing(engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Discovery:
+    rms_um = enough.lack_of_fit.rms_um
+    sentence = f"nothing that matters is missing: {enough.sentence}" if enough.is_significant else NOTHING
+    found = Discovery("none", sentence, enough, (), (), engine.base, None, rms_um, rms_um)
+    return _with_remark(found, engine, judging)
+
+
+def _outcome(found: Told, engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Discovery:
+    remaining, residual_mm = found.remaining, found.residual_mm
+    left = enough if remaining is None else remaining
+    structure = ()
+    if found.verdict != "none" and left.matters:
+        structure = unexplained_structure(engine.samples, found.model, residual_mm, judging.noise)
+    outcome = Discovery(
+        verdict=found.verdict,
+        sentence=found.sentence,
+        sufficiency=enough,
+        causes=found.causes,
+        candidates=found.candidates,
+        model=found.model,
+        remaining=remaining,
+        rms_before_um=enough.lack_of_fit.rms_um,
+        rms_after_um=left.lack_of_fit.rms_um,
+        next_test=found.next_test,
+        structure=structure,
+        remarks=found.remarks,
+    )
+    return _with_remark(outcome, engine, judging)
+
+
+def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Discovery:
+    """Add what laps tell of the noise; a machine that does not repeat does not lack nothing."""
     if judging.remark is None:
         return found
     found = replace(found, remarks=(*found.remarks, judging.remark))
     if judging.is_steady or found.verdict != "none":
         return found
-    structure = unexplained_structure(base.samples, base.model, base.residual_mm, base.noise)
-    return replace(found, verdict="unknown", structure=structure)
+    structure = unexplained_structure(engine.samples, engine.base, engine.residual_mm, judging.noise)
+    sentence = "something changes from lap to lap that no model of the machine explains"
+    return replace(found, verdict="unknown", sentence=sentence, structure=structure)
+
+
+def _asked(model: Model, candidates: Sequence[str] | None) -> list[str]:
+    if candidates is None:
+        return absent_effects(model)
+    possible = {*_core.effect_names("catalogue"), *model.own_effects}
+    for name in candidates:
+        if name not in possible:
+            raise InputError(f"candidate {name}: not a known effect (expected one of {', '.join(sorted(possible))})")
+    return [name for name in absent_effects(model) if name in candidates]
+
+
+def _require_size(matters_um: float | None) -> None:
+    if matters_um is not None and not 0.0 <= matters_um < float("inf"):
+        raise InputError(f"matters: {matters_um:g} µm (expected a length, 0 or larger)")
 
 
 def _require_enough(samples: Samples) -> None:

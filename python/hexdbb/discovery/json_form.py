@@ -5,28 +5,71 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from hexdbb.diagnosis.json_form import SufficiencyJson
 from hexdbb.files.results import JsonPart, JsonResult, NotNegative, Share
 from hexdbb.ledger.json_form import AddedJson, SizeJson
 
 
 @dataclass(frozen=True)
-class CandidateJson(JsonPart):
-    """One hypothesis that was fitted."""
+class HeldOutJson(JsonPart):
+    """How a hypothesis predicts groups that were left out in turn."""
 
+    left_out: Literal["circle", "feed", "direction", "lap"]
+    """What a group is."""
+    before_um: NotNegative
+    """RMS error without the hypothesis."""
+    after_um: NotNegative
+    """RMS error with it."""
+    share: float
+    """Part of the unexplained mean square that it explains there; negative where it predicts worse."""
+
+
+@dataclass(frozen=True)
+class CandidateJson(JsonPart):
+    """One set of hypotheses that was fitted."""
+
+    names: tuple[str, ...]
+    """The hypotheses, as hexdbb add takes them."""
+    log_evidence: float
+    """Natural logarithm of the evidence over that of the model as it is."""
+    rms_after_um: NotNegative
+    """Root mean square residual with it, its form's deviation explained."""
+    share: float
+    """Part of the unexplained mean square that it explains where it was fitted."""
+    heldout: tuple[HeldOutJson, ...]
+    """The same where it was not fitted; empty where that was not looked at."""
+    refused: tuple[str, ...]
+    """Why it is not admissible, in sentences; empty where it is."""
+
+
+@dataclass(frozen=True)
+class CauseJson(JsonPart):
+    """One cause of what is missing."""
+
+    choice: str
+    """As hexdbb add takes it."""
     effect: str
     """Name of the effect."""
     elements: tuple[int | str, ...]
     """Its elements, counted from 1; sides of the platform by their names."""
-    rms_after_um: NotNegative
-    """Root mean square residual with it."""
-    bic_drop: float
-    """Decrease of the Bayesian information criterion."""
-    p_value: Share
-    """Corrected for all candidates tried."""
+    verdict: Literal["effect", "ambiguous", "none", "unknown"]
+    """On this cause alone."""
     share: float
-    """Part of what the model leaves unexplained that it explains."""
+    """Part of the unexplained mean square that is left without it."""
+    margin: float
+    """Log evidence over the best explanation of another kind."""
+    form_deviation: NotNegative
+    """How far the machine's form is from the effect's, as a part of its size."""
+    refinements: tuple[str, ...]
+    """Learned functions at its place that describe the deviation."""
+    alike: tuple[str, ...]
+    """The same effect at other elements, which explains the readings as well."""
+    rivals: tuple[str, ...]
+    """Of another kind, that explain the readings as well."""
     parameters: tuple[SizeJson, ...]
     """Its values."""
+    clause: str
+    """It in words."""
 
 
 @dataclass(frozen=True)
@@ -75,32 +118,42 @@ class StructureJson(JsonPart):
 
 @dataclass(frozen=True)
 class DiscoveryJson(JsonResult):
-    """Which effect is missing from a model."""
+    """What is missing from a model."""
 
-    SCHEMA = "hexdbb.discover/1"
+    SCHEMA = "hexdbb.discover/2"
 
     verdict: Literal["effect", "ambiguous", "none", "unknown"]
-    """effect: it is known which; ambiguous: several are confounded; none: what is left is noise; unknown: no known
-    effect explains it."""
+    """effect: it is known which; ambiguous: several are confounded; none: nothing that matters is missing; unknown: no
+    known effect explains it."""
+    sentence: str
+    """The answer in one sentence."""
     noise_um: NotNegative
     """Standard deviation of one reading."""
     rms_before_um: NotNegative
     """Root mean square residual of the model."""
     rms_after_um: NotNegative
-    """With the best candidate."""
+    """With the known causes, in their exact form."""
     heldout_before_um: NotNegative | None
-    """On held-out circles; null with one circle."""
+    """On held-out circles; null with one circle, or without causes."""
     heldout_after_um: NotNegative | None
-    """With the best candidate."""
+    """With the causes."""
+    sufficiency: SufficiencyJson
+    """Whether the model is sufficient as it is: the answer of hexdbb diagnose."""
+    causes: tuple[CauseJson, ...]
+    """What is missing, the largest first."""
     candidates: tuple[CandidateJson, ...]
-    """Best first."""
+    """Hypotheses fitted: those of the verdict first, then by evidence."""
+    remaining: SufficiencyJson | None
+    """What remains with the known causes; null without any."""
     ambiguous_with: tuple[str, ...]
-    """Names of effects confounded with the best."""
+    """What explains the readings as well as the first cause."""
     next_test: NextTestJson | None
     """Circle that would separate the candidates."""
     structure: tuple[StructureJson, ...]
     """Predictors of the remaining residual, largest share first."""
     remarks: tuple[str, ...]
-    """Remarks, in sentences; effects of the user's own that were left out, with file and line."""
+    """Remarks, in sentences."""
     steps: tuple[AddedJson, ...]
     """With --auto, what was done to the model, as hexdbb add prints it, schema aside; the rest is the last verdict."""
+    closing: str | None
+    """With --auto, what was found and what is left, in one sentence."""

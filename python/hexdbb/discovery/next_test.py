@@ -17,8 +17,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.discovery.result import Candidate, NextTest
-from hexdbb.discovery.trial import Base
+from hexdbb.diagnosis import Noise
+from hexdbb.discovery.result import NextTest
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import Model
@@ -38,8 +38,21 @@ YAWS_DEG = (-15.0, 0.0, 15.0)
 FEEDS_MM_MIN = (300.0, 1000.0, 3000.0)
 
 
-def next_test(base: Base, best: Candidate, other: Candidate) -> NextTest | None:
-    """Find the circle that tells two candidates apart best.
+def next_test(
+    samples: Samples, noise: Noise, models: tuple[Model, Model], names: tuple[str, str]
+) -> NextTest | None:
+    """Find the circle that tells two explanations apart best.
+
+    Parameters
+    ----------
+    samples : Samples
+        That both explain.
+    noise : Noise
+        Of one reading.
+    models : tuple of two Models
+        Fitted to the samples.
+    names : tuple of two str
+        What they are called.
 
     Returns
     -------
@@ -47,17 +60,18 @@ def next_test(base: Base, best: Candidate, other: Candidate) -> NextTest | None:
         None where no circle in reach shows a difference of a standard deviation.
     """
     found: NextTest | None = None
-    like = base.samples.records[0]
-    free = np.flatnonzero(best.model.free)
-    prior = best.model.prior_sigma[free]
-    information = _information(base, best.model)[np.ix_(free, free)] + np.diag(prior**-2.0)
+    like = samples.records[0]
+    free = np.flatnonzero(models[0].free)
+    prior = models[0].prior_sigma[free]
+    information = normal_equations(samples, models[0]).information[np.ix_(free, free)] / noise.sigma_mm**2
+    information = information + np.diag(prior**-2.0)
     for circle, feed in _circles(like):
         record = _imagined(like, circle, feed)
         if record is None:
             continue
-        sigmas = _difference(base, record, (best.model, other.model), information)
+        sigmas = _difference(noise, record, models, information)
         if sigmas > max(1.0, 0.0 if found is None else found.expected_sigmas):
-            found = NextTest(circle, feed, sigmas, (best.effect, other.effect))
+            found = NextTest(circle, feed, sigmas, names)
     return found
 
 
@@ -101,7 +115,7 @@ def _imagined(like: Record, circle: Circle, feed_mm_min: float) -> Record | None
     return replace(like, columns=columns, circles=(*like.circles, circle), path=None, whole_hash=like.content_hash())
 
 
-def _difference(base: Base, record: Record, models: tuple[Model, Model], information: Floats) -> float:
+def _difference(noise: Noise, record: Record, models: tuple[Model, Model], information: Floats) -> float:
     """Distance of two models' readings in sigmas; `information` is what the records tell of the first's values."""
     first, second = models
     try:
@@ -110,14 +124,9 @@ def _difference(base: Base, record: Record, models: tuple[Model, Model], informa
     except (ValueError, InputError):  # no pose, a state that an effect needs, or a user's effect that fails there
         return 0.0
     difference: Floats = one.reading_mm - other.reading_mm
-    noise = base.noise.sigma_mm / np.sqrt(READINGS_PER_SAMPLE)
+    sigma_mm = noise.sigma_mm / np.sqrt(READINGS_PER_SAMPLE)
     jacobian = one.jacobian[:, np.flatnonzero(first.free)]
-    explained = jacobian.T @ difference / noise**2
-    inner = information + jacobian.T @ jacobian / noise**2
-    power = float(difference @ difference) / noise**2 - float(explained @ np.linalg.solve(inner, explained))
+    explained = jacobian.T @ difference / sigma_mm**2
+    inner = information + jacobian.T @ jacobian / sigma_mm**2
+    power = float(difference @ difference) / sigma_mm**2 - float(explained @ np.linalg.solve(inner, explained))
     return float(np.sqrt(max(power, 0.0)))
-
-
-def _information(base: Base, model: Model) -> Floats:
-    information: Floats = normal_equations(base.samples, model).information / base.noise.sigma_mm**2
-    return information

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hexdbb.effects import UserEffect, UserEffectError
+from hexdbb.effects import UserEffect
 from hexdbb.model import Model
 from hexdbb.samples import Samples
 
 
-def failing_effects(samples: Samples, model: Model, names: Sequence[str]) -> dict[str, UserEffectError]:
-    """Return what is wrong with those of a model's own effects that cannot be used on some samples.
+def require_usable_effects(samples: Samples, model: Model, names: Sequence[str]) -> None:
+    """Check that those of a model's own effects that are to compete can be used on some samples.
 
     Parameters
     ----------
@@ -19,17 +19,12 @@ def failing_effects(samples: Samples, model: Model, names: Sequence[str]) -> dic
     names : sequence of str
         Effects to check; the engine's among them are always good.
 
-    Returns
-    -------
-    dict of str to UserEffectError
-        By name; the error names file and line: the function raises, or returns a wrong shape, a value that is not
-        finite, or the same push in every sample.
+    Raises
+    ------
+    UserEffectError
+        Naming file and line of the first that is wrong: the function raises, or returns a wrong shape, a value that is
+        not finite, or the same push in every sample.
     """
-    failed = {}
     for name, each in model.own_effects.items():
         if name in names and isinstance(each, UserEffect):
-            try:
-                each.require_usable(samples)
-            except UserEffectError as error:
-                failed[name] = error
-    return failed
+            each.require_usable(samples)

@@ -1,64 +1,130 @@
-"""What a discovery found: a verdict, the candidates behind it, and what to do next."""
+"""What a discovery found: a verdict, the causes, the evidence behind them, what remains, and what to do next."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Literal
 
-from hexdbb.diagnosis import Diagnosis
-from hexdbb.discovery.json_form import CandidateJson, DiscoveryJson, NextTestJson, StructureJson
-from hexdbb.discovery.lack_of_fit import LackOfFit
+from hexdbb.diagnosis import Diagnosis, LackOfFit, Sufficiency
+from hexdbb.discovery.json_form import (
+    CandidateJson,
+    CauseJson,
+    DiscoveryJson,
+    HeldOutJson,
+    NextTestJson,
+    StructureJson,
+)
 from hexdbb.ledger.json_form import SizeJson, added_json
 from hexdbb.model import Model, Size
 from hexdbb.plan import Circle
 
 Verdict = Literal["effect", "ambiguous", "none", "unknown"]
 
-MEANING: dict[Verdict, str] = {
-    "effect": "an effect is missing, and it is known which",
-    "ambiguous": "an effect is missing; several explain these readings alike",
-    "none": "nothing is missing: what is left is noise",
-    "unknown": "something is missing that no known effect explains",
-}
+
+@dataclass(frozen=True)
+class GroupError:
+    """RMS error where a grouping's groups were left out in turn, without and with the hypotheses, µm."""
+
+    before_um: float
+    after_um: float
+    share: float
+    """Explained part of what is beyond the noise."""
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """An effect tried by a fit of its own.
+    """A set of hypotheses, mostly one, that was fitted.
 
-    `share` is the part of what the model leaves unexplained that it explains; `model` the fitted model with the
-    effect in it; `p_value` is corrected for all candidates tried (Holm 1979).
+    Attributes
+    ----------
+    names : tuple of str
+        Each as `hexdbb add` takes it.
+    log_evidence : float
+        Natural logarithm of its evidence over that of the model as it is, multiplicity included.
+    rms_after_um : float
+        Residual with it, its form's deviation explained.
+    share : float
+        Part of the unexplained mean square that it explains where fitted.
+    heldout : mapping of str to GroupError
+        By what was left out: circle, feed, direction, lap.
+    refused : tuple of str
+        Why it is not admissible.
     """
 
-    effect: str
-    elements: tuple[str, ...]
+    names: tuple[str, ...]
+    log_evidence: float
     rms_after_um: float
-    chi_square_drop: float
-    bic_drop: float
-    p_value: float
     share: float
-    values: tuple[Size, ...]
-    model: Model
+    heldout: Mapping[str, GroupError]
+    refused: tuple[str, ...]
 
     @property
     def choice(self) -> str:
-        """The words for `hexdbb add`."""
-        whole = self.elements == tuple(self.model.info(self.effect).elements)
-        return self.effect if whole else ":".join((self.effect, *self.elements))
+        """All names, joined."""
+        return " + ".join(self.names)
 
     def to_json(self) -> CandidateJson:
         """Return one entry of `candidates`."""
         return CandidateJson(
-            effect=self.effect,
-            elements=tuple(int(each) if each.isdecimal() else each for each in self.elements),
+            names=self.names,
+            log_evidence=self.log_evidence,
             rms_after_um=self.rms_after_um,
-            bic_drop=self.bic_drop,
-            p_value=self.p_value,
             share=self.share,
-            parameters=tuple(SizeJson(**vars(each)) for each in self.values),
+            heldout=tuple(HeldOutJson(left_out=name, **vars(each)) for name, each in self.heldout.items()),
+            refused=self.refused,
         )
+
+
+@dataclass(frozen=True)
+class Cause:
+    """One cause of what is missing.
+
+    Attributes
+    ----------
+    choice : str
+        As `hexdbb add` takes it.
+    effect : str
+        Name of the effect; of a learned one the same as `choice`.
+    elements : tuple of str
+    verdict : str
+        On this cause alone: `effect`, `ambiguous`, or `unknown` where it is learned and has no known name.
+    share : float
+        Part of the unexplained mean square that is left where it is taken out.
+    margin : float
+        Log evidence over the best explanation of another kind.
+    form_deviation : float
+        How far the machine's form is from the effect's, as a part of its size.
+    refinements : tuple of str
+        Learned functions at its place that describe the deviation.
+    alike : tuple of str
+        The same effect at other elements, which explains the readings as well.
+    rivals : tuple of str
+        Of another kind, that explain the readings as well.
+    values : tuple of Size
+    clause : str
+        It in words.
+    """
+
+    choice: str
+    effect: str
+    elements: tuple[str, ...]
+    verdict: Verdict
+    share: float
+    margin: float
+    form_deviation: float
+    refinements: tuple[str, ...]
+    alike: tuple[str, ...]
+    rivals: tuple[str, ...]
+    values: tuple[Size, ...]
+    clause: str
+
+    def to_json(self) -> CauseJson:
+        """Return one entry of `causes`."""
+        keys = {name: value for name, value in vars(self).items() if name not in ("values", "elements")}
+        elements = tuple(int(each) if each.isdecimal() else each for each in self.elements)
+        return CauseJson(**keys, elements=elements, parameters=tuple(SizeJson(**vars(each)) for each in self.values))
 
 
 @dataclass(frozen=True)
@@ -110,59 +176,113 @@ class NextTest:
 
 @dataclass(frozen=True, repr=False)
 class Discovery:
-    """Outcome of one look for a missing effect; `candidates` best first, the first the one to add."""
+    """Outcome of one look for what is missing.
+
+    Attributes
+    ----------
+    verdict : str
+        `none`, `effect`, `ambiguous` or `unknown`.
+    sentence : str
+        The answer for whoever fits the machine.
+    sufficiency : Sufficiency
+        Of the model as it is.
+    causes : tuple of Cause
+        What is missing, the largest first; none where the verdict is `none`, or where nothing tried explains it.
+    candidates : tuple of Candidate
+        Hypotheses fitted: those of the verdict first, then by evidence.
+    model : Model
+        With the known causes, fitted.
+    remaining : Sufficiency or None
+        Of that model: what remains; None where no known cause was found.
+    rms_before_um, rms_after_um : float
+        Residual of the model as it is, and with the known causes in their exact form.
+    next_test : NextTest or None
+        The circle that tells the first cause from its first rival, where the verdict is `ambiguous`.
+    structure : tuple of Structure
+        Predictors of the residual that remains.
+    remarks : tuple of str
+        Sentences.
+    """
 
     verdict: Verdict
-    lack_of_fit: LackOfFit
+    sentence: str
+    sufficiency: Sufficiency
+    causes: tuple[Cause, ...]
+    candidates: tuple[Candidate, ...]
+    model: Model
+    remaining: Sufficiency | None
     rms_before_um: float
     rms_after_um: float
-    heldout_before_um: float | None
-    heldout_after_um: float | None
-    candidates: tuple[Candidate, ...]
-    ambiguous_with: tuple[str, ...]
-    next_test: NextTest | None
-    structure: tuple[Structure, ...]
+    next_test: NextTest | None = None
+    structure: tuple[Structure, ...] = ()
     remarks: tuple[str, ...] = ()
 
     @property
-    def best(self) -> Candidate | None:
-        """The candidate the verdict is about."""
-        return self.candidates[0] if self.verdict in ("effect", "ambiguous") else None
+    def best(self) -> Cause | None:
+        """The cause the verdict is about, where it is a known one."""
+        return self.causes[0] if self.verdict in ("effect", "ambiguous") else None
 
     @property
-    def sentence(self) -> str:
-        """The verdict in words."""
-        best = self.best
-        named = f": {best.choice}" if best is not None else ""
-        others = f" (or {', '.join(self.ambiguous_with)})" if self.ambiguous_with else ""
-        return f"{MEANING[self.verdict]}{named}{others}"
+    def lack_of_fit(self) -> LackOfFit:
+        """Of the model as it is."""
+        return self.sufficiency.lack_of_fit
+
+    @property
+    def ambiguous_with(self) -> tuple[str, ...]:
+        """What else explains the readings as well as the first cause."""
+        return self.causes[0].rivals if self.verdict == "ambiguous" else ()
+
+    @property
+    def heldout(self) -> Mapping[str, GroupError]:
+        """How the causes predict what was left out."""
+        return self.candidates[0].heldout if self.causes and self.candidates else {}
+
+    @property
+    def heldout_before_um(self) -> float | None:
+        """RMS error on held-out circles without the causes; None with one circle, or without causes."""
+        return self.heldout["circle"].before_um if "circle" in self.heldout else None
+
+    @property
+    def heldout_after_um(self) -> float | None:
+        """RMS error on held-out circles with the causes."""
+        return self.heldout["circle"].after_um if "circle" in self.heldout else None
 
     def __repr__(self) -> str:
         lack = self.lack_of_fit
-        return f"<Discovery: {self.sentence}; residual {lack.rms_um:.2f} µm RMS, noise {lack.noise_um:.2f} µm>"
+        return (
+            f"<Discovery: {self.verdict}: {self.sentence}; residual {lack.rms_um:.2f} µm RMS,"
+            f" noise {lack.noise_um:.2f} µm>"
+        )
 
-    def to_json(self, steps: Sequence[Diagnosis] = ()) -> dict[str, Any]:
-        """Return the object that ``hexdbb discover --json`` prints; `steps` are those of ``--auto``."""
+    def to_json(self, steps: Sequence[Diagnosis] = (), closing: str | None = None) -> dict[str, Any]:
+        """Return the object that ``hexdbb discover --json`` prints; `steps` and `closing` are those of ``--auto``."""
         return DiscoveryJson(
             verdict=self.verdict,
+            sentence=self.sentence,
             noise_um=self.lack_of_fit.noise_um,
             rms_before_um=self.rms_before_um,
             rms_after_um=self.rms_after_um,
             heldout_before_um=self.heldout_before_um,
             heldout_after_um=self.heldout_after_um,
+            sufficiency=self.sufficiency.to_json(),
+            causes=tuple(each.to_json() for each in self.causes),
             candidates=tuple(each.to_json() for each in self.candidates),
+            remaining=None if self.remaining is None else self.remaining.to_json(),
             ambiguous_with=self.ambiguous_with,
             next_test=None if self.next_test is None else self.next_test.to_json(),
             structure=tuple(each.to_json() for each in self.structure),
             remarks=self.remarks,
             steps=tuple(added_json(each) for each in steps),
+            closing=closing,
         ).to_json()
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f"<tr><td>{escape(each.choice)}</td><td>{each.rms_after_um:.2f}</td><td>{each.bic_drop:,.0f}</td>"
-            f"<td>{each.share:.0%}</td><td>{each.p_value:.1g}</td></tr>"
+            f"<tr><td>{escape(each.choice)}</td><td>{each.log_evidence:,.0f}</td><td>{each.share:.0%}</td>"
+            f"<td>{each.rms_after_um:.2f}</td><td>{escape('; '.join(each.refused))}</td></tr>"
             for each in self.candidates
         )
-        head = "<tr><th>effect</th><th>RMS after, µm</th><th>BIC drop</th><th>share</th><th>p</th></tr>"
+        head = (
+            "<tr><th>hypothesis</th><th>log evidence</th><th>explains</th><th>RMS after, µm</th><th>refused</th></tr>"
+        )
         return f"<p><b>{escape(self.sentence)}</b></p><table>{head}{rows}</table>"

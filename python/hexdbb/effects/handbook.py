@@ -18,6 +18,12 @@ GROUPS = {
 }
 """Groups of effects and their headings, in the order of the index."""
 MADE = "Made by `hexdbb effects handbook`; do not edit.\n"
+SYMBOLS = (
+    "Left: the [port](../glossary.md#models) that is pushed. Right: parameters of the effect, "
+    "[columns of the state](../glossary.md#columns-of-the-state) without their units, and s, the slider coordinate."
+)
+SOURCES = "../../cpp/src/effects"
+"""Folder of the effects' source files, seen from the pages; each file is called as its effect."""
 CAPTION = (
     "Change of the reading on the thesis' level circle, run 0.1 mm off the bar's length, with {sizes}, one at a time, "
     "at element {element}; left against the polar angle, right magnified about the circle."
@@ -54,17 +60,20 @@ def _index(infos: list[_core.EffectInfo]) -> str:
 
 
 def _page(info: _core.EffectInfo) -> str:
-    lines = [f"# {info.name}", "", MADE, info.physics, "", f"Source: {info.source}."]
-    lines += ["", "| | |", "|---|---|", f"| elements | {_elements(info)} |", f"| pushes at | {', '.join(info.ports)} |"]
+    lines = [f"# {info.name}", "", MADE, info.physics, "", f"    {info.formula}", "", SYMBOLS, ""]
+    lines.append(f"Source: {info.source}. Written in [`{info.name}.cpp`]({SOURCES}/{info.name}.cpp).")
+    lines += ["", "| | |", "|---|---|", f"| elements | {_elements(info)} |"]
+    lines.append(f"| pushes at | {', '.join(f'`{each}`' for each in info.ports)} |")
     lines.append(f"| depends on | {', '.join(f'`{each}`' for each in info.needs) or 'the sliders alone'} |")
-    kind = "the measurement: never compensated" if info.is_set_up else "the machine: can be compensated"
+    kind = "the measurement: never compensated" if info.is_set_up else "the machine"
     lines += [f"| belongs to | {kind} |", ""]
-    lines += ["| parameter | unit | prior standard deviation | limit |", "|---|---|---|---|"]
+    lines += ["| parameter | unit | prior standard deviation | domain |", "|---|---|---|---|"]
     for each in info.parameters:
         factor = shown_factor(each.unit)
         shape = " (shapes the others)" if each.is_shape else ""
-        sizes = f"{each.prior_sigma * factor:.4g} | {each.limit * factor:.4g}"
-        lines.append(f"| `{each.name}`{shape} | {readable_unit(shown_unit(each.unit))} | {sizes} |")
+        domain = f"{each.lower * factor:.4g} … {each.upper * factor:.4g}"
+        unit = readable_unit(shown_unit(each.unit))
+        lines.append(f"| `{each.name}`{shape} | {unit} | {each.prior_sigma * factor:.4g} | {domain} |")
     drawn = ", ".join(f"{each.name} = {shown_size(each)}" for each in info.parameters if not each.is_shape)
     lines += ["", f"![What {info.name} does to a circle](images/{info.name}.png)", ""]
     lines += [CAPTION.format(sizes=drawn, element=info.elements[0]), ""]

@@ -67,11 +67,6 @@ class Criteria:
         Part of the unexplained by which a known effect may lag behind the learned function that contains it.
     secondary : float
         Factor on the variance that the forms of the causes found may leave, which a further cause must exceed.
-    matters_of_noise : float
-        Unexplained RMS over the noise of one reading below which it does not matter by default: the circle's form is
-        then told by the noise, not by what is missing.
-    matters_of_explained : float
-        The same over the reading error that the model explains.
     """
 
     max_rows: int = 12000
@@ -101,8 +96,6 @@ class Criteria:
     form_limit: float = 0.5
     same_kind_share: float = 0.05
     secondary: float = 1.0
-    matters_of_noise: float = 0.25
-    matters_of_explained: float = 0.001
 
 
 DEFAULT = Criteria()

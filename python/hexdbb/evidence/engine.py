@@ -109,7 +109,7 @@ class Engine:
 
     def __init__(self, samples: Samples, model: Model, noise: Noise, criteria: Criteria = DEFAULT) -> None:
         self.samples, self.noise = samples, noise
-        self.base, result = evaluate_fit(samples, model, model.free, noise, judging=True)
+        self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
         self.residual_mm = result.residual_mm
         begin, count = _blocks(samples["sweep"], criteria.max_rows)
         chosen = begin + count // 2
@@ -153,7 +153,7 @@ class Engine:
             noise_mm=float(np.mean(self.row_noise_mm)) * float(np.sqrt(len(fewer) / len(self.reading_mm))),
             free=[bool(each) for each in model.free],
             sweep=part["sweep"],
-            judging=True,
+            hypothesis=True,
         )
         if not result.usable:
             raise RunError(f"{self.samples.name}: the fit did not succeed: {result.termination}")
@@ -197,6 +197,22 @@ class Engine:
         sigmas = np.array([each.prior_sigma for _, each in wanted])
         table: Floats = jacobian[:, columns] * sigmas / self.row_noise_mm[:, None]
         return table, [(each.effect, each.element, each.name, each.prior_sigma) for _, each in wanted]
+
+    def present(self) -> list[tuple[str, tuple[str, ...], bool]]:
+        """Return the catalogue's and the user's effects that the base has free: effect, element, if it has no other."""
+        base = self.base
+        mine = self._mine()
+        free = [each for each, is_free in zip(base.parameters(), base.free, strict=True) if is_free]
+        found = dict.fromkeys((each.effect, each.element) for each in free if each.effect in mine)
+        return [(effect, (element,), len(base.info(effect).elements) == 1) for effect, element in found]
+
+    def geometry(self, fitted: Fitted) -> NDArray[np.bool_]:
+        """Return which free values are geometry's or the set-up's: all but those of effects that could be missing."""
+        parameters, mine = fitted.model.parameters(), self._mine()
+        return np.array([parameters[column].effect not in mine for column in fitted.free], dtype=bool)
+
+    def _mine(self) -> set[str]:
+        return {*_core.effect_names("catalogue"), *self.base.own_effects}
 
     def with_effect(self, model: Model, effect: str, elements: Sequence[str]) -> Model:
         """Return the model with some elements of an effect of the catalogue free as well, at zero."""

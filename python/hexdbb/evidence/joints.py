@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.kinematics import engine_machine
+from hexdbb.kinematics import engine_machine, forward
 from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
@@ -20,7 +20,8 @@ Floats = NDArray[np.float64]
 
 def joint_state(samples: Samples) -> dict[str, Floats]:
     """Return the legs' swing (rad) and its rate (rad/s), the bar's angle in the platform, yaw and tilt."""
-    position_mm, rotation, sliders_mm = samples.position_mm, samples.rotation, samples["sliders_mm"]
+    sliders_mm = samples["sliders_mm"]
+    position_mm, rotation, _ = forward(samples.machine, sliders_mm)
     nominal = engine_machine(samples.machine)
     swing = np.empty(sliders_mm.shape)
     for leg in range(6):

@@ -11,20 +11,12 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import stats
 
+from hexdbb import _core
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Fitted
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Known
 from hexdbb.units import shown_factor, shown_unit
-
-NOT_NEGATIVE = {
-    ("backlash", "play"),
-    ("reversal_spike", "height"),
-    ("servo_lag", "lag"),
-    ("gravity_sag", "compliance"),
-    ("sample_delay", "delay"),
-}
-"""Until the engine states domains (`lower`, `upper`)."""
 
 
 def outside_domain(
@@ -49,10 +41,14 @@ def outside_domain(
             continue
         value, sigma = float(fitted.model.values[column]), float(spread[place] * sigmas[column])
         shown = f"{value * shown_factor(each.unit):.3g} {shown_unit(each.unit)}"
-        if (each.effect, each.name) in NOT_NEGATIVE:
+        if _is_one_sided(fitted.model.info(each.effect), each.name):
             change += float(np.log(2.0) + stats.norm.logcdf(value / sigma))
             if value < -criteria.domain_sigmas * sigma:
                 refused.append(f"negative {each.name} ({each.element}: {shown})")
         if abs(value) > each.limit:
             refused.append(f"{each.name} beyond its limit ({each.element}: {shown})")
     return tuple(refused), change
+
+
+def _is_one_sided(info: _core.EffectInfo, name: str) -> bool:
+    return any(each.name == name and each.lower >= 0.0 for each in info.parameters)

@@ -8,7 +8,7 @@ so that two faults of one size, of which either alone explains half, are found t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,7 +18,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.families import Learned, learned_hypotheses
+from hexdbb.evidence.families import ALL, Learned, learned_hypotheses
 from hexdbb.evidence.homes import SAME_FORM, Homes
 from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear, Thinned
@@ -73,12 +73,15 @@ class Search:
     """All sets tried."""
 
     def __post_init__(self) -> None:
-        linear = self.engine.linearised(self.engine.base).linear
+        fitted = self.engine.linearised(self.engine.base)
+        geometry = self.engine.geometry(fitted)
+        # An effect that the model has already has its home too: what its own values take away is not geometry's.
+        linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
         self.thinned = Thinned(readings)
         self.homes = Homes(linear, self.thinned, self.hypotheses)
-        self.trials = Trials(self.engine, self.homes, self.criteria, self.known)
+        self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
@@ -94,6 +97,29 @@ class Search:
             name = Known(effect, (element,), self._is_whole(effect)).name
             found.setdefault(name, set()).update(each.hypothesis.name for each in homes)
         return found
+
+    @cached_property
+    def present(self) -> dict[str, list[Learned]]:
+        """Learned hypotheses that contain the effects which the model has already, by the element's name."""
+        fitted = self.engine.linearised(self.engine.base)
+        geometry, parameters = self.engine.geometry(fitted), fitted.model.parameters()
+        found: dict[str, list[Learned]] = {}
+        for place in np.flatnonzero(~geometry):
+            each = parameters[fitted.free[place]]
+            name = Known(each.effect, (each.element,), self._is_whole(each.effect)).name
+            homes = self.homes.of(fitted.linear.own[:, place])
+            found.setdefault(name, []).extend(home.hypothesis for home in homes)
+        return found
+
+    def refined(self, hypothesis: Hypothesis) -> str:
+        """Return the effect of the model at whose place a learned hypothesis acts; empty where there is none."""
+        if isinstance(hypothesis, Known):
+            return ""
+        for name, homes in self.present.items():
+            for home in homes:
+                if home.place == hypothesis.place and home.element in (hypothesis.element, ALL):
+                    return name
+        return ""
 
     def run(self) -> Node:
         """Return the best set of hypotheses; the empty one where nothing is found."""

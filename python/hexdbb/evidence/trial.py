@@ -73,8 +73,6 @@ class Trial:
         Why a member is not admissible, one sentence each.
     left : float
         Mean square of the residual in noise variances, discrepancies explained.
-    present : tuple of Form or None
-        Of the effects that were in the model before, one an element.
     """
 
     members: tuple[Member, ...]
@@ -83,7 +81,8 @@ class Trial:
     forms: tuple[Form | None, ...]
     refused: tuple[str, ...]
     left: float
-    present: tuple[Form | None, ...] = ()
+    present: tuple[tuple[str, Form], ...] = ()
+    """Effects that the model had before, each with its form."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -99,14 +98,12 @@ class Trials:
     engine : Engine
     homes : Homes
     criteria : Criteria
-    known : sequence of str
-        Effects that may be the cause; those that are in the model already have their discrepancies beside them.
     """
 
-    def __init__(self, engine: Engine, homes: Homes, criteria: Criteria, known: Sequence[str] = ()) -> None:
+    def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
-        self.present = _present(engine.base, known)
         self._known: dict[frozenset[str], Trial] = {}
+        self._present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
 
     def of(self, members: Sequence[Member]) -> Trial:
@@ -134,7 +131,7 @@ class Trials:
     def explained_before(self) -> float:
         """Mean square of what the effects in the model explain that its other values do not, in noise variances."""
         fitted = self.engine.linearised(self.engine.base)
-        names = {(each.effect, each.elements[0]) for each in self.present}
+        names = {(each.effect, each.elements[0]) for each in self._present}
         every = [self.engine.base.parameters()[column] for column in fitted.free]
         own = np.array([(each.effect, each.element) in names for each in every])
         if not own.any():
@@ -147,11 +144,17 @@ class Trials:
     def _tried(self, members: tuple[Member, ...]) -> Trial:
         fitted = self._fitted(members)
         linear, forms = fitted.linear, []
-        for member in (*map(Member, self.present), *members):
+        present = []
+        for known in self._present:
+            linear, form = self._with_form(linear, fitted, Member(known))
+            if form is not None:
+                present.append((known.name, form))
+        for member in members:
             linear, form = self._with_form(linear, fitted, member)
             forms.append(form)
         refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
-        prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in forms if form is not None)
+        every = [*forms, *(form for _, form in present)]
+        prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in every if form is not None)
         whole = Sums(linear, self.engine.readings, ()).whole
         change = whole.own_values()
         residual = linear.residual - linear.own @ change
@@ -163,10 +166,10 @@ class Trials:
             members=members,
             model=fitted.model,
             log_evidence=linear.log_evidence + gain + penalty + prior,
-            forms=tuple(forms[len(self.present) :]),
-            present=tuple(forms[: len(self.present)]),
+            forms=tuple(forms),
             refused=refused,
             left=float(np.mean(residual**2)),
+            present=tuple(present),
         )
 
     def _fitted(self, members: Sequence[Member]) -> Fitted:
@@ -263,12 +266,6 @@ class HeldOut:
     after: float
     share: float
     expected: float
-
-
-def _present(model: Model, known: Sequence[str]) -> list[Known]:
-    """Return the elements of known effects that are in a model and fitted."""
-    free = [each for each, is_free in zip(model.parameters(), model.free, strict=True) if is_free]
-    return [Known(*each) for each in dict.fromkeys((p.effect, (p.element,)) for p in free if p.effect in known)]
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:

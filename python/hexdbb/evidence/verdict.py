@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from hexdbb.diagnosis import Sufficiency
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
-from hexdbb.evidence.sufficiency import Sufficiency, sufficiency
+from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.trial import Member
 
 MOST_ROUNDS = 2
@@ -70,9 +71,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     ----------
     search : Search
     matters_um : float, optional
-        Unexplained RMS below which nothing matters; by `Criteria` where not given.
+        Unexplained RMS below which nothing matters; by the default of a diagnosis where not given.
     """
-    before = sufficiency(search.root.trial, search.trials, search.criteria, matters_um)
+    before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before)
     node = _in_known_words(search, search.run())

@@ -9,6 +9,7 @@ from hexdbb.identifiability.indices import (
     null_directions,
     observability,
     pivots,
+    redundant_combinations,
 )
 from hexdbb.identifiability.redundancy import KNOWN_PART, echelon, sentences
 from hexdbb.identifiability.sensitivity import (
@@ -18,9 +19,11 @@ from hexdbb.identifiability.sensitivity import (
     with_every_effect,
     with_planned_mounts,
 )
+from hexdbb.identifiability.structure import Displacements
 
 __all__ = [
     "KNOWN_PART",
+    "Displacements",
     "Expectation",
     "Observability",
     "Sensitivity",
@@ -33,6 +36,7 @@ __all__ = [
     "observability",
     "pivots",
     "plan_sensitivity",
+    "redundant_combinations",
     "sentences",
     "with_every_effect",
     "with_planned_mounts",

@@ -65,8 +65,14 @@ def observability(sensitivity: Sensitivity) -> Observability:
         o1=float(np.exp(np.log(seen).mean())) if found.rank else 0.0,
         o3=float(seen[-1]) if found.rank else 0.0,
         o4=float(seen[-1] ** 2 / seen[0]) if found.rank else 0.0,
-        unidentifiable=tuple(sentences(null_directions(sensitivity), sensitivity.where(sensitivity.free))),
+        unidentifiable=tuple(redundant_combinations(sensitivity)),
     )
+
+
+def redundant_combinations(sensitivity: Sensitivity) -> list[str]:
+    """Return in words which combinations of the free values no reading determines."""
+    free = sensitivity.free
+    return sentences(null_directions(sensitivity), sensitivity.where(free), sensitivity.displacements.of_values(free))
 
 
 def null_directions(sensitivity: Sensitivity) -> Floats:

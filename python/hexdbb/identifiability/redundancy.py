@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.identifiability.structure import named_moves
+from hexdbb.identifiability.structure import Displacements, redundancies
 from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
@@ -59,7 +59,7 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
     return rows, pivots
 
 
-def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
+def sentences(directions: Floats, parameters: Sequence[Parameter], displaced: Displacements) -> list[str]:
     """Return in words what is not identifiable, what follows from the machine's structure first.
 
     Parameters
@@ -68,13 +68,15 @@ def sentences(directions: Floats, parameters: Sequence[Parameter]) -> list[str]:
         Unidentifiable directions as columns, unknowns in units of their prior sigma.
     parameters : sequence of Parameter
         The unknowns.
+    displaced : Displacements
+        What they displace.
     """
     levers = np.array([LEVER_MM if each.unit == "rad" else 1.0 for each in parameters])
     moves_mm = directions * (levers * np.array([each.prior_sigma for each in parameters]))[:, None]
-    named = named_moves(moves_mm, parameters, levers) if directions.size else []
-    said = [redundancy.sentence for redundancy, _ in named]
+    named = redundancies(moves_mm, parameters, levers, displaced) if directions.size else []
+    said = [each.sentence for each in named]
     machine = np.array([not each.is_set_up for each in parameters])
-    rest = _beside(moves_mm, [move * machine for _, move in named])
+    rest = _beside(moves_mm, [each.move * machine for each in named])
     return said + (_generic(rest, [each.label for each in parameters]) if rest.shape[1] else [])
 
 

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.identifiability.structure import Displacements
 from hexdbb.model import Model, MountKey, Parameter, new_term
 from hexdbb.plan import CircleRun, Plan
 from hexdbb.samples import PLANNED, Samples, linearise
@@ -36,20 +38,36 @@ class Sensitivity:
         mm per engine unit of the value, rows weighted by the square root of the readings they stand for.
     readings : float
         Number of all readings.
-    parameters : tuple of Parameter
-    free : ndarray of bool, shape (size,)
-        Which values a diagnosis would fit.
+    samples : Samples
+        What the rows stand for.
+    model : Model
+        Whose `parameters` they are; its `free` values a diagnosis would fit.
     """
 
     jacobian: Floats
     readings: float
-    parameters: tuple[Parameter, ...]
-    free: Bools
+    samples: Samples
+    model: Model
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Name and nature of every value."""
+        return tuple(self.model.parameters())
+
+    @property
+    def free(self) -> Bools:
+        """Which values a diagnosis would fit, shape (size,)."""
+        return self.model.free
+
+    @cached_property
+    def displacements(self) -> Displacements:
+        """What the values displace."""
+        return Displacements.of(self.samples, self.model)
 
     @property
     def prior_sigma(self) -> Floats:
         """Prior standard deviation of every value, shape (size,)."""
-        return np.array([each.prior_sigma for each in self.parameters])
+        return self.model.prior_sigma
 
     @property
     def is_set_up(self) -> Bools:
@@ -103,7 +121,7 @@ def plan_sensitivity(
     counts = np.array([_readings(run, cycle_rate_hz) for run in runs])
     weights = np.sqrt(np.repeat(counts, samples_per_turn) / samples_per_turn)
     jacobian = _nominal_jacobian(samples, known) * weights[:, None]
-    return Sensitivity(jacobian, float(counts.sum()), tuple(known.parameters()), known.free)
+    return Sensitivity(jacobian, float(counts.sum()), samples, known)
 
 
 def measured_sensitivity(samples: Samples, model: Model) -> Sensitivity:
@@ -116,7 +134,7 @@ def measured_sensitivity(samples: Samples, model: Model) -> Sensitivity:
     """
     known = model.with_mounts(samples.mounts)
     jacobian = _nominal_jacobian(samples, known)
-    return Sensitivity(jacobian, float(len(jacobian)), tuple(known.parameters()), known.free)
+    return Sensitivity(jacobian, float(len(jacobian)), samples, known)
 
 
 def with_every_effect(model: Model) -> Model:

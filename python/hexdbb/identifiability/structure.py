@@ -1,108 +1,94 @@
-"""Redundancies that follow from the machine's structure, whatever is measured: known directions with a name.
+"""Redundancies that follow from the machine's structure, whatever is measured: found from what the values displace.
 
-A move is a direction in the space of the model's values that changes no reading to first order (docs of the geometry:
-three translations along a guideway, three rotations about the base centre, six rigid motions of base and cup). Its
-`moves` are prescribed; what `follows` is whatever completes it (where the cups stand, how far a midpoint moves): so
-the table needs no dimension of the machine. A move counts only where it lies in the null space found, never because
-it stands here.
+To first order every value displaces parts of the mechanism: joint centres on the sliders (a slider's own coordinate
+moves its joint along the guideway), legs, joints on the platform, ball, cup. Two kinds of combination change no reading
+of any test:
+
+- the same motion: values whose displacements cancel, as a guideway shifted along itself and its sliders' offsets;
+- a rigid motion of base and cup together: displacements t + r x p at every joint on a slider and at the cup.
+
+Both follow from the pushes that the effects themselves state, so that no effect and no dimension of the machine stands
+here. A combination counts only where it also lies in the null space found in the readings.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import cos, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.model import Parameter
+from hexdbb import _core
+from hexdbb.kinematics import engine_machine
+from hexdbb.model import Model, Parameter
+from hexdbb.samples import PUSH_SHAPES, Samples, effect_pushes
 
 Floats = NDArray[np.float64]
-Key = tuple[str, str, str]
-"""Effect, element, name of a value."""
 
-GUIDEWAYS = ("1", "2", "3")
 TOLERANCE = 0.02
-"""Largest part of a move that may lie outside the null space: a machine with errors turns it by that little."""
+"""Largest part of a combination that may lie outside the null space: a machine with errors turns it by that little."""
+ROUNDING = 1e-9
+"""Displacements below this part of the largest are rounding of double precision."""
+MAX_ROWS = 256
+"""Samples whose displacements are compared: some twenty for each circle of a plan, in both directions."""
+AXES = "xyz"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
+class Displacements:
+    """What a model's values displace, to first order at the nominal machine.
+
+    Attributes
+    ----------
+    per_value : ndarray, shape (rows, size)
+        Displacements in every sample, one after another, mm per engine unit of the value.
+    shifts, turns : ndarray, shape (rows, 3)
+        What rigid motions of base and cup displace, mm per mm along and mm per rad about x, y, z.
+    """
+
+    per_value: Floats
+    shifts: Floats
+    turns: Floats
+
+    @classmethod
+    def of(cls, samples: Samples, model: Model) -> Displacements:
+        """Compute the displacements in some of the samples, evenly chosen."""
+        few = samples.part(np.unique(np.linspace(0, len(samples) - 1, MAX_ROWS).astype(np.intp)))
+        guideways = np.arange(6) // 2
+        along = np.array([_core.guideway_direction(each) for each in guideways])
+        vertices = np.array([_core.guideway_vertex(engine_machine(model.machine), each) for each in guideways])
+        pushes = effect_pushes(few, model.with_values(np.zeros(len(model.values))))
+        at_joints = pushes["slider_joint"] + along[None, :, :, None] * pushes["slider"][:, :, None, :]
+        others = [pushes[port] for port in PUSH_SHAPES if port not in ("slider", "slider_joint", "cup")]
+        places = vertices + along * few["sliders_mm"][:, :, None]
+        cups = np.array([each.cup_mm for each in few.set_ups])[few["set_up"]]
+        moved = np.concatenate([places, cups[:, None, :]], axis=1)  # (n, 7, 3)
+        rest = sum(int(np.prod(each.shape[1:-1], dtype=int)) for each in others)
+        shifts = [np.broadcast_to(axis, moved.shape) for axis in np.eye(3)]
+        turns = [np.cross(axis, moved) for axis in np.eye(3)]
+        return cls(
+            _rows([at_joints, pushes["cup"], *others]),
+            *(np.column_stack([_padded(each, rest) for each in motions]) for motions in (shifts, turns)),
+        )
+
+    def of_values(self, chosen: Sequence[int] | NDArray[np.bool_]) -> Displacements:
+        """Return those of some of the values."""
+        return Displacements(self.per_value[:, chosen], self.shifts, self.turns)
+
+
+@dataclass(frozen=True, eq=False)
 class Redundancy:
-    """One move that changes no reading, mm and rad."""
+    """A combination of values that changes no reading: `move` in mm, angles at their lever arm, shape (values,)."""
 
     sentence: str
-    moves: Mapping[Key, float]
-    follows: frozenset[str | Key] = frozenset()
-    """Effects, or single values, that take what value completes the move."""
-
-    def completed_by(self, key: Key) -> bool:
-        """Return whether a value may take what value completes the move."""
-        return key in self.follows or key[0] in self.follows
+    move: Floats
 
 
-def _along_itself(guideway: str) -> Redundancy:
-    first, second = str(2 * int(guideway) - 1), str(2 * int(guideway))
-    return Redundancy(
-        f"translation of guideway {guideway} along itself (y) = common offset of sliders {first} and {second}",
-        {
-            ("guideway_translation", guideway, "y"): 1.0,
-            ("slider_offset", first, "offset"): 1.0,
-            ("slider_offset", second, "offset"): 1.0,
-        },
-    )
-
-
-def _about_centre(guideway: str) -> Redundancy:
-    return Redundancy(
-        f"rotation of guideway {guideway} about the base centre"
-        " = rotation about its midpoint and a translation along itself (y)",
-        {("guideway_rotation_centre", guideway, "angle"): 1.0, ("guideway_rotation_xy", guideway, "angle"): -1.0},
-        frozenset({("guideway_translation", guideway, "y")}),
-    )
-
-
-def _local(guideway: str, axis: str) -> Mapping[str, float]:
-    """Return the components of a base axis along a guideway's own axes: x outward, y along itself, z up."""
-    turn = 2.0 * pi / 3.0 * (int(guideway) - 1)
-    return {
-        "x": {"x": cos(turn), "y": -sin(turn), "z": 0.0},
-        "y": {"x": sin(turn), "y": cos(turn), "z": 0.0},
-        "z": {"x": 0.0, "y": 0.0, "z": 1.0},
-    }[axis]
-
-
-def _shift(axis: str) -> Redundancy:
-    moves = {
-        ("guideway_translation", guideway, name): part
-        for guideway in GUIDEWAYS
-        for name, part in _local(guideway, axis).items()
-    }
-    return Redundancy(f"a rigid shift of base and cup along {axis}", moves, frozenset({"cup_position"}))
-
-
-def _turn(axis: str) -> Redundancy:
-    # A turn about the guideway's own line (its y) changes nothing and has no parameter.
-    local = {"guideway_rotation_yz": "x", "guideway_rotation_xy": "z"}
-    moves = {
-        (effect, guideway, "angle"): _local(guideway, axis)[own]
-        for guideway in GUIDEWAYS
-        for effect, own in local.items()
-    }
-    follows = frozenset({"cup_position", "guideway_translation"})
-    return Redundancy(f"a rigid turn of base and cup about {axis}", moves, follows)
-
-
-KNOWN: tuple[Redundancy, ...] = (
-    *map(_along_itself, GUIDEWAYS),
-    *map(_about_centre, GUIDEWAYS),
-    *map(_shift, "xyz"),
-    *map(_turn, "xyz"),
-)
-
-
-def named_moves(null: Floats, parameters: Sequence[Parameter], levers_mm: Floats) -> list[tuple[Redundancy, Floats]]:
-    """Find the known redundancies in a null space.
+def redundancies(
+    null: Floats, parameters: Sequence[Parameter], levers_mm: Floats, displaced: Displacements
+) -> list[Redundancy]:
+    """Find the redundancies that follow from the machine's structure and lie in a null space.
 
     Parameters
     ----------
@@ -112,38 +98,95 @@ def named_moves(null: Floats, parameters: Sequence[Parameter], levers_mm: Floats
         The values.
     levers_mm : ndarray, shape (values,)
         Lever arm of an angle, 1 of a length.
+    displaced : Displacements
+        Of these values.
 
     Returns
     -------
-    list of (Redundancy, ndarray of shape (values,))
-        Those that lie in it, each with its completed move, linearly independent.
+    list of Redundancy
+        Linearly independent.
     """
-    keys = [(each.effect, each.element, each.name) for each in parameters]
+    per_mm = displaced.per_value / levers_mm
     basis, _ = np.linalg.qr(null)
-    found: list[tuple[Redundancy, Floats]] = []
-    for each in KNOWN:
-        move = _completed(each, basis, keys, levers_mm)
-        if move is not None and _is_new(move, [vector for _, vector in found]):
-            found.append((each, move))
+    found = [*_same_motions(per_mm, parameters), *_rigid_motions(per_mm, displaced)]
+    inside = [Redundancy(each.sentence, basis @ (basis.T @ each.move)) for each in found]
+    return [
+        kept
+        for kept, each in zip(inside, found, strict=True)
+        if np.linalg.norm(kept.move - each.move) <= TOLERANCE * np.linalg.norm(each.move)
+    ]
+
+
+def _same_motions(per_mm: Floats, parameters: Sequence[Parameter]) -> list[Redundancy]:
+    """Return the combinations whose displacements cancel: the last value of each as a combination of earlier ones."""
+    _, sizes, directions = np.linalg.svd(np.linalg.qr(per_mm, mode="r"))
+    rank = int(np.sum(sizes > ROUNDING * sizes[0])) if len(sizes) else 0
+    moves = _reduced_from_the_last(directions[rank:])
+    found = []
+    for move in moves[np.argsort([np.flatnonzero(move)[-1] for move in moves])] if len(moves) else []:
+        *others, last = map(int, np.flatnonzero(move))
+        if others:
+            alike = _listed([parameters[each] for each in others])
+            found.append(Redundancy(f"{parameters[last].label} is the same motion as {alike}", move))
     return found
 
 
-def _completed(redundancy: Redundancy, basis: Floats, keys: Sequence[Key], levers_mm: Floats) -> Floats | None:
-    """Complete a move within the null space; None where it does not lie in it."""
-    if any(part and key not in keys for key, part in redundancy.moves.items()):
-        return None
-    wanted = np.array([redundancy.moves.get(key, 0.0) for key in keys]) * levers_mm
-    prescribed = np.array([not redundancy.completed_by(key) for key in keys])
-    mix = np.linalg.lstsq(basis[prescribed], wanted[prescribed], rcond=TOLERANCE**2)[0]
-    if np.linalg.norm(basis[prescribed] @ mix - wanted[prescribed]) > TOLERANCE * np.linalg.norm(wanted):
-        return None
-    move: Floats = basis @ mix
-    return move
+def _reduced_from_the_last(directions: Floats) -> Floats:
+    """Compute the reduced echelon form whose pivots are the last columns possible; rounding becomes 0."""
+    rows: Floats = directions.copy()
+    done = 0
+    for column in range(rows.shape[1] - 1, -1, -1):
+        if done == len(rows):
+            break
+        best = done + int(np.argmax(np.abs(rows[done:, column])))
+        if abs(rows[best, column]) < ROUNDING**0.5:
+            continue
+        rows[[done, best]] = rows[[best, done]]
+        rows[done] /= rows[done, column]
+        others = np.arange(len(rows)) != done
+        rows[others] -= np.outer(rows[others, column], rows[done])
+        done += 1
+    rows[np.abs(rows) < ROUNDING**0.5] = 0.0
+    return rows
 
 
-def _is_new(move: Floats, others: Sequence[Floats]) -> bool:
-    if not others:
-        return True
-    stack = np.column_stack(others)
-    rest = move - stack @ np.linalg.lstsq(stack, move, rcond=None)[0]
-    return bool(np.linalg.norm(rest) > TOLERANCE * np.linalg.norm(move))
+def _rigid_motions(per_mm: Floats, displaced: Displacements) -> list[Redundancy]:
+    """Return the rigid motions of base and cup that the values can make; a turn may be about any point."""
+    found = []
+    for axis, shift in zip(AXES, displaced.shifts.T, strict=True):
+        move = _made(per_mm, shift)
+        if move is not None:
+            found.append(Redundancy(f"a rigid shift of base and cup along {axis}", move))
+    count = per_mm.shape[1]
+    for axis, turn in zip(AXES, displaced.turns.T, strict=True):
+        move = _made(np.column_stack([per_mm, displaced.shifts]), turn)
+        if move is not None:
+            found.append(Redundancy(f"a rigid turn of base and cup about {axis}", move[:count]))
+    return found
+
+
+def _made(per_mm: Floats, wanted: Floats) -> Floats | None:
+    """Return the smallest combination that displaces as wanted; None where there is none."""
+    move = np.linalg.lstsq(per_mm, wanted, rcond=ROUNDING)[0].astype(np.float64)
+    missed = np.linalg.norm(per_mm @ move - wanted)
+    return move if missed < ROUNDING**0.5 * np.linalg.norm(wanted) else None
+
+
+def _listed(parameters: Sequence[Parameter]) -> str:
+    """Name values, those of one effect together: ``slider_offset:1:2 offset``."""
+    elements: dict[tuple[str, str], list[str]] = {}
+    for each in parameters:
+        elements.setdefault((each.effect, each.name), []).append(each.element)
+    return " and ".join(f"{':'.join((effect, *own))} {name}" for (effect, name), own in elements.items())
+
+
+def _rows(pushes: Sequence[Floats]) -> Floats:
+    """Flatten pushes of shape (n, ..., size) to rows (n times all places, size), sample by sample."""
+    count, size = pushes[0].shape[0], pushes[0].shape[-1]
+    return np.concatenate([each.reshape(count, -1, size) for each in pushes], axis=1).reshape(-1, size)
+
+
+def _padded(moved: Floats, rest: int) -> Floats:
+    """Return the displacements (n, 7, 3) of joints and cup with zeros for all other places, flattened as `_rows`."""
+    flat = moved.reshape(len(moved), -1)
+    return np.hstack([flat, np.zeros((len(moved), rest))]).ravel()

@@ -31,11 +31,10 @@ def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects 
 
 
 def default_effects(machine: MachineFile) -> dict[str, bool]:
-    """Return the effects of a new model, and whether each is free.
+    """Return the effects of a new model, and whether each is free (as its description states).
 
-    The thesis' 33 geometric errors, cup position and ball offset are free: nobody knows where the cup and the ball sit
-    to a micrometre. The bar's length is calibrated and fixed. Effects of the catalogue are added when something asks
-    for them.
+    They are the thesis' 33 geometric errors and the unknowns of the set-up: nobody knows where cup and ball sit to a
+    micrometre. What is calibrated is held. Effects of the catalogue are added when something asks for them.
     """
     names = [*effect_names("geometry"), *effect_names("set-up")]
-    return {name: name != "bar_length" for name in names}
+    return {name: effect_info(machine, 1, name).is_free_at_first for name in names}

@@ -29,6 +29,14 @@ class Tabulated:
     ports: tuple[int, ...]
     per_unit: NDArray[np.float64]
 
+    def pushes(self) -> NDArray[np.float64]:
+        """Return the pushes at every port, shape (n, 55, size): mm per unit of the value."""
+        ports = sum(count for _, count in _core.PORTS.values())
+        every = np.zeros((len(self.per_unit), ports, self.info.size))
+        for index, (value, port) in enumerate(zip(self.values, self.ports, strict=True)):
+            every[:, port, value] += self.per_unit[:, index]
+        return every
+
     def add_to(self, engine: _core.Model) -> None:
         """Append it, values zero, to a model that is to predict the samples it was tabulated for, or a part of them."""
         engine.add_tabulated(self.info, values=list(self.values), ports=list(self.ports), per_unit=self.per_unit)

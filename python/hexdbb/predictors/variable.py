@@ -19,7 +19,7 @@ from hexdbb.samples import Samples
 FloatArray = NDArray[np.float64]
 
 SLIDERS = range(1, 7)
-TRAVEL_DIRECTION = "side"
+TRAVEL_DIRECTION = "travel_direction"
 """Column of the direction in which each slider last moved, +1 or -1; 0 where it never moved."""
 SECONDS_PER_MINUTE = 60.0
 NEVER_S = 1e5

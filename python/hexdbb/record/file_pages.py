@@ -51,17 +51,22 @@ def key_tables(model: type[BaseModel]) -> str:
 
 
 def updated(page: str, model: type[BaseModel]) -> str:
-    """Return a page's text with the tables between its markers generated anew.
+    """Return a page's text with the key tables of a file generated anew; `ValueError` as in `replaced`."""
+    return replaced(page, BEGIN, END, key_tables(model))
+
+
+def replaced(page: str, begin: str, end: str, text: str) -> str:
+    """Return a page with a text in place of what stands between two marker lines.
 
     Raises
     ------
     ValueError
         The page does not hold both markers once.
     """
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        raise ValueError("a page needs the lines BEGIN and END once each")
-    before, _, rest = page.partition(BEGIN)
-    return f"{before}{BEGIN}\n{key_tables(model)}\n{END}{rest.partition(END)[2]}"
+    if page.count(begin) != 1 or page.count(end) != 1:
+        raise ValueError(f"a page needs the lines {begin} and {end} once each")
+    before, _, rest = page.partition(begin)
+    return f"{before}{begin}\n{text}\n{end}{rest.partition(end)[2]}"
 
 
 def _sections(

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.errors import InputError
-from hexdbb.kinematics import status_name
+from hexdbb.kinematics import engine_machine, status_name
 from hexdbb.model import Model
 from hexdbb.samples.table import Samples
 
@@ -26,6 +26,10 @@ PUSH_SHAPES: dict[str, tuple[int, ...]] = {
     "reading": (),
 }
 """Shape of one sample's push, by port, in the order in which the engine counts the ports' columns."""
+
+
+PORT_COUNT = sum(count for _, count in _core.PORTS.values())
+"""Columns of all ports."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +113,29 @@ def port_sensitivity(samples: Samples, model: Model) -> dict[str, Floats]:
     every = _core.port_sensitivity(samples.engine(model), samples.block(model))
     return {
         port: every[:, first : first + count].reshape(len(every), *PUSH_SHAPES[port])
+        for port, (first, count) in _core.PORTS.items()
+    }
+
+
+def effect_pushes(samples: Samples, model: Model) -> dict[str, Floats]:
+    """Return what a model's values push at every port, to first order about the values it has.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (n, *shape of the port's push, size)
+        By port, shapes as in `PUSH_SHAPES`; mm per engine unit of the value.
+    """
+    block, machine = samples.block(model), engine_machine(model.machine)
+    every = []
+    for term in model.terms:
+        if term.effect in model.own_effects:
+            every.append(samples.pushes_of(model.own_effects[term.effect]))
+        else:
+            mounts = max(len(model.mounts), 1)
+            every.append(_core.effect_pushes(machine, mounts, term.effect, block, term.values))
+    pushes = np.concatenate([np.zeros((len(samples), PORT_COUNT, 0)), *every], axis=2)
+    return {
+        port: pushes[:, first : first + count].reshape(len(samples), *PUSH_SHAPES[port], pushes.shape[2])
         for port, (first, count) in _core.PORTS.items()
     }
 

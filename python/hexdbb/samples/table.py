@@ -2,7 +2,8 @@
 
 Built once, from records alone. Every column has one name, with its unit in it: those of the engine's state
 (`state.hpp`, `for_each_column`), and `record`, `set_up`, `mount` (places in `Samples.records`, `set_ups`, `mounts`),
-`sliders_mm` and `reading_mm`. Columns of sliders and legs have shape (n, 6), all others (n,).
+`sliders_mm` and `reading_mm`. Columns of sliders and legs have shape (n, 6), those of a
+position or rotation (n, 3), all others (n,).
 
 Held-out circles, halves and single rows are views of the same table (`Samples.part`): nothing is derived or evaluated
 again for them. For the engine the table takes the form of `block`: mounts are then numbered as a model numbers them.
@@ -11,7 +12,6 @@ again for them. For the engine the table takes the form of `block`: mounts are t
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table, to_frame
-from hexdbb.kinematics import forward
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
@@ -30,6 +29,8 @@ from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 Floats = NDArray[np.float64]
 Column = NDArray[Any]
 
+ENDINGS = {3: "xyz", 6: "123456"}
+"""What the parts of a column of several numbers are called in frames, by how many there are."""
 SHOWN_ROWS = 5
 """Rows shown in a notebook: enough to see the columns' kind."""
 SHOWN = ("record", "circle", "sweep", "lap", "direction", "time_s", "angle_rad", "feed_mm_s", "reading_mm")
@@ -117,7 +118,7 @@ class Samples:
         return len(self._whole) if self._rows is None else len(self._rows)
 
     def __getitem__(self, name: str) -> Column:
-        """Return a column, shape (n,) or (n, 6).
+        """Return a column, shape (n,), (n, 3) or (n, 6).
 
         Raises
         ------
@@ -172,16 +173,6 @@ class Samples:
         return self["reading_mm"]
 
     @property
-    def position_mm(self) -> Floats:
-        """Platform's reference point of the nominal machine, shape (n, 3)."""
-        return self._pose[0]
-
-    @property
-    def rotation(self) -> Floats:
-        """Orientation of the platform of the nominal machine, shape (n, 3, 3)."""
-        return self._pose[1]
-
-    @property
     def row_numbers(self) -> NDArray[np.intp]:
         """Place of each of these samples in the whole table, shape (n,)."""
         return np.arange(len(self._whole)) if self._rows is None else self._rows
@@ -220,13 +211,19 @@ class Samples:
         """
         return model.engine(self._tabulated)
 
+    def pushes_of(self, effect: OwnEffect) -> Floats:
+        """Return what a user's effect pushes in these samples, shape (n, 55, size), mm per engine unit of a value."""
+        return self._tabulated(effect).pushes()[self.row_numbers]
+
     def columns(self) -> Columns:
-        """Return every column with shape (n,); those of sliders and legs are numbered: ``velocity_mm_s_1``."""
+        """Return every column with shape (n,): ``velocity_mm_s_1`` of slider 1, ``position_mm_x``."""
         flat: Columns = {}
         for name in self.column_names:
             column = self[name]
-            each = {name: column} if column.ndim == 1 else {f"{name}_{k + 1}": part for k, part in enumerate(column.T)}
-            flat |= each
+            if column.ndim == 1:
+                flat[name] = column
+            else:
+                flat |= {f"{name}_{each}": part for each, part in zip(ENDINGS[column.shape[1]], column.T, strict=True)}
         if self.records:
             flat["record"] = np.array([record.name for record in self.records], dtype=object)[self["record"]]
         return flat
@@ -244,11 +241,6 @@ class Samples:
         flat = self.columns()
         rows = [[_cell(flat[name][row]) for name in SHOWN] for row in range(min(SHOWN_ROWS, len(self)))]
         return f"<p>{len(self)} samples; columns {', '.join(self.column_names)}</p>{html_table(SHOWN, rows)}"
-
-    @cached_property
-    def _pose(self) -> tuple[Floats, Floats]:
-        position_mm, rotation, _ = forward(self.machine, self["sliders_mm"])
-        return position_mm, rotation
 
     def _tabulated(self, effect: OwnEffect) -> Tabulated:
         """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs."""

@@ -66,7 +66,7 @@ def test_what_is_corrected_and_what_is_left_out() -> None:
     assert {"leg_length", "backlash", "gravity_sag"} <= set(data.effects)
     assert dict(data.left_out) == {
         "cup_position": "belongs to the measurement, not to the machine",
-        "reversal_spike": "depends on since_reversal_s, which a controller does not follow",
+        "reversal_spike": "depends on since_reversal_s, which is not known to a controller",
     }
 
 
@@ -207,7 +207,7 @@ def test_effects_of_ones_own_are_left_out_by_name(tmp_path: Path) -> None:
     done = hexdbb(*line, folder=tmp_path)
     assert done.returncode == 0, done.stderr
     left_out = {each["effect"]: each["reason"] for each in json.loads(done.stdout)["left_out"]}
-    assert left_out["dent"] == "is known to the program that fitted it, not to the engine"
+    assert left_out["dent"] == "is defined outside the engine"
     written = read_compensation(tmp_path / "a.hexcomp")
     assert dict(written.left_out)["dent"] == left_out["dent"]
     assert written.effects == make_compensation(wrong_model()).effects

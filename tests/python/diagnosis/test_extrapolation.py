@@ -1,4 +1,4 @@
-"""What a fit to some circles misses on the others is foretold, and a held-out error that says nothing is called so."""
+"""The expected error of held-out circles is what is found; a cross-validation error that means little is flagged."""
 
 from __future__ import annotations
 

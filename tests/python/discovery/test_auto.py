@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from tests.truth.cases import case
 
-from hexdbb.discovery import AutoStep, Discovery, discover_all, is_needed, without_needless
+from hexdbb.discovery import AutoStep, Discovery, closing_sentence, discover_all, is_needed, without_needless
 from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
 from hexdbb.record import Record
@@ -25,6 +25,8 @@ def test_a_pair_is_found_one_after_the_other(measured: Callable[[str], Record]) 
     assert effects == {hidden.kind for hidden in case(PAIR).hidden}
     assert isinstance(last, Discovery) and last.verdict == "none"
     assert last.rms_before_um < 0.7
+    closing = closing_sentence([each for each in steps if isinstance(each, AutoStep)], last)
+    assert closing.startswith("found and added: ") and all(effect in closing for effect in effects)
     falls = [each.diagnosis.model.ledger[-1] for each in steps if isinstance(each, AutoStep)]
     assert falls[0].rms_before_um > falls[1].rms_before_um > falls[1].rms_after_um
 

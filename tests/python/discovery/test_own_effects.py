@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexdbb.discovery import discover, failing_effects
+from hexdbb.discovery import discover
 from hexdbb.effects import UserEffectError, load_effects
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
@@ -53,19 +53,20 @@ def knowing_mine(record: Record, mine: Path) -> Model:
     return new_model(record.machine).knowing_effects(load_effects(mine))
 
 
-def test_what_is_wrong_is_named_and_the_rest_goes_on(measured: Callable[[str], Record], mine: Path) -> None:
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("broken", ":17: effect broken: AttributeError: 'Samples' object has no attribute 'nothing'"),
+        ("constant", ":19: effect constant: size: the same in every sample (expected a push that depends on the state)"),
+    ],
+)
+def test_what_is_wrong_is_named_before_a_verdict(
+    measured: Callable[[str], Record], mine: Path, name: str, said: str
+) -> None:
     record = measured("none-s1")
-    model = knowing_mine(record, mine)
-    failed = failing_effects(Samples.of([record]), model, list(model.own_effects))
-    assert {name: str(error).removeprefix(str(mine)) for name, error in failed.items()} == {
-        "broken": ":17: effect broken: AttributeError: 'Samples' object has no attribute 'nothing'",
-        "constant": ":19: effect constant: size: the same in every sample (expected a push that depends on the state)",
-    }
-    found = discover(Samples.of([record]), model, ["dent", "late", "broken", "constant", "backlash"])
-    assert found.verdict == "none"
-    assert [each.partition(":")[0] for each in found.remarks] == ["left out", "left out"]
-    with pytest.raises(UserEffectError, match=r"mine.py:17: effect broken: AttributeError"):
-        add_effect(Samples.of([record]), model, "broken")
+    with pytest.raises(UserEffectError) as refused:
+        discover(Samples.of([record]), knowing_mine(record, mine), ["dent", name, "backlash"])
+    assert str(refused.value).removeprefix(str(mine)) == said
 
 
 def test_a_fault_no_known_effect_explains_is_found_and_kept(

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.documents.shown import blocks
 
 from hexdbb.cli import cli
 from hexdbb.effects import load_effects
@@ -35,10 +36,8 @@ def test_index_lists_every_page_of_its_folder_and_the_indexes_below(index: Path)
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_commands_shown_exist(page: Path) -> None:
-    text = page.read_text(encoding="utf-8")
-    blocks = re.findall(r"^```\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)
-    shown = set(re.findall(r"^(?:\$ )?hexdbb ([a-z]+)", "\n".join(blocks), flags=re.MULTILINE))
-    shown |= set(re.findall(r"`hexdbb ([a-z]+)", text))
+    shown = set(re.findall(r"^(?:\$ )?hexdbb ([a-z]+)", "\n".join(blocks(page)), flags=re.MULTILINE))
+    shown |= set(re.findall(r"`hexdbb ([a-z]+)", page.read_text(encoding="utf-8")))
     assert shown - set(cli.list_commands(None)) == set()
 
 
@@ -51,7 +50,6 @@ def test_architecture_names_every_part_of_the_package() -> None:
 
 
 def test_discovery_page_shows_a_whole_file_of_effects(tmp_path: Path) -> None:
-    page = (ROOT / "docs" / "discovery.md").read_text(encoding="utf-8")
-    (shown,) = re.findall(r"^```python\n(.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
+    (shown,) = blocks(ROOT / "docs" / "discovery.md", "python")
     (tmp_path / "mine.py").write_text(shown, encoding="utf-8")
     assert [each.name for each in load_effects(tmp_path / "mine.py")] == ["dent"]

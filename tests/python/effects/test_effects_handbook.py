@@ -24,6 +24,7 @@ CATALOGUE = [
     "screw_thermal",
     "gravity_sag",
     "joint_offset",
+    "joint_friction",
     "bar_drift",
     "bar_gain",
     "sample_delay",

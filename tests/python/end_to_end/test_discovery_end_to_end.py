@@ -61,8 +61,8 @@ def test_hidden_fault_is_seen_named_and_added_until_only_noise_is_left(folder: P
 
     missing = told(folder, "discover", "today.parquet", "-m", "model.toml")
     assert missing["verdict"] == "effect"
-    assert missing["candidates"][0]["effect"] == "backlash"
-    assert missing["candidates"][0]["elements"] == [SLIDER]
+    assert missing["causes"][0]["effect"] == "backlash"
+    assert missing["causes"][0]["elements"] == [SLIDER]
 
     step = told(folder, "add", f"backlash:{SLIDER}", "-m", "model.toml", "today.parquet")
     assert step["rms_before_um"] > 2.0 * NOISE_UM

@@ -34,12 +34,12 @@ NOISE_MM = 0.5e-3
 STANDARD = load_plan("standard")
 MODEL = new_model(STANDARD.machine_file())
 STRUCTURAL = [
-    "translation of guideway 1 along itself (y) = common offset of sliders 1 and 2",
-    "translation of guideway 2 along itself (y) = common offset of sliders 3 and 4",
-    "translation of guideway 3 along itself (y) = common offset of sliders 5 and 6",
-    "rotation of guideway 1 about the base centre = rotation about its midpoint and a translation along itself (y)",
-    "rotation of guideway 2 about the base centre = rotation about its midpoint and a translation along itself (y)",
-    "rotation of guideway 3 about the base centre = rotation about its midpoint and a translation along itself (y)",
+    *(f"guideway_translation:{i} y is the same motion as slider_offset:{2 * i - 1}:{2 * i} offset" for i in (1, 2, 3)),
+    *(
+        f"guideway_rotation_centre:{i} angle is the same motion as slider_offset:{2 * i - 1}:{2 * i} offset"
+        f" and guideway_rotation_xy:{i} angle"
+        for i in (1, 2, 3)
+    ),
 ]
 RIGID = [
     f"a rigid {motion} of base and cup {along} {axis}"
@@ -150,17 +150,18 @@ def test_a_redundancy_is_named_only_where_its_values_are_free() -> None:
 def test_every_null_direction_is_told_once_and_holds_at_a_machine_with_errors() -> None:
     taken = sensitivity()
     null = null_directions(taken)
-    parameters = taken.where(taken.free)
+    parameters, displaced = taken.where(taken.free), taken.displacements.of_values(taken.free)
     rng = np.random.default_rng(3)
     turned, _ = np.linalg.qr(null @ rng.normal(size=(null.shape[1],) * 2) + 1e-4 * rng.normal(size=null.shape))
-    assert sentences(turned, parameters) == sentences(null, parameters)
-    assert len(sentences(null, parameters)) == null.shape[1]
+    assert sentences(turned, parameters, displaced) == sentences(null, parameters, displaced)
+    assert len(sentences(null, parameters, displaced)) == null.shape[1]
     assert np.abs(taken.scaled(taken.free) @ null).max() < 1e-9
 
 
 def test_no_null_direction_no_sentence() -> None:
     taken = sensitivity()
-    assert sentences(np.zeros((int(taken.free.sum()), 0)), taken.where(taken.free)) == []
+    displaced = taken.displacements.of_values(taken.free)
+    assert sentences(np.zeros((int(taken.free.sum()), 0)), taken.where(taken.free), displaced) == []
 
 
 def test_minimal_set_explains_all_that_readings_can_tell() -> None:
@@ -168,7 +169,7 @@ def test_minimal_set_explains_all_that_readings_can_tell() -> None:
     kept, held = minimal_set(taken)
     assert (len(kept), len(held)) == (21, 12)
     chosen = np.array([each in kept for each in taken.parameters])
-    alone = replace(taken, free=chosen | (taken.free & taken.is_set_up))
+    alone = replace(taken, model=taken.model.with_free(chosen | (taken.free & taken.is_set_up)))
     found = observability(alone)
     assert found.rank == found.values == 21
     assert [each for each in found.unidentifiable if "cup_position" not in each] == []

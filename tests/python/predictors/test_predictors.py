@@ -13,8 +13,7 @@ import pytest
 from tests.truth.cases import case
 from tests.truth.plans import PACE
 
-from hexdbb.diagnosis import evaluate_fit
-from hexdbb.discovery.judging import judging_noise
+from hexdbb.diagnosis import evaluate_fit, judging_noise
 from hexdbb.machine import shipped_machine
 from hexdbb.model import new_model
 from hexdbb.plan import Circle, Gauge, Mount

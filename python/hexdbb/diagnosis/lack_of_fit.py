@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from hexdbb.diagnosis import Noise
+from hexdbb.diagnosis.noise import Noise
 from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
@@ -36,14 +36,23 @@ SHAPE_P = 1e-4
 class LackOfFit:
     """Outcome of the two tests.
 
-    `level` is the residual's excess over the noise in its own standard deviations, `shape_p` the probability of so
-    smooth a residual by chance; `unexplained_um` the RMS of what is left when noise is taken out.
+    Attributes
+    ----------
+    rms_um, noise_um : float
+        RMS residual, and standard deviation of one reading.
+    level : float
+        The residual's excess over the noise in standard deviations of that excess.
+    shape_p : float
+        Probability of so smooth a residual by chance.
+    smooth_um : float
+        RMS of the smooth part beyond what the rest of the residual leads one to expect there.
     """
 
     rms_um: float
     noise_um: float
     level: float
     shape_p: float
+    smooth_um: float
 
     @property
     def is_significant(self) -> bool:
@@ -52,8 +61,9 @@ class LackOfFit:
 
     @property
     def unexplained_um(self) -> float:
-        """RMS beyond the noise."""
-        return float(np.sqrt(max(self.rms_um**2 - self.noise_um**2, 0.0)))
+        """RMS beyond the noise: the level's where it is larger than the noise's own uncertainty, else the shape's."""
+        beyond = float(np.sqrt(max(self.rms_um**2 - self.noise_um**2, 0.0))) if self.level > LEVEL_SIGMAS else 0.0
+        return max(beyond, self.smooth_um)
 
 
 class FitTest:
@@ -85,11 +95,10 @@ class FitTest:
         rms_mm = float(np.sqrt(residual_mm @ residual_mm / max(count - fitted_values, 1)))
         doubt = np.hypot(NOISE_DOUBT[self._noise.source], np.sqrt(0.5 / count))
         level = (rms_mm / self._noise.sigma_mm - 1.0) / doubt
-        return LackOfFit(
-            rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), self._shape_p(residual_mm, fitted_values)
-        )
+        shape_p, smooth_mm = self._shape(residual_mm, fitted_values)
+        return LackOfFit(rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), shape_p, smooth_mm * 1e3)
 
-    def _shape_p(self, residual_mm: Floats, fitted_values: int) -> float:
+    def _shape(self, residual_mm: Floats, fitted_values: int) -> tuple[float, float]:
         smooth, rest, smooth_freedom, rest_freedom = 0.0, 0.0, -fitted_values, 0
         for rows, basis in self._sweeps:
             own = residual_mm[rows]
@@ -99,9 +108,11 @@ class FitTest:
             smooth_freedom += basis.shape[1]
             rest_freedom += len(rows) - basis.shape[1]
         if smooth_freedom <= 0 or rest_freedom <= 0:
-            return 1.0
-        ratio = (smooth / smooth_freedom) / (rest / rest_freedom)
-        return float(stats.f.sf(ratio, smooth_freedom, rest_freedom))
+            return 1.0, 0.0
+        variance = rest / rest_freedom
+        chance = float(stats.f.sf(smooth / smooth_freedom / variance, smooth_freedom, rest_freedom))
+        beyond = max(smooth - smooth_freedom * variance, 0.0) / len(residual_mm)
+        return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
 
 
 def _orthonormal(angle_rad: Floats) -> Floats:

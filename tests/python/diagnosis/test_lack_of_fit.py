@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from hexdbb.diagnosis import Noise
-from hexdbb.discovery import FitTest
+from tests.truth.cases import case
+from tests.truth.plans import PACE
+
+from hexdbb.diagnosis import FitTest, Noise
 from hexdbb.record import Record
 from hexdbb.samples import Samples
 
@@ -16,8 +18,8 @@ NOISE = Noise(0.5e-3, "stated")
 
 
 @pytest.fixture(scope="module")
-def test_of_fit(measured: Callable[[str], Record]) -> tuple[FitTest, Record]:
-    record = measured("none-s3")
+def test_of_fit() -> tuple[FitTest, Record]:
+    record = case("none-s3", replace(PACE, rate_hz=0.5 * PACE.rate_hz)).record()
     return FitTest(Samples.of([record]), NOISE), record
 
 
@@ -41,6 +43,7 @@ def test_a_smooth_residual_well_below_the_noise_is_seen(test_of_fit: tuple[FitTe
     assert found.shape_p < 1e-6
     assert found.level < 4.0  # the level alone would have let it pass
     assert found.is_significant
+    assert found.unexplained_um == pytest.approx(0.25 * 0.5 / np.sqrt(2.0), rel=0.15)
 
 
 def test_a_fast_residual_shows_in_the_level_alone(test_of_fit: tuple[FitTest, Record]) -> None:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexdbb.diagnosis import Noise, is_white, lap_differences, noise_of, stated_noise
+from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_noise
+from hexdbb.diagnosis.whiteness import is_white
 from hexdbb.samples import Samples
 
 UNSTEADY = 1.25
@@ -31,8 +32,8 @@ def judging_noise(samples: Samples) -> JudgingNoise:
     if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
         return JudgingNoise(repeated)
     sizes = (
-        f"laps repeat to {repeated.sigma_mm * 1e3:.2f} um only,"
-        f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} um"
+        f"laps repeat to {repeated.sigma_mm * 1e3:.2f} µm only,"
+        f" the gauge is stated to have {stated.sigma_mm * 1e3:.2f} µm"
     )
     if is_white(list(lap_differences(samples))):
         return JudgingNoise(repeated, f"{sizes}: it is noisier than stated")

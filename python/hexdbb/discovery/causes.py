@@ -1,0 +1,297 @@
+"""From a verdict on hypotheses to causes: fitted in the exact form that would be added, put into words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.diagnosis import Sufficiency, evaluate_fit
+from hexdbb.discovery import words
+from hexdbb.discovery.next_test import next_test
+from hexdbb.discovery.result import Candidate, Cause, GroupError, NextTest, Verdict
+from hexdbb.effects.words import effect_clause
+from hexdbb.errors import RunError
+from hexdbb.evidence.families import Learned
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.trial import HeldOut, Trial
+from hexdbb.evidence.verdict import Found
+from hexdbb.evidence.verdict import Verdict as Judged
+from hexdbb.model import Choice, Model, Size
+from hexdbb.units import shown_factor, shown_unit
+
+Floats = NDArray[np.float64]
+Judge = Callable[[Model, Floats], Sufficiency]
+
+MAX_CANDIDATES = 6
+"""Candidates shown: those of the verdict and the best others, what fits on a screen."""
+MAX_CHECKED = 4
+"""Candidates whose prediction of what was left out is computed for the table: each costs a pass over all groups."""
+
+SMALLEST_DEVIATION = 0.01
+"""Deviation of form from which it is told: below, a machine's effect is as the formula has it."""
+MORE = "something else is missing besides"
+
+
+@dataclass(frozen=True)
+class Told:
+    """What `hexdbb.discovery.discover` makes a `Discovery` of."""
+
+    verdict: Verdict
+    sentence: str
+    causes: tuple[Cause, ...]
+    candidates: tuple[Candidate, ...]
+    model: Model
+    residual_mm: Floats
+    remaining: Sufficiency | None
+    next_test: NextTest | None = None
+    remarks: tuple[str, ...] = ()
+
+
+def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Told:
+    """Tell a verdict.
+
+    Parameters
+    ----------
+    search : Search
+        That led to it.
+    judged : Verdict
+        Of `hexdbb.evidence`.
+    judge : callable
+        Judges what a fitted model leaves.
+    matters_um : float
+        Unexplained RMS from which it matters.
+    """
+    candidates = _candidates(search, judged.node)
+    if not judged.found or judged.checked is None:
+        sentence = "something is missing that nothing tried explains"
+        return Told("unknown", sentence, (), candidates, search.engine.base, search.engine.residual_mm, None)
+    shares = {each.hypothesis: _share(search, judged.node, each.hypothesis) for each in judged.found}
+    refining = [each.hypothesis for each in judged.found if search.refined(each.hypothesis)]
+    found = [each for each in judged.found if each.hypothesis not in refining]
+    found.sort(key=lambda each: -shares[each.hypothesis])
+    found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]
+    if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
+        return told_forms(search, refining)
+    grade = found[0].grade if judged.checked.share >= search.criteria.explained_min else "unknown"
+    model, result = _fitted(search, judged.node.trial, [each.hypothesis for each in found])
+    causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], model, result) for each in found)
+    residual_mm = search.engine.residual_mm if result is None else result.residual_mm
+    return Told(
+        verdict=grade,
+        sentence=_sentence(grade, causes, judged.checked.share, judged.checked.heldout),
+        causes=causes,
+        candidates=candidates,
+        model=model,
+        residual_mm=residual_mm,
+        remaining=None if result is None else judge(model, residual_mm),
+        next_test=_next_test(search, found[0], causes[0], model) if grade == "ambiguous" else None,
+        remarks=_remarks(search, judged.node.trial, causes, grade, matters_um),
+    )
+
+
+def is_form_alone(search: Search, matters_um: float) -> bool:
+    """Check whether the forms of the effects that the model has explain what is left."""
+    return bool(search.root.trial.present) and left_um(search, search.root.trial) < matters_um
+
+
+def told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
+    """Tell that nothing is left but the forms of the effects that the model has.
+
+    Parameters
+    ----------
+    search : Search
+    refining : sequence of hypotheses
+        That describe the forms, where some were found.
+    """
+    engine, present = search.engine, search.root.trial.present
+    deviating = [(name, form) for name, form in present if form.deviation >= SMALLEST_DEVIATION]
+    whose = [f"{name} ({words.percent(form.deviation)} off)" for name, form in deviating]
+    whose += [name for name in dict.fromkeys(map(search.refined, refining)) if name not in dict(deviating)]
+    functions = [each.name for each in refining] or [form.functions[0] for _, form in deviating if form.functions]
+    sentence = f"no other cause is missing: what is left is the form of {words.joined(whose or ['what was found'])}"
+    refine = f"the form is refined by: hexdbb add {functions[0]}" if functions else ""
+    return Told("none", sentence, (), (), engine.base, engine.residual_mm, None, None, (refine,) if refine else ())
+
+
+def left_um(search: Search, trial: Trial) -> float:
+    """Return the RMS beyond the noise that a trial leaves, forms explained."""
+    return float(np.sqrt(max(trial.left - 1.0, 0.0)) * np.mean(search.engine.row_noise_mm)) * 1e3
+
+
+def _size_um(search: Search, share: float) -> float:
+    """Return the RMS of a part of what is unexplained."""
+    return left_um(search, search.root.trial) * float(np.sqrt(max(share, 0.0)))
+
+
+def _remarks(
+    search: Search, trial: Trial, causes: Sequence[Cause], grade: Verdict, matters_um: float
+) -> tuple[str, ...]:
+    """Say how far forms differ, and whether something remains beside the causes and their forms."""
+    said = [
+        f"the machine's form differs from that of {each.choice} by {words.percent(each.form_deviation)} of its size"
+        for each in causes
+        if each.form_deviation >= SMALLEST_DEVIATION
+    ]
+    beside_um = left_um(search, trial)
+    if grade == "effect" and beside_um >= matters_um:
+        said.append(f"{MORE}: {beside_um:.2f} µm are left that neither the causes nor their forms explain")
+    return tuple(said)
+
+
+def choice_of(hypothesis: Hypothesis) -> str:
+    """Return a hypothesis as `hexdbb add` takes it."""
+    if isinstance(hypothesis, Learned) or hypothesis.is_whole:
+        return hypothesis.name
+    return str(Choice(hypothesis.effect, hypothesis.elements))
+
+
+def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
+    """Return the part of the unexplained that is left where a hypothesis is taken out of a set."""
+    excess = max(search.root.trial.left - 1.0, 1e-9)
+    others = tuple(each for each in node.members if each.hypothesis != hypothesis)
+    if not others:
+        return (search.root.trial.left - node.trial.left) / excess
+    try:
+        return (search.trials.of(others).left - node.trial.left) / excess
+    except RunError:
+        return 0.0
+
+
+def _fitted(
+    search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]
+) -> tuple[Model, _core.FitResult | None]:
+    """Fit the known ones of a trial's hypotheses to all readings in their exact form, as they would be added."""
+    engine = search.engine
+    known = [each for each in hypotheses if isinstance(each, Known)]
+    if not known:
+        return engine.base, None
+    model = engine.base
+    for each in known:
+        model = model.with_effect(Choice(each.effect, each.elements))
+    there = {term.effect: term for term in trial.model.terms}
+    terms = tuple(replace(term, values=there[term.effect].values) for term in model.terms)
+    start = replace(model, terms=terms)
+    return evaluate_fit(engine.samples, start, start.free, engine.noise, hypothesis=True)
+
+
+def _cause(
+    search: Search, node: Node, found: Found, share: float, model: Model, result: _core.FitResult | None
+) -> Cause:
+    hypothesis = found.hypothesis
+    values: tuple[Size, ...] = ()
+    if isinstance(hypothesis, Learned):
+        effect, elements, clause = hypothesis.name, (), words.learned_clause(hypothesis)
+    else:
+        assert result is not None
+        effect, elements = hypothesis.effect, hypothesis.elements
+        values = _values(model, result, effect, elements)
+        clause = effect_clause(model.info(effect), values)
+    return Cause(
+        choice=choice_of(hypothesis),
+        effect=effect,
+        elements=elements,
+        verdict=found.grade,
+        share=share,
+        margin=float(min(found.margin, node.score - search.root.score)),
+        form_deviation=found.deviation,
+        refinements=found.refinements,
+        alike=tuple(dict.fromkeys(found.alike)),
+        rivals=_rivals(search, node, found),
+        values=values,
+        clause=clause,
+    )
+
+
+def _rivals(search: Search, node: Node, found: Found) -> tuple[str, ...]:
+    """Return what stands in for a cause in the sets that explain the readings as well, as `hexdbb add` takes it."""
+    names = []
+    for set_of in found.rivals:
+        other = _node_called(search, set_of)
+        if other is not None:
+            extra = [each for each in other.hypotheses if each not in node.hypotheses]
+            names.append(" + ".join(choice_of(each) for each in extra or other.hypotheses))
+    return tuple(dict.fromkeys(names))
+
+
+def _node_called(search: Search, name: str) -> Node | None:
+    return next((each for each in search.nodes if " + ".join(each.trial.names) == name), None)
+
+
+def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequence[str]) -> tuple[Size, ...]:
+    spread = np.sqrt(np.diag(result.covariance))
+    rows = []
+    for index, each in enumerate(model.parameters()):
+        if each.effect == effect and each.element in elements:
+            factor = shown_factor(each.unit)
+            value, sigma = float(model.values[index]) * factor, float(spread[index]) * factor
+            rows.append(Size(each.element, each.name, value, sigma, shown_unit(each.unit)))
+    return tuple(rows)
+
+
+def _candidates(search: Search, node: Node) -> tuple[Candidate, ...]:
+    """Return the sets tried that are worth showing: that of the verdict, then single hypotheses by their evidence."""
+    single = [each for each in search.nodes if len(each.members) == 1 and each is not node]
+    single.sort(key=lambda each: -each.score)
+    shown: dict[tuple[str, ...], Node] = {} if node is search.root else {node.trial.names: node}
+    for each in single:
+        shown.setdefault(each.trial.names, each)
+    nodes = list(shown.values())[:MAX_CANDIDATES]
+    return tuple(_candidate(search, each, rank < MAX_CHECKED) for rank, each in enumerate(nodes))
+
+
+def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:
+    noise_um = float(np.mean(search.engine.row_noise_mm)) * 1e3
+    one_um = search.engine.noise.sigma_mm * 1e3
+    left, before = node.trial.left, search.root.trial.left
+    checked = search.checked(node) if is_checked else None
+    heldout = {} if checked is None else {name: _group(each, noise_um) for name, each in checked.heldout.items()}
+    return Candidate(
+        names=tuple(choice_of(each) for each in node.hypotheses),
+        log_evidence=node.score - search.root.score,
+        rms_after_um=float(np.sqrt(max(one_um**2 + (left - 1.0) * noise_um**2, 0.0))),
+        share=(before - left) / max(before - 1.0, 1e-9),
+        heldout=heldout,
+        refused=(*node.trial.refused, *(checked.reasons if checked is not None else ())),
+    )
+
+
+def _group(held: HeldOut, noise_um: float) -> GroupError:
+    return GroupError(held.before * noise_um, held.after * noise_um, held.share)
+
+
+def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> NextTest | None:
+    """Find the circle that tells the first cause from the first rival whose effects are all known."""
+    for set_of, name in zip(found.rivals, cause.rivals, strict=False):
+        node = _node_called(search, set_of)
+        if node is None or not all(isinstance(each, Known) for each in node.hypotheses):
+            continue
+        other, _ = _fitted(search, node.trial, node.hypotheses)
+        return next_test(search.engine.samples, search.engine.noise, (model, other), (cause.choice, name))
+    return None
+
+
+def _sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: dict[str, HeldOut]) -> str:
+    unseen = words.unseen_words(heldout, share)
+    explained = f"{words.percent(share)} of what the model missed" + (f", {unseen}" if unseen else "")
+    if grade == "unknown":
+        return _unknown_sentence(causes, explained)
+    named = [each.clause for each in causes if each.verdict != "unknown"]
+    clause = words.capital("; ".join(named))
+    it = "it explains" if len(causes) == 1 else "together they explain" if len(named) == len(causes) else ""
+    if grade == "ambiguous":
+        others = words.joined([each.partition(":")[0] and each for each in causes[0].rivals])
+        return f"{clause}, or these readings do not tell it from {others}; {it or 'all together explain'} {explained}"
+    beside = [each.choice for each in causes if each.verdict == "unknown"]
+    if beside:
+        return f"{clause}; with {words.joined(beside)} beside it, which has no known name, explains {explained}"
+    return f"{clause}; {it} {explained}"
+
+
+def _unknown_sentence(causes: Sequence[Cause], explained: str) -> str:
+    leads = words.joined([each.clause for each in causes])
+    return f"something is missing that no known effect explains: {leads}, which explains {explained}"

@@ -1,0 +1,69 @@
+"""Effects in the words of whoever fits the machine: ``slider 4 has 15.0 ± 0.1 µm of play between drive and carriage``.
+
+An effect without words of its own is told by its physics' first sentence and its values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import groupby
+
+from hexdbb import _core
+from hexdbb.model import Size
+from hexdbb.units import readable_unit
+
+CLAUSES = {
+    "backlash": "{who} has {play} of play between drive and carriage",
+    "reversal_spike": "{who} sticks after each reversal until its drive has moved on by {height}",
+    "pitch_cyclic": "the screw of {who} has a pitch error that repeats with each turn",
+    "lead_error": "the screw of {who} has a lead too long by {lead}",
+    "straightness": "{who} is bowed by {lateral} outward and {vertical} up",
+    "servo_lag": "{who} lags {lag} behind its drive's encoder",
+    "leg_thermal": "the legs grow during the test",
+    "screw_thermal": "the screw of {who} grows during the test",
+    "gravity_sag": "the legs give by {compliance} under the platform's weight",
+    "joint_offset": "the ball centre of {who} misses its joint centre by {x}, {y} and {z}",
+    "joint_friction": "friction in the joints of {who} changes its length by {deflection} against their turning",
+    "bar_drift": "the gauge drifts by {rate}",
+    "bar_gain": "the gauge's scale is off by {gain}",
+    "sample_delay": "the gauge is read {delay} later than the encoders",
+    "ball_eccentricity": "the bar's ball sits otherwise in set-up {element}: by {x}, {y} and {z}",
+}
+"""Of one element; `who` is the element, the other names are values with uncertainty and unit."""
+MAX_CLAUSES = 2
+"""Elements told one by one; of further ones the number: a sentence remains one."""
+
+
+def effect_clause(info: _core.EffectInfo, sizes: Sequence[Size]) -> str:
+    """Return an effect with its values as a clause, lower case, without a full stop.
+
+    Parameters
+    ----------
+    info : EffectInfo
+    sizes : sequence of Size
+        Values of the elements that are meant.
+    """
+    elements = [(name, list(each)) for name, each in groupby(sizes, key=lambda size: size.element)]
+    said = [_clause(info, element, own) for element, own in elements[:MAX_CLAUSES]]
+    more = len(elements) - MAX_CLAUSES
+    return " and ".join(said) + (f", and so on for {more} more" if more > 0 else "")
+
+
+def _clause(info: _core.EffectInfo, element: str, sizes: Sequence[Size]) -> str:
+    who = "the machine" if info.element_kind == "machine" else f"{info.element_kind} {element}"
+    values = {size.name: size_words(size) for size in sizes}
+    if info.name in CLAUSES:
+        return CLAUSES[info.name].format(who=who, element=element, **values)
+    physics = info.physics.split(". ")[0].split(": ")[0].rstrip(".")
+    told = ", ".join(f"{name} {value}" for name, value in values.items())
+    return f"{info.name} of {who} ({physics[:1].lower()}{physics[1:]}): {told}"
+
+
+def size_words(size: Size) -> str:
+    """Return a value with its uncertainty: ``15.0 ± 0.1 µm``."""
+    unit = readable_unit(size.unit)
+    shown = "" if unit == "1" else f" {unit}"
+    if size.sigma is None or not size.sigma > 0.0:
+        return f"{size.value:.3g}{shown}"
+    places = max(0, min(6, 1 - int(f"{size.sigma:.1e}".split("e")[1]))) if size.sigma < 10.0 else 0
+    return f"{size.value:.{places}f} ± {size.sigma:.{places}f}{shown}"

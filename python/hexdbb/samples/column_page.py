@@ -1,0 +1,57 @@
+"""The glossary's table of the columns of the table of samples, generated from the engine's vocabulary.
+
+The engine describes the columns of a sample's state (`state.hpp`, `for_each_column`); `OWN` describes those that the
+table of samples adds. To rewrite the committed page: ``python -m hexdbb.samples.column_page docs/glossary.md``.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from hexdbb import _core
+from hexdbb.record.file_pages import replaced
+
+BEGIN = "<!-- columns: made by `python -m hexdbb.samples.column_page docs/glossary.md`; do not edit -->"
+END = "<!-- end of columns -->"
+OWN = {
+    "record": ("1", "index of the record in `Samples.records`"),
+    "set_up": ("1", "index of cup, ball and bar in `Samples.set_ups`: one for each circle of each record"),
+    "mount": ("1", "index of the fixing of the cup in `Samples.mounts`"),
+    "reading_mm": ("mm", "ball-bar length minus nominal length"),
+}
+"""Unit and meaning of the columns that are no part of the engine's state."""
+INSIDE_THE_ENGINE = {"row"}
+"""Columns that the engine fills in for parts of a table; a table of samples has `Samples.row_numbers`."""
+SHAPES = {"sample": "(n,)", "axis": "(n, 3)", "slider": "(n, 6), sliders", "leg": "(n, 6), legs"}
+"""Shape of a column by what its numbers belong to."""
+UNITS = {"1": "", "degC": "°C"}
+"""Units written otherwise for people than in the engine."""
+
+
+def column_table() -> str:
+    """Return the Markdown table of every column that `Samples` can have: name, shape, unit, meaning."""
+    lines = ["| column | shape | unit | meaning |", "|---|---|---|---|"]
+    lines += [_line(name, "sample", unit, meaning) for name, (unit, meaning) in OWN.items()]
+    known = [each for each in _core.state_columns() if each.name not in INSIDE_THE_ENGINE]
+    lines += [_line(each.name, each.of, each.unit, each.meaning) for each in known]
+    return "\n".join(lines)
+
+
+def updated(page: str) -> str:
+    """Return the glossary's text with the table between its markers generated anew."""
+    return replaced(page, BEGIN, END, column_table())
+
+
+def _line(name: str, of: str, unit: str, meaning: str) -> str:
+    shown = UNITS.get(unit, unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴"))
+    return f"| `{name}` | {SHAPES[of]} | {shown} | {meaning} |"
+
+
+def main(page: Path) -> None:
+    """Rewrite the table of the glossary."""
+    page.write_text(updated(page.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
