@@ -10,8 +10,6 @@ from hexdbb.evidence.families import Learned
 from hexdbb.evidence.trial import HeldOut, Trial, Trials, heldout
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
-EXTRAPOLATES = 2.0
-"""Held-out error over fitted error of the base from which a group lies outside what the others determine."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     ):
         return Checked(predicted, share, ())
     for grouping, held in predicted.items():
-        extrapolates = held.before > EXTRAPOLATES * base.left**0.5
+        extrapolates = held.before > criteria.extrapolates * base.left**0.5
         if extrapolates and trial.left > criteria.leaves_structure:
             continue
         expected = held.expected * max(trial.left, 1.0) ** 0.5

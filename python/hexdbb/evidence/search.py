@@ -28,9 +28,6 @@ from hexdbb.evidence.trial import Member, Trial, Trials
 
 Floats = NDArray[np.float64]
 
-MOST_OF_ONE_EFFECT = 2
-"""Elements of one effect that get a full fit in one step."""
-
 
 @dataclass(frozen=True, eq=False)
 class Node:
@@ -79,7 +76,7 @@ class Search:
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
-        self.thinned = Thinned(readings)
+        self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
         self.homes = Homes(linear, self.thinned, self.hypotheses)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
@@ -177,7 +174,8 @@ class Search:
         screen = Screen(sums, self.criteria, self.thinned)
         known, learned = self._screened(node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
-        for scored in (*_best(known, count), *_best(learned, count)):
+        most = self.criteria.most_of_one_effect
+        for scored in (*_best(known, count, most), *_best(learned, count, most)):
             try:
                 trial = self.trials.of((*node.members, self._member(scored)))
             except RunError:
@@ -270,11 +268,11 @@ def _alike(search: Search, one: Node, other: Node) -> bool:
     return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
 
 
-def _best(scored: list[Scored], count: int) -> list[Scored]:
+def _best(scored: list[Scored], count: int, of_one_effect: int) -> list[Scored]:
     """Choose by evidence and by held-out share, two to one; none whose evidence is against it."""
     ranked: list[Scored] = []
     for each in sorted(scored, key=lambda each: -each.log_evidence):
-        few = not isinstance(each.hypothesis, Known) or _of_effect(ranked, each.hypothesis) < MOST_OF_ONE_EFFECT
+        few = not isinstance(each.hypothesis, Known) or _of_effect(ranked, each.hypothesis) < of_one_effect
         if few and each.log_evidence > 0.0:
             ranked.append(each)
     chosen = ranked[: count - count // 3]

@@ -14,8 +14,6 @@ from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.trial import Member
 
-MOST_ROUNDS = 2
-"""Exchanges of causes, lest two take turns."""
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
 
@@ -94,7 +92,7 @@ def _settled(search: Search, node: Node) -> Node:
 
     An early choice may have stood in for what came later: it is exchanged, or left out where it is needed no more.
     """
-    for _ in range(MOST_ROUNDS):
+    for _ in range(search.criteria.most_rounds):
         if len(node.members) < 2:
             return node
         for member in node.members:
