@@ -52,6 +52,10 @@ VARIABLES = {
     "reading": ("deflection",),
     "warming": ("time",),
     "step": ("time",),
+    "speed": ("velocity",),
+    "fine_time": ("time",),
+    "tilt_x": ("tilt",),
+    "tilt_y": ("tilt",),
     "time_period": ("time",),
     "position_period": ("position",),
 }

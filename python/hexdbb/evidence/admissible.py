@@ -6,11 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.families import Learned
 from hexdbb.evidence.trial import HeldOut, Trial, Trials, heldout
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
-EXTRAPOLATES = 2.0
-"""Held-out error over fitted error of the base from which a group lies outside what the others determine."""
 
 
 @dataclass(frozen=True)
@@ -28,14 +27,19 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     A grouping refuses it where the share explained falls by more than `Criteria.heldout_share_min` and the error is
     larger than the fit to the other groups expects of itself (`Criteria.heldout_ratio`): that few circles determine a
     value badly is no reason. Nor is it one that a form not quite right, whose remainder geometry bends after, does not
-    predict circles that geometry alone does not predict either.
+    predict circles that geometry alone does not predict either. A free function of time claims nothing of a time that
+    was left out, and every group lies in a time of its own.
     """
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons = []
+    if any(
+        isinstance(each.hypothesis, Learned) and each.hypothesis.variable.column == "time" for each in trial.members
+    ):
+        return Checked(predicted, share, ())
     for grouping, held in predicted.items():
-        extrapolates = held.before > EXTRAPOLATES * base.left**0.5
+        extrapolates = held.before > criteria.extrapolates * base.left**0.5
         if extrapolates and trial.left > criteria.leaves_structure:
             continue
         expected = held.expected * max(trial.left, 1.0) ** 0.5

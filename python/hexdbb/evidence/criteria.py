@@ -16,6 +16,19 @@ class Criteria:
         circle at two feeds, two directions and two laps of seven circles.
     fit_rows : int
         Rows of the full fits, evenly spread: some tens for each free value; all rows follow to first order.
+    thinned_rows : int
+        Rows of which questions of rank are asked: which learned functions contain a form, which are worth a full look.
+        A signature has some tens of degrees of freedom.
+    fewest_rows : int
+        The same where nothing is learned and only homes are asked for.
+    form_visible : float
+        Directions of a discrepancy of which geometry leaves less than this part are geometry's.
+    extrapolates : float
+        Held-out error over fitted error of the base from which a group lies outside what the others determine.
+    most_rounds : int
+        Exchanges of causes, lest two take turns.
+    most_of_one_effect : int
+        Elements of one effect that get a full fit in one step: neighbours look alike to first order.
     form_sigma : float
         Standard deviation (half-normal) of the relative difference between an effect's form and the machine's.
     form_grid : tuple of float
@@ -53,6 +66,8 @@ class Criteria:
         Sets of hypotheses that are followed where one does not explain all.
     max_expansions : int
         Sets beside which all hypotheses are screened, at most: bounds the time of a search.
+    most_expansions : int
+        The same with those by which a set is looked at again (`verdict.py`).
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
     leaves_structure : float
@@ -69,6 +84,12 @@ class Criteria:
 
     max_rows: int = 12000
     fit_rows: int = 3000
+    thinned_rows: int = 2400
+    fewest_rows: int = 1200
+    form_visible: float = 0.02
+    extrapolates: float = 2.0
+    most_rounds: int = 2
+    most_of_one_effect: int = 2
     form_sigma: float = 0.15
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
@@ -87,6 +108,7 @@ class Criteria:
     heldout_ratio: float = 1.5
     beam: int = 2
     max_expansions: int = 4
+    most_expansions: int = 6
     complete: float = 0.02
     leaves_structure: float = 1.3
     explained_min: float = 0.75

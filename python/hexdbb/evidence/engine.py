@@ -315,6 +315,7 @@ def _state(part: Samples) -> State:
     state = {
         "position": part["sliders_mm"],
         "velocity": part["velocity_mm_s"],
+        "speed": np.abs(part["velocity_mm_s"]),
         "acceleration": part["acceleration_mm_s2"],
         "direction": part["travel_direction"],
         "since_reversal_s": part["since_reversal_s"],
@@ -325,6 +326,7 @@ def _state(part: Samples) -> State:
         "platform_joint_angle": part["platform_joint_angle_rad"],
         "platform_joint_rate": part["platform_joint_rate_rad_s"],
         "time": time_s,
+        "time_in_run": time_s - _begin_s(time_s, part["sweep"]),
         "elapsed": passed - passed.mean(),
         "feed": part["feed_mm_s"],
         "polar_angle": part["angle_rad"],
@@ -335,3 +337,12 @@ def _state(part: Samples) -> State:
         state["warming"] = part["warming_k"]
     state |= joint_state(part)
     return State({name: np.asarray(values, np.float64) for name, values in state.items()})
+
+
+def _begin_s(time_s: Floats, sweep: NDArray[np.integer]) -> Floats:
+    """Return the time at which each row's sweep begins, shape (n,)."""
+    member = np.unique(sweep, return_inverse=True)[1].ravel()
+    begin = np.full(int(member.max()) + 1, np.inf)
+    np.minimum.at(begin, member, time_s)
+    found: Floats = begin[member]
+    return found

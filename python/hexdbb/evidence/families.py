@@ -142,7 +142,9 @@ def _all(screw_lead_mm: float) -> Iterator[Learned]:
     phase = v.screw_phase(screw_lead_mm)
     for place, variables in (("slider", (*v.OF_SLIDER, phase)), ("leg", v.OF_LEG)):
         for variable in variables:
-            for element in (1, 2, 3, 4, 5, 6) if variable is v.FINE_POSITION else (1, 2, 3, 4, 5, 6, ALL):
+            for element in (
+                (1, 2, 3, 4, 5, 6) if variable in (v.FINE_POSITION, v.FINE_TIME) else (1, 2, 3, 4, 5, 6, ALL)
+            ):
                 yield Learned(place, element, variable)
     for place in ("lateral", "vertical"):
         for guideway in (1, 2, 3):

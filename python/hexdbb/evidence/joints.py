@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 def joint_state(samples: Samples) -> dict[str, Floats]:
-    """Return swing angles (rad) and rates (rad/s), shape (n, 6) each, and the bar's angle in the platform, (n,)."""
+    """Return the legs' swing (rad) and its rate (rad/s), the bar's angle in the platform, yaw and tilt."""
     sliders_mm = samples["sliders_mm"]
     position_mm, rotation, _ = forward(samples.machine, sliders_mm)
     nominal = engine_machine(samples.machine)
@@ -35,6 +35,9 @@ def joint_state(samples: Samples) -> dict[str, Floats]:
         "swing_angle": swing,
         "swing_rate": _rates(swing, samples["time_s"], samples["sweep"]),
         "bar_angle": samples["angle_rad"] - yaw,
+        "yaw": yaw,
+        "tilt_x": rotation[:, 2, 0],
+        "tilt_y": rotation[:, 2, 1],
     }
 
 

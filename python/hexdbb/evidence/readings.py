@@ -17,6 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.evidence.criteria import DEFAULT
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
@@ -87,11 +89,6 @@ class Linear:
         return -0.5 * (fit + float(np.linalg.slogdet(information)[1]))
 
 
-THINNED_ROWS = 2400
-"""Rows of which questions of rank are asked (which functions contain a form, which are worth a full look): a signature
-has some tens of degrees of freedom."""
-
-
 class Thinned:
     """Some rows, evenly spread, of all linearisations of the same readings; designs made for one are kept for others.
 
@@ -101,7 +98,7 @@ class Thinned:
     count : int
     """
 
-    def __init__(self, readings: Readings, count: int = THINNED_ROWS) -> None:
+    def __init__(self, readings: Readings, count: int = DEFAULT.thinned_rows) -> None:
         whole = len(readings)
         self.rows: Ints = np.unique(np.linspace(0, whole - 1, min(whole, count)).astype(np.intp))
         self.readings = Readings(

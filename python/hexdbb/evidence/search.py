@@ -12,21 +12,21 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.families import ALL, Learned, learned_hypotheses
-from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.homes import SAME_FORM, Homes
 from hexdbb.evidence.proposals import proposals
-from hexdbb.evidence.readings import Thinned
+from hexdbb.evidence.readings import Linear, Thinned
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
 
-MOST_OF_ONE_EFFECT = 2
-"""Elements of one effect that get a full fit in one step."""
+Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ class Search:
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
         self.hypotheses = list(learned_hypotheses(readings))
-        self.thinned = Thinned(readings)
+        self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
         self.homes = Homes(linear, self.thinned, self.hypotheses)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
@@ -137,6 +137,8 @@ class Search:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
         key = frozenset(node.trial.names)
         if key not in self._expanded:
+            if len(self._expanded) >= self.criteria.most_expansions:
+                return []
             self._expanded[key] = self._children(node)
             self.nodes += self._expanded[key]
         return self._expanded[key]
@@ -172,7 +174,8 @@ class Search:
         screen = Screen(sums, self.criteria, self.thinned)
         known, learned = self._screened(node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
-        for scored in (*_best(known, count), *_best(learned, count)):
+        most = self.criteria.most_of_one_effect
+        for scored in (*_best(known, count, most), *_best(learned, count, most)):
             try:
                 trial = self.trials.of((*node.members, self._member(scored)))
             except RunError:
@@ -191,8 +194,29 @@ class Search:
             return known, []
         proposed = proposals(screen.sums.linear, self.engine.readings, self.thinned, self.criteria)
         self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+        self._add_kin(screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
         every = [*self.hypotheses, *(each.hypothesis for each in proposed)]
         return known, screen.learned([each for each in every if each not in present])
+
+    @property
+    def by_name(self) -> dict[str, Learned]:
+        """Learned hypotheses, those that the readings propose among them."""
+        proposed = [each for each in self._chosen if isinstance(each, Learned)]
+        return {each.name: each for each in (*self.hypotheses, *proposed)}
+
+    def _add_kin(
+        self,
+        linear: Linear,
+        proposed: Sequence[Learned],
+        signatures: Floats,
+        whose: Sequence[tuple[str, str, str, float]],
+    ) -> None:
+        """Count what is proposed among the kin of known effects whose form it contains: a pitch error is periodic."""
+        homes = Homes(linear, self.thinned, proposed).of_each(signatures)
+        for (effect, element, _, _), found in zip(whose, homes, strict=True):
+            name = Known(effect, (element,), self._is_whole(effect)).name
+            same = {each.hypothesis.name for each in found if each.explained >= SAME_FORM}
+            self.kin.setdefault(name, set()).update(same)
 
     def _log_prior(self, hypothesis: Hypothesis) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
@@ -203,8 +227,8 @@ class Search:
         """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""
         parent = self.trials.of(node.members[:-1])
         gain = node.score - self._score(parent)
-        removed, explained = parent.left - node.trial.left, self.root.trial.left - parent.left
-        small = len(node.members) > 1 and removed < self.criteria.secondary * self.criteria.form_sigma**2 * explained
+        explained = self.root.trial.left - parent.left + self.trials.explained_before
+        small = parent.left - node.trial.left < self.criteria.secondary * self.criteria.form_sigma**2 * explained
         return gain >= self.criteria.detect_nats and not small and not node.trial.refused
 
     def _score(self, trial: Trial) -> float:
@@ -244,11 +268,11 @@ def _alike(search: Search, one: Node, other: Node) -> bool:
     return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
 
 
-def _best(scored: list[Scored], count: int) -> list[Scored]:
+def _best(scored: list[Scored], count: int, of_one_effect: int) -> list[Scored]:
     """Choose by evidence and by held-out share, two to one; none whose evidence is against it."""
     ranked: list[Scored] = []
     for each in sorted(scored, key=lambda each: -each.log_evidence):
-        few = not isinstance(each.hypothesis, Known) or _of_effect(ranked, each.hypothesis) < MOST_OF_ONE_EFFECT
+        few = not isinstance(each.hypothesis, Known) or _of_effect(ranked, each.hypothesis) < of_one_effect
         if few and each.log_evidence > 0.0:
             ranked.append(each)
     chosen = ranked[: count - count // 3]

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +33,6 @@ from hexdbb.model import Model
 Floats = NDArray[np.float64]
 KEPT = 24
 """Linearisations kept in memory: some megabytes each."""
-VISIBLE = 0.02
-"""Directions of a discrepancy of which geometry leaves less than this part are geometry's."""
 SHAPE_STARTS = (-1.5, 0.0, 1.5)
 """Starts of a shape parameter (a logarithm of a time), in prior standard deviations: first order cannot move it."""
 
@@ -126,6 +125,20 @@ class Trials:
         self._linear.move_to_end(key)
         return self._linear[key]
 
+    @cached_property
+    def explained_before(self) -> float:
+        """Mean square of what the effects in the model explain that its other values do not, in noise variances."""
+        fitted = self.engine.linearised(self.engine.base)
+        names = {(each.effect, each.elements[0]) for each in self._present}
+        every = [self.engine.base.parameters()[column] for column in fitted.free]
+        own = np.array([(each.effect, each.element) in names for each in every])
+        if not own.any():
+            return 0.0
+        part = fitted.linear.own[:, own] @ fitted.linear.standing[own]
+        others = fitted.linear.own[:, ~own]
+        imitated = others @ np.linalg.solve(others.T @ others + np.eye(others.shape[1]), others.T @ part)
+        return float(np.mean((part - imitated) ** 2))
+
     def _tried(self, members: tuple[Member, ...]) -> Trial:
         fitted = self._fitted(members)
         linear, forms = fitted.linear, []
@@ -198,7 +211,7 @@ class Trials:
         sums = Sums(linear, self.engine.readings, ())
         block = sums.block(signature)
         projected = sums.whole.project(block)
-        factor = _visible(factor, projected.information, block.own[0])
+        factor = _visible(factor, projected.information, block.own[0], self.criteria.form_visible)
         if not factor.shape[1]:
             return linear, Form(0.0, 0.0, ())
         grid = np.array(self.criteria.form_grid)
@@ -282,7 +295,7 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
     return found
 
 
-def _visible(factor: Floats, projected: Floats, whole: Floats) -> Floats:
+def _visible(factor: Floats, projected: Floats, whole: Floats, least: float) -> Floats:
     """Keep the directions of a discrepancy that the model's own values do not imitate: shape (k, r)."""
     values, vectors = np.linalg.eigh(factor.T @ whole @ factor)
     kept = values > 1e-9 * values[-1]
@@ -290,7 +303,7 @@ def _visible(factor: Floats, projected: Floats, whole: Floats) -> Floats:
     shares, turned = np.linalg.eigh(white.T @ projected @ white)
     # Back in the prior's own scale: a direction's size is what it was before it was whitened.
     own = np.sqrt(values[kept])[:, None] * turned
-    seen = shares > VISIBLE
+    seen = shares > least
     axes, _ = np.linalg.qr(own[:, seen]) if seen.any() else (own[:, :0], None)
     found: Floats = factor @ vectors[:, kept] @ axes
     return found

@@ -167,9 +167,14 @@ DIRECTION_POSITION = Variable("direction_position", "position", "mm", 6, times="
 SINCE_REVERSAL = Variable("since_reversal_time", "since_reversal_s", "s", 10, times="direction", is_log=True)
 TRAVEL = Variable("since_reversal_travel", "since_reversal_mm", "mm", 10, times="direction", is_log=True)
 VELOCITY = Variable("velocity", "velocity", "mm/s", 12, signed=True)
+SPEED = Variable("speed", "speed", "mm/s", 8)
 ACCELERATION = Variable("acceleration", "acceleration", "mm/s²", 12)
 FORCE = Variable("leg_force", "leg_force", "", 12)
 TIME = Variable("time", "time", "s", 10)
+FINE_TIME = Variable("fine_time", "time", "s", 40)
+TIME_IN_RUN = Variable("time_in_run", "time_in_run", "s", 10, is_log=True)
+YAW = Variable("yaw", "yaw", "rad", 8)
+TILTS = tuple(Variable(name, name, "rad", 8) for name in ("tilt_x", "tilt_y"))
 TIME_POSITION = Variable("time_position", "position", "mm", 6, times="elapsed")
 TURNING = Variable("turning_rate", "slider_joint_rate", "rad/s", 12, signed=True)
 JOINT_ANGLE = Variable("joint_angle", "slider_joint_angle", "rad", 12)
@@ -193,9 +198,11 @@ OF_SLIDER = (
     SINCE_REVERSAL,
     TRAVEL,
     VELOCITY,
+    SPEED,
     ACCELERATION,
     FORCE,
     TIME,
+    FINE_TIME,
     TIME_POSITION,
     WARMING,
 )
@@ -207,8 +214,23 @@ OF_LEG = (
     PLATFORM_ANGLE,
     SWING,
     SWING_ANGLE,
+    YAW,
+    *TILTS,
 )
 OF_GUIDEWAY = (Variable("position", "position", "mm", 24), FINE_ALONG, TIME_POSITION)
-OF_BALL = (TIME,)
+OF_BALL = (TIME, FINE_TIME, YAW, *TILTS)
 OF_PLATFORM_JOINT = (Variable("constant", "", ""), Variable("joint_angle", "platform_joint_angle", "rad", 5))
-OF_READING = (ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, WARMING, CIRCLE_DIRECTION, FEED)
+OF_READING = (
+    ANGLE,
+    ANGLE_DIRECTION,
+    BAR_ANGLE,
+    READ,
+    TIME,
+    FINE_TIME,
+    TIME_IN_RUN,
+    WARMING,
+    CIRCLE_DIRECTION,
+    FEED,
+    YAW,
+    *TILTS,
+)

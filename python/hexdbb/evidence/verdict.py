@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from hexdbb.diagnosis import Sufficiency
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.trial import Member
 
-MOST_ROUNDS = 2
-"""Exchanges of causes, lest two take turns."""
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
 
@@ -53,20 +53,30 @@ class Found:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is missing: the grade, the causes, the set of hypotheses and how it predicts."""
+    """What is missing: the grade, the causes, the set of hypotheses, how it predicts, and how much was missing."""
 
     grade: Grade
     found: tuple[Found, ...]
     node: Node
     checked: Checked | None
+    sufficiency: Sufficiency
 
 
-def judge(search: Search) -> Verdict:
-    """Look for all that is missing."""
+def judge(search: Search, matters_um: float | None = None) -> Verdict:
+    """Look for all that is missing.
+
+    Parameters
+    ----------
+    search : Search
+    matters_um : float, optional
+        Unexplained RMS below which nothing matters; by the default of a diagnosis where not given.
+    """
+    before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
+    if before.is_sufficient:
+        return Verdict("none", (), search.root, None, before)
     node = _in_known_words(search, search.run())
     if node is search.root:
-        left = search.root.trial.left
-        return Verdict("none" if left < 1.05 else "unknown", (), node, None)
+        return Verdict("unknown", (), node, None, before)
     node = _settled(search, node)
     causes, refinements = _grouped(search, node)
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
@@ -74,7 +84,7 @@ def judge(search: Search) -> Verdict:
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
     if search.checked(node).share < search.criteria.explained_min:
         grade = "unknown"
-    return Verdict(grade, found, node, search.checked(node))
+    return Verdict(grade, found, node, search.checked(node), before)
 
 
 def _settled(search: Search, node: Node) -> Node:
@@ -82,7 +92,7 @@ def _settled(search: Search, node: Node) -> Node:
 
     An early choice may have stood in for what came later: it is exchanged, or left out where it is needed no more.
     """
-    for _ in range(MOST_ROUNDS):
+    for _ in range(search.criteria.most_rounds):
         if len(node.members) < 2:
             return node
         for member in node.members:
@@ -142,14 +152,13 @@ def _known_for(search: Search, names: list[str]) -> list[Known]:
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:
     """Split a set into causes, and learned functions that refine one of them at its own place."""
-    known = [each for each in node.hypotheses if isinstance(each, Known)]
-    causes: list[Hypothesis] = list(known)
+    causes: list[Hypothesis] = [each for each in node.hypotheses if isinstance(each, Known)]
     refinements: dict[str, tuple[str, ...]] = {}
-    by_name = {each.name: each for each in search.hypotheses}
+    by_name = search.by_name
     for each in node.hypotheses:
         if isinstance(each, Known):
             continue
-        of = next((one for one in known if _at_its_place(search, one, each, by_name)), None)
+        of = next((one for one in causes if _at_its_place(search, one, each, by_name)), None)
         if of is None:
             causes.append(each)
         else:
@@ -157,9 +166,14 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     return causes, refinements
 
 
-def _at_its_place(search: Search, known: Known, learned: Learned, by_name: dict[str, Learned]) -> bool:
-    homes = [by_name[name] for name in search.kin.get(known.name, set())]
-    return any(home.place == learned.place and (home.element == learned.element or not home.element) for home in homes)
+def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: dict[str, Learned]) -> bool:
+    homes = [by_name[name] for name in search.kin.get(cause.name, set())] if isinstance(cause, Known) else [cause]
+    return any(_part(home) == _part(learned) and home.element in (learned.element, 0) for home in homes)
+
+
+def _part(learned: Learned) -> str:
+    """Return the part of the machine at which a function acts: a guideway's two directions are one."""
+    return "guideway" if learned.place in ("lateral", "vertical") else learned.place
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:

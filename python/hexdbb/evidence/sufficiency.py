@@ -1,0 +1,29 @@
+"""Sufficiency of a trial: the forms of the effects in the model count.
+
+The question is a diagnosis' own (`hexdbb.diagnosis.sufficiency`); asked of a trial, its residual has the discrepancies
+explained, and what the forms of the effects in the model may leave by their prior does not matter: an effect whose form
+differs is no new cause.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexdbb.diagnosis import Noise, Sufficiency
+from hexdbb.diagnosis.lack_of_fit import FitTest
+from hexdbb.diagnosis.sufficiency import default_matters_um, explained_um
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.trial import Trial, Trials
+
+
+def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: float | None = None) -> Sufficiency:
+    """Judge what a trial leaves."""
+    engine, linear = trials.engine, trials.linear(trial)
+    noise = Noise(float(np.mean(engine.row_noise_mm)), engine.noise.source)
+    strength = np.linalg.eigvalsh(linear.own.T @ linear.own)
+    fitted = float(np.sum(strength / (1.0 + strength)))
+    lack = FitTest(engine.part, noise).of(linear.residual * engine.row_noise_mm, round(fitted))
+    if matters_um is None:
+        matters_um = default_matters_um(engine.noise.sigma_mm * 1e3, explained_um(engine.part, engine.base))
+    form_um = criteria.form_sigma * float(np.sqrt(trials.explained_before)) * lack.noise_um
+    return Sufficiency(lack, max(matters_um, form_um))
