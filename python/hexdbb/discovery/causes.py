@@ -66,6 +66,8 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
     matters_um : float
         Unexplained RMS from which it matters.
     """
+    if judged.grade == "none":
+        return _told_forms(search) if search.root.trial.present else _told_nothing(search, judged.sufficiency)
     candidates = _candidates(search, judged.node)
     if not judged.found or judged.checked is None:
         sentence = "something is missing that nothing tried explains"
@@ -76,7 +78,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
     found.sort(key=lambda each: -shares[each.hypothesis])
     found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
-        return told_forms(search, refining)
+        return _told_forms(search, refining)
     grade = found[0].grade if judged.checked.share >= search.criteria.explained_min else "unknown"
     model, result = _fitted(search, judged.node.trial, [each.hypothesis for each in found])
     causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], model, result) for each in found)
@@ -94,12 +96,12 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
     )
 
 
-def is_form_alone(search: Search, matters_um: float) -> bool:
-    """Check whether the forms of the effects that the model has explain what is left."""
-    return bool(search.root.trial.present) and left_um(search, search.root.trial) < matters_um
+def _told_nothing(search: Search, enough: Sufficiency) -> Told:
+    sentence = f"nothing that matters is missing: {enough.sentence}"
+    return Told("none", sentence, (), (), search.engine.base, search.engine.residual_mm, None)
 
 
-def told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
+def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
     """Tell that nothing is left but the forms of the effects that the model has.
 
     Parameters

@@ -13,7 +13,7 @@ import numpy as np
 
 from hexdbb import _core
 from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, judging_noise, sufficiency
-from hexdbb.discovery.causes import Told, is_form_alone, told, told_forms
+from hexdbb.discovery.causes import Told, told
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery, Structure
 from hexdbb.discovery.unexplained import unexplained_structure
@@ -85,10 +85,8 @@ def discover(
         return _nothing(engine, enough, judging)
     progress("screening all hypotheses, fitting the best")
     search = Search(engine, names, criteria)
-    if is_form_alone(search, enough.matters_um):
-        return _outcome(told_forms(search), engine, enough, judging)
-    found = told(search, judge(search), judged, enough.matters_um)
-    return _outcome(found, engine, enough, judging)
+    verdict = judge(search, enough.matters_um)
+    return _outcome(told(search, verdict, judged, enough.matters_um), engine, enough, judging)
 
 
 def absent_effects(model: Model) -> list[str]:
