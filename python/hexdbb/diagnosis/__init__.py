@@ -10,7 +10,7 @@ from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_nois
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
 from hexdbb.diagnosis.result import Diagnosis
 from hexdbb.diagnosis.smoothing import learned_effect, space_of
-from hexdbb.diagnosis.sufficiency import Sufficiency, p_shown, p_words, sufficiency
+from hexdbb.diagnosis.sufficiency import Sufficiency, assess_sufficiency, p_shown, p_words
 from hexdbb.diagnosis.whiteness import is_white
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "Refit",
     "Sufficiency",
     "as_it_is",
+    "assess_sufficiency",
     "diagnose",
     "evaluate_fit",
     "expected_error",
@@ -41,5 +42,4 @@ __all__ = [
     "refitter",
     "space_of",
     "stated_noise",
-    "sufficiency",
 ]

@@ -14,7 +14,7 @@ from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.shaping import fit_shapes, shaped
 from hexdbb.diagnosis.smoothing import with_bands
-from hexdbb.diagnosis.sufficiency import sufficiency
+from hexdbb.diagnosis.sufficiency import assess_sufficiency
 from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
@@ -132,7 +132,7 @@ def diagnose(
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
-    enough = sufficiency(samples, fitted, result.residual_mm)
+    enough = assess_sufficiency(samples, fitted, result.residual_mm)
     parameters = known.parameters()
     judged = [column for column in result.free_columns if not parameters[column].is_coefficient]
     unknown = unknown_directions(result.covariance, known, judged)

@@ -88,7 +88,7 @@ class Sufficiency:
         )
 
 
-def sufficiency(
+def assess_sufficiency(
     samples: Samples,
     model: Model,
     residual_mm: Floats,

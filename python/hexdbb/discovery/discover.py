@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, judging_noise, sufficiency
+from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, assess_sufficiency, judging_noise
 from hexdbb.discovery.causes import Told, told
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery, Structure
@@ -78,7 +78,7 @@ def discover(
     engine = Engine(samples, known, judging.noise, criteria)
 
     def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
-        return sufficiency(samples, fitted, residual_mm, noise=judging, matters_um=matters_um, test=test)
+        return assess_sufficiency(samples, fitted, residual_mm, noise=judging, matters_um=matters_um, test=test)
 
     enough = judged(engine.base, engine.residual_mm)
     if not enough.matters:

@@ -9,7 +9,7 @@ import pytest
 from tests.truth.cases import case
 from tests.truth.plans import PACE
 
-from hexdbb.diagnosis import Diagnosis, JudgingNoise, Noise, diagnose, sufficiency
+from hexdbb.diagnosis import Diagnosis, JudgingNoise, Noise, assess_sufficiency, diagnose
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
@@ -30,23 +30,25 @@ def with_smooth(found: Diagnosis, size_um: float) -> np.ndarray:
 
 
 def test_what_is_significant_need_not_matter(clean: Diagnosis) -> None:
-    small = sufficiency(clean.samples, clean.model, with_smooth(clean, 0.07), noise=NOISE, matters_um=0.1)
+    small = assess_sufficiency(clean.samples, clean.model, with_smooth(clean, 0.07), noise=NOISE, matters_um=0.1)
     assert small.is_significant and not small.matters and small.is_sufficient
     assert "significant" in small.sentence and "below the 0.10 µm that matter here" in small.sentence
-    large = sufficiency(clean.samples, clean.model, with_smooth(clean, 0.14), noise=NOISE, matters_um=0.1)
+    large = assess_sufficiency(clean.samples, clean.model, with_smooth(clean, 0.14), noise=NOISE, matters_um=0.1)
     assert large.matters and not large.is_sufficient
     assert large.lack_of_fit.unexplained_um == pytest.approx(0.14, rel=0.15)
-    none = sufficiency(clean.samples, clean.model, with_smooth(clean, 0.0), noise=NOISE, matters_um=0.0)
+    none = assess_sufficiency(clean.samples, clean.model, with_smooth(clean, 0.0), noise=NOISE, matters_um=0.0)
     assert not none.is_significant and none.is_sufficient
 
 
 def test_what_matters_is_a_part_of_the_noise_and_of_the_error_explained(clean: Diagnosis) -> None:
-    found = sufficiency(clean.samples, clean.model, with_smooth(clean, 0.0), noise=NOISE)
+    found = assess_sufficiency(clean.samples, clean.model, with_smooth(clean, 0.0), noise=NOISE)
     assert found.matters_um == pytest.approx(0.125)
     louder = JudgingNoise(Noise(2e-3, "stated"))
-    assert sufficiency(clean.samples, clean.model, clean.residual_mm, noise=louder).matters_um == pytest.approx(0.5)
+    assert assess_sufficiency(clean.samples, clean.model, clean.residual_mm, noise=louder).matters_um == pytest.approx(
+        0.5
+    )
     quiet = JudgingNoise(Noise(1e-6, "stated"))
-    explained = sufficiency(clean.samples, clean.model, clean.residual_mm, noise=quiet).matters_um
+    explained = assess_sufficiency(clean.samples, clean.model, clean.residual_mm, noise=quiet).matters_um
     assert 0.002 < explained < 0.2  # a thousandth of what geometry errors of tenths of a millimetre do to a reading
 
 
