@@ -9,9 +9,10 @@ from rich.console import Console
 from rich.table import Table
 
 from hexdbb.discovery import Candidate, Cause, Discovery
+from hexdbb.discovery.result import Grouping
 from hexdbb.units import readable_unit
 
-LEFT_OUT = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
+LEFT_OUT: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 
 
 def print_discovery(found: Discovery, console: Console, records: str, model_path: Path) -> None:
@@ -26,6 +27,7 @@ def print_discovery(found: Discovery, console: Console, records: str, model_path
     for cause in found.causes:
         _print_doubts(cause, line)
     if found.candidates:
+        line("Hypotheses; after their RMS the error where circles, feeds, directions or laps were left out, µm:")
         console.print(_candidates(found.candidates))
     known = [each for each in found.causes if each.values]
     if known:
@@ -54,9 +56,9 @@ def _candidates(candidates: tuple[Candidate, ...]) -> Table:
     """Return the table of hypotheses: evidence, part explained, error by what was left out, why refused."""
     groups = [name for name in LEFT_OUT if any(name in each.heldout for each in candidates)]
     table = Table(box=None, header_style="bold", pad_edge=False)
-    table.add_column("hypothesis")
-    for name in ("log evidence", "explains", "RMS, µm", *(f"held-out {LEFT_OUT[name]}" for name in groups)):
-        table.add_column(name, justify="right")
+    table.add_column("hypothesis", no_wrap=True, min_width=max(len(each.choice) for each in candidates))
+    for name in ("log evidence", "explains", "RMS, µm", *(LEFT_OUT[name] for name in groups)):
+        table.add_column(name, justify="right", min_width=max(map(len, name.split())))
     table.add_column("refused")
     for each in candidates:
         errors = [f"{each.heldout[name].after_um:.2f}" if name in each.heldout else "" for name in groups]

@@ -83,6 +83,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
     model, result = _fitted(search, judged.node.trial, [each.hypothesis for each in found])
     causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], model, result) for each in found)
     residual_mm = search.engine.residual_mm if result is None else result.residual_mm
+    remaining = None if result is None else judge(model, residual_mm)
     return Told(
         verdict=grade,
         sentence=_sentence(grade, causes, judged.checked.share, judged.checked.heldout),
@@ -90,9 +91,9 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
         candidates=candidates,
         model=model,
         residual_mm=residual_mm,
-        remaining=None if result is None else judge(model, residual_mm),
+        remaining=remaining,
         next_test=_next_test(search, found[0], causes[0], model) if grade == "ambiguous" else None,
-        remarks=_remarks(search, judged.node.trial, causes, grade, matters_um),
+        remarks=_remarks(search, judged.node.trial, causes, grade, remaining),
     )
 
 
@@ -131,16 +132,20 @@ def _size_um(search: Search, share: float) -> float:
 
 
 def _remarks(
-    search: Search, trial: Trial, causes: Sequence[Cause], grade: Verdict, matters_um: float
+    search: Search, trial: Trial, causes: Sequence[Cause], grade: Verdict, remaining: Sufficiency | None
 ) -> tuple[str, ...]:
     """Say how far forms differ, and whether something remains beside the causes and their forms."""
-    said = [
-        f"the machine's form differs from that of {each.choice} by {words.percent(each.form_deviation)} of its size"
-        for each in causes
-        if each.form_deviation >= SMALLEST_DEVIATION
-    ]
+    said = (
+        []
+        if remaining is None or not remaining.is_significant
+        else [
+            f"the machine's form differs from that of {each.choice} by {words.percent(each.form_deviation)} of its size"
+            for each in causes
+            if each.form_deviation >= SMALLEST_DEVIATION
+        ]
+    )
     beside_um = left_um(search, trial)
-    if grade == "effect" and beside_um >= matters_um:
+    if grade == "effect" and remaining is not None and remaining.matters and beside_um >= remaining.matters_um:
         said.append(f"{MORE}: {beside_um:.2f} µm are left that neither the causes nor their forms explain")
     return tuple(said)
 
@@ -251,7 +256,9 @@ def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:
     left, before = node.trial.left, search.root.trial.left
     checked = search.checked(node) if is_checked else None
     held = {} if checked is None else checked.heldout
-    heldout: dict[Grouping, GroupError] = {name: _group(held[name], noise_um) for name in GROUPINGS if name in held}
+    heldout: dict[Grouping, GroupError] = {
+        name: _group(held[name], noise_um, one_um) for name in GROUPINGS if name in held
+    }
     return Candidate(
         names=tuple(choice_of(each) for each in node.hypotheses),
         log_evidence=node.score - search.root.score,
@@ -262,8 +269,12 @@ def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:
     )
 
 
-def _group(held: HeldOut, noise_um: float) -> GroupError:
-    return GroupError(held.before * noise_um, held.after * noise_um, held.share)
+def _group(held: HeldOut, rows_um: float, one_um: float) -> GroupError:
+    """Return errors of single readings; rows are means of some, whose noise is smaller."""
+    before, after = (
+        float(np.sqrt(max(one_um**2 + (each**2 - 1.0) * rows_um**2, 0.0))) for each in (held.before, held.after)
+    )
+    return GroupError(before, after, held.share)
 
 
 def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> NextTest | None:
