@@ -55,7 +55,7 @@ class Criteria:
     held_out : int
         Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
     most_steps : int
-        Steps of one thing, at most: a count lost again and again, a gauge that jumps to and fro.
+        Steps of one thing, at most: a count lost again and again, a gauge that jumps back and forth.
     max_effects : int
         Effects looked for at once.
     heldout_share_min : float
