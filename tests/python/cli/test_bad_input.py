@@ -114,7 +114,7 @@ BAD = {
     "unknown key, model": (
         replacing("model.toml", 'name = "leg_length"', 'effect_name = "leg_length"'),
         COMPARE,
-        "model.toml: effect[0].effect_name: unknown key (expected one of name, parameter)",
+        "model.toml: effect[0].effect_name: unknown key (expected one of name, learned, parameter)",
     ),
     "unit of a key": (
         replacing("plan.toml", "radius_mm = 100.0", "radius_um = 100000.0"),
@@ -182,9 +182,9 @@ BAD = {
     "bus that is not there": (
         nothing,
         f"{MEASURE} --bus socketcand:127.0.0.1:9",
-        "--bus socketcand:127.0.0.1:9: not there: ",
+        "--bus socketcand:127.0.0.1:9: cannot be opened: ",
     ),
-    "bus of no kind": (nothing, f"{MEASURE} --bus nonsense:0", "--bus nonsense:0: not understood (expected interface:"),
+    "bus of no kind": (nothing, f"{MEASURE} --bus nonsense:0", "--bus nonsense:0: cannot be parsed (expected interface:"),
     "no such record": (nothing, "hexdbb diagnose none.parquet -m model.toml", "none.parquet: no such file"),
     "no such model": (nothing, "hexdbb compare run.parquet -m none.toml", "none.toml: no such model (expected "),
     "no such plan": (
