@@ -184,7 +184,11 @@ BAD = {
         f"{MEASURE} --bus socketcand:127.0.0.1:9",
         "--bus socketcand:127.0.0.1:9: cannot be opened: ",
     ),
-    "bus of no kind": (nothing, f"{MEASURE} --bus nonsense:0", "--bus nonsense:0: cannot be parsed (expected interface:"),
+    "bus of no kind": (
+        nothing,
+        f"{MEASURE} --bus nonsense:0",
+        "--bus nonsense:0: cannot be parsed (expected interface:",
+    ),
     "no such record": (nothing, "hexdbb diagnose none.parquet -m model.toml", "none.parquet: no such file"),
     "no such model": (nothing, "hexdbb compare run.parquet -m none.toml", "none.toml: no such model (expected "),
     "no such plan": (
