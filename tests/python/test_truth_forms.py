@@ -39,6 +39,7 @@ from hexdbb.record import read_record
 from hexdbb.rig.mechanisms import CATALOGUED as RIG_CATALOGUED
 from hexdbb.rig.mechanisms import MECHANISMS, Motion, Push
 from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb.samples import Samples
 
 FORMS = Path(__file__).parents[1] / "truth" / "forms"
 ESTIMATOR_FREE = {"errors", "validation", "machine", "plan", "record", "rig"}
@@ -370,7 +371,7 @@ def test_diagnosis_leaves_what_the_case_says(name):
     """The estimator's own fit, on the record with noise."""
     one = case(name)
     record = one.record()
-    found = diagnose([record], new_model(record.machine))
+    found = diagnose(Samples.of([record]), new_model(record.machine))
     excess_um = np.sqrt(found.rms_after_um**2 - one.truth.gauge.noise_um**2)
     assert excess_um == pytest.approx(one.times_noise * 0.5, rel=0.06)
 

@@ -25,7 +25,7 @@ from hexdbb.rig.plant import Plant
 from hexdbb.rig.truth import TruthFile, random_truth
 
 TRUTH = Path(__file__).parents[1] / "truth"
-ESTIMATOR_FREE = {"errors", "validation", "machine", "plan", "record", "rig"}
+ESTIMATOR_FREE = {"errors", "files", "machine", "plan", "record", "rig"}
 """Parts of hexdbb that the truth may import: none of them computes a prediction."""
 
 
