@@ -53,7 +53,7 @@ class Told:
 
 
 def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Told:
-    """Tell a verdict.
+    """Describe a verdict.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def _told_nothing(search: Search, enough: Sufficiency) -> Told:
 
 
 def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
-    """Tell that nothing is left but the forms of the effects that the model has.
+    """State that nothing remains but the forms of the effects that the model has.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def _size_um(search: Search, share: float) -> float:
 def _remarks(
     search: Search, trial: Trial, causes: Sequence[Cause], grade: Verdict, remaining: Sufficiency | None
 ) -> tuple[str, ...]:
-    """Say how far forms differ, and whether something remains beside the causes and their forms."""
+    """Describe how far forms differ, and state whether something remains beside the causes and their forms."""
     said = (
         []
         if remaining is None or not remaining.is_significant
