@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.diagnosis.projection import Projection
-from hexdbb.model import Model, ShapedEffect
+from hexdbb.model import Model, is_shaped
 from hexdbb.samples import Samples, normal_equations, predict
 
 Floats = NDArray[np.float64]
@@ -94,7 +94,7 @@ def started(samples: Samples, model: Model, free: Bools, noise: Noise) -> Model:
     values = model.values.copy()
     for effect, element, sizes, shapes in _elements(model):
         own = model.own(effect)
-        if values[sizes].any() or not free[shapes].any() or not isinstance(own, ShapedEffect):
+        if values[sizes].any() or not free[shapes].any() or not is_shaped(own):
             continue
         around = around or Projection(samples, model, free & ~shaped(model), noise)
         values[shapes] = _sought(around, model, effect, element, sizes, shapes, free)
@@ -123,7 +123,7 @@ def _sought(
 ) -> Floats:
     """Return the shapes of one element that explain most of the residual, of a grid about their starts."""
     term, own = model.term(effect), model.own(effect)
-    assert term is not None and isinstance(own, ShapedEffect)
+    assert term is not None and is_shaped(own)
     first = int(np.flatnonzero([each.effect == effect for each in model.parameters()])[0])
     best, found = -np.inf, model.values[shapes]
     for candidate in _grid(model, shapes, free):

@@ -17,8 +17,7 @@ from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.joints import joint_state
 from hexdbb.evidence.readings import Linear, Readings, State
-from hexdbb.model import Model, OwnEffect, Tabulated, Term, new_term
-from hexdbb.model.own import ShapedEffect
+from hexdbb.model import Model, OwnEffect, Tabulated, Term, is_shaped, new_term
 from hexdbb.model.terms import started_term
 from hexdbb.samples import PUSH_SHAPES, Samples
 
@@ -253,7 +252,7 @@ class Engine:
         """Evaluate an effect for the whole table; a user's is kept, a learned one belongs to one fit."""
         if isinstance(effect, TabulatedLearned):
             return effect.tabulated(self.samples)
-        if isinstance(effect, ShapedEffect) and effect.shapes:
+        if is_shaped(effect):
             return effect.tabulated_at(self.samples, values)
         if effect.name not in self._tabulated:
             self._tabulated[effect.name] = effect.tabulated(self.samples)

@@ -6,7 +6,7 @@ from hexdbb.model.file import load_model, save_model
 from hexdbb.model.learned import LearnedEffect
 from hexdbb.model.ledger import LedgerStep, Size, Snapshot
 from hexdbb.model.model import Model, new_model
-from hexdbb.model.own import OwnEffect, OwnEffects, Shape, ShapedEffect, Tabulate, Tabulated
+from hexdbb.model.own import OwnEffect, OwnEffects, Shape, ShapedEffect, Tabulate, Tabulated, is_shaped
 from hexdbb.model.terms import MountKey, Parameter, Term, new_term
 
 __all__ = [
@@ -28,6 +28,7 @@ __all__ = [
     "default_effects",
     "effect_info",
     "effect_names",
+    "is_shaped",
     "load_model",
     "new_model",
     "new_term",

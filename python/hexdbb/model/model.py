@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +57,11 @@ class Model:
         term = self.term(effect)
         return self.own_effects.get(effect) if term is None or term.learned is None else term.learned
 
+    @cached_property
+    def needs(self) -> frozenset[str]:
+        """Columns of the samples' state on which its effects depend."""
+        return frozenset(column for term in self.terms for column in self.info(term.effect).needs)
+
     @property
     def learned(self) -> tuple[Term, ...]:
         """Terms of learned effects."""
@@ -63,11 +69,12 @@ class Model:
 
     def parameters(self) -> list[Parameter]:
         """Return name and nature of every value, in the order of `values`."""
-        return [
-            parameter
-            for term in self.terms
-            for parameter in parameters_of(self.info(term.effect), self.own(term.effect))
-        ]
+        return list(self._parameters)
+
+    @cached_property
+    def _parameters(self) -> list[Parameter]:
+        terms = self.terms
+        return [each for term in terms for each in parameters_of(self.info(term.effect), self.own(term.effect))]
 
     @property
     def snapshot(self) -> Snapshot:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -83,8 +83,7 @@ class Shape:
     unit: str = "mm"
 
 
-@runtime_checkable
-class ShapedEffect(Protocol):
+class ShapedEffect(OwnEffect, Protocol):
     """A user's effect with shape parameters: what it pushes depends on their values, by element."""
 
     @property
@@ -101,3 +100,13 @@ OwnEffects = Mapping[str, OwnEffect]
 """Users' effects by name."""
 Tabulate = Callable[[OwnEffect, NDArray[np.float64]], Tabulated]
 """Evaluates a user's effect with these values for the samples that are to be predicted."""
+
+
+def shapes_of(own: OwnEffect | None) -> Mapping[str, Shape]:
+    """Return the shape parameters of an effect by name; none where it has none, or is the engine's."""
+    return getattr(own, "shapes", {})
+
+
+def is_shaped(own: OwnEffect | None) -> TypeGuard[ShapedEffect]:
+    """Check whether an effect has shape parameters."""
+    return bool(shapes_of(own))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +9,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.model.learned import LearnedEffect
-from hexdbb.model.own import OwnEffect, Shape, ShapedEffect
+from hexdbb.model.own import OwnEffect, Shape, shapes_of
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -96,7 +95,7 @@ def started_term(effect: str, own: OwnEffect | None, info: _core.EffectInfo) -> 
 
 def parameters_of(info: _core.EffectInfo, own: OwnEffect | None = None) -> list[Parameter]:
     """Return name and nature of every value of an effect, element by element; `own` where it is not the engine's."""
-    shapes: Mapping[str, Shape] = own.shapes if isinstance(own, ShapedEffect) else {}
+    shapes = shapes_of(own)
     is_coefficient = isinstance(own, LearnedEffect)
     found = [
         Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)

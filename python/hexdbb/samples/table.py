@@ -21,10 +21,9 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table, to_frame
 from hexdbb.machine import MachineFile
-from hexdbb.model import Model, MountKey, OwnEffect, ShapedEffect, Tabulated
+from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, is_shaped
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
-from hexdbb.samples.swing import DERIVED
 from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
 Floats = NDArray[np.float64]
@@ -53,7 +52,7 @@ class Samples:
     def __init__(self, whole: Whole, rows: NDArray[np.intp] | None = None) -> None:
         self._whole = whole
         self._rows = rows
-        self._blocks: dict[tuple[MountKey, ...], _core.Samples] = {}
+        self._blocks: dict[tuple[MountKey, ...], tuple[frozenset[str], _core.Samples]] = {}
 
     @classmethod
     def of(cls, records: Sequence[Record]) -> Samples:
@@ -141,7 +140,7 @@ class Samples:
     @property
     def column_names(self) -> tuple[str, ...]:
         """Names of the columns that are known."""
-        return tuple(dict.fromkeys((*self._whole.columns, *DERIVED)))
+        return self._whole.names
 
     @property
     def records(self) -> tuple[Record, ...]:
@@ -195,12 +194,14 @@ class Samples:
         """
         for record in self.records:
             record.require_machine(model.machine, model.name)
-        if model.mounts not in self._blocks:
+        held, block = self._blocks.get(model.mounts, (frozenset(), None))
+        if block is None or not model.needs <= held:
             if model.mounts:
                 self._require_known(model)
-            whole = self._whole.block(model.mounts)
-            self._blocks[model.mounts] = whole if self._rows is None else whole.rows(self._rows)
-        return self._blocks[model.mounts]
+            held, whole = self._whole.block(model.mounts, model.needs)
+            block = whole if self._rows is None else whole.rows(self._rows)
+            self._blocks[model.mounts] = held, block
+        return block
 
     def engine(self, model: Model) -> _core.Model:
         """Return the engine's form of a model that is to predict these samples.
@@ -246,7 +247,7 @@ class Samples:
     def _tabulated(self, effect: OwnEffect, values: Floats) -> Tabulated:
         """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs."""
         known = self._whole.tabulated
-        if not isinstance(effect, ShapedEffect) or not effect.shapes:
+        if not is_shaped(effect):
             if effect not in known:
                 known[effect] = effect.tabulated(Samples(self._whole))
             return known[effect]

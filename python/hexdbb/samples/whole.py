@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,50 +22,81 @@ from hexdbb.samples.swing import DERIVED, derived_columns
 Floats = NDArray[np.float64]
 Columns = dict[str, NDArray[Any]]
 
+STATE = tuple(column.name for column in _core.state_columns() if column.name not in ("sliders_mm", "row"))
+"""Columns of the engine's state that a table may have; the engine itself numbers the rows of a part."""
 PLANNED = "planned"
 """Takes the place of a record's hash in the mounts of a plan, of which no record exists."""
 
 
 @dataclass(eq=False)
 class Whole:
-    """All samples of a table: their columns by name, and what was computed from them already."""
+    """All samples of a table: their columns by name, and what was computed from them already.
+
+    Columns of the engine's state that follow from others are derived when first asked for: a prediction of geometry
+    needs none of them.
+    """
 
     machine: MachineFile
     records: tuple[Record, ...]
     set_ups: tuple[_core.SetUp, ...]
     mounts: tuple[MountKey, ...]
     columns: Columns
-    state: Columns
-    """Those of the columns that belong to the engine's state."""
     origin: str
     """What errors call it."""
     tabulated: dict[OwnEffect, Tabulated] = field(default_factory=dict)
     shaped: dict[OwnEffect, tuple[bytes, Tabulated]] = field(default_factory=dict)
     """Effects with shape parameters, evaluated at the values of which these are the bytes."""
-    blocks: dict[tuple[MountKey, ...], _core.Samples] = field(default_factory=dict)
+    blocks: dict[tuple[MountKey, ...], tuple[frozenset[str], _core.Samples]] = field(default_factory=dict)
+    """The engine's form by the mounts' numbering, with the columns of the state that it holds."""
 
     def __len__(self) -> int:
         return len(self.columns["set_up"])
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all columns, derived already or not."""
+        given = (name for name in self.columns if name not in STATE and name not in DERIVED)
+        return (*given, *STATE, *DERIVED)
+
     def column(self, name: str) -> NDArray[Any] | None:
-        """Return a column, None where there is no such; those of `DERIVED` are computed when first asked for."""
-        if name in DERIVED and name not in self.columns:
-            self.columns |= derived_columns(self.machine, self.columns)
+        """Return a column, None where there is no such."""
+        if name not in self.columns:
+            if name in STATE:
+                self.columns |= self._derived_state()
+            elif name in DERIVED:
+                self.column("velocity_mm_s")
+                self.columns |= derived_columns(self.machine, self.columns)
         return self.columns.get(name)
 
-    def block(self, mounts: tuple[MountKey, ...]) -> _core.Samples:
-        """Return the engine's form, mounts numbered as in `mounts`; those not among them count as the first."""
-        if mounts not in self.blocks:
-            place = {key: index for index, key in enumerate(mounts)}
-            number = np.array([place.get(key, 0) for key in self.mounts], np.int32)
-            self.blocks[mounts] = _core.Samples(
-                sliders_mm=self.columns["sliders_mm"],
-                set_up=self.columns["set_up"],
-                mount=number[self.columns["mount"]],
-                set_ups=list(self.set_ups),
-                state=self.state,
-            )
+    def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
+        """Return the engine's form with at least some columns of the state, and the names of those that it holds.
+
+        Mounts are numbered as in `mounts`; those not among them count as the first. The engine copies what it is
+        given, so it is given what a model needs.
+        """
+        held, block = self.blocks.get(mounts, (frozenset(), None))
+        if block is None or not needs <= held:
+            held = held | needs
+            self.blocks[mounts] = held, self._engine(mounts, held)
         return self.blocks[mounts]
+
+    def _engine(self, mounts: tuple[MountKey, ...], names: Iterable[str]) -> _core.Samples:
+        place = {key: index for index, key in enumerate(mounts)}
+        number = np.array([place.get(key, 0) for key in self.mounts], np.int32)
+        return _core.Samples(
+            sliders_mm=self.columns["sliders_mm"],
+            set_up=self.columns["set_up"],
+            mount=number[self.columns["mount"]],
+            set_ups=list(self.set_ups),
+            state={name: column for name in names if (column := self.column(name)) is not None},
+        )
+
+    def _derived_state(self) -> Columns:
+        """Return the columns of the engine's state that follow from the given ones."""
+        given = [name for name in STATE if name in self.columns]
+        block = self._engine(self.mounts, given)
+        block.derive(engine_machine(self.machine))
+        return {name: column for name, column in block.state.items() if name not in self.columns}
 
 
 def of_records(records: Sequence[Record]) -> Whole:
@@ -138,23 +169,12 @@ def _completed(
     state: Columns,
     origin: str,
 ) -> Whole:
-    """Complete the columns: mounts (`keys` are those of the set-ups), and all that follows from the motion."""
+    """Complete the table by its mounts; `keys` are those of the set-ups."""
     mounts = tuple(dict.fromkeys(keys))
     of_set_up = np.array([mounts.index(key) for key in keys])
     columns["set_up"] = columns["set_up"].astype(np.int32)
     columns["mount"] = of_set_up[columns["set_up"]].astype(np.int32)
-    block = _core.Samples(
-        sliders_mm=columns["sliders_mm"],
-        set_up=columns["set_up"],
-        mount=columns["mount"],
-        set_ups=list(set_ups),
-        state=state,
-    )
-    block.derive(engine_machine(machine))
-    derived: Columns = block.state
-    return Whole(
-        machine, records, tuple(set_ups), mounts, {**columns, **derived}, derived, origin, blocks={mounts: block}
-    )
+    return Whole(machine, records, tuple(set_ups), mounts, {**columns, **state}, origin)
 
 
 def _sliders_mm(machine: MachineFile, run: CircleRun, angle_rad: Floats, origin: str) -> Floats:
