@@ -52,10 +52,10 @@ VARIABLES = {
     "reading": ("deflection",),
     "warming": ("time",),
     "step": ("time",),
-    "speed": ("velocity",),
     "fine_time": ("time",),
-    "tilt_x": ("tilt",),
-    "tilt_y": ("tilt",),
+    "roll": ("tilt",),
+    "pitch": ("tilt",),
+    "time_in_sweep": ("time_in_run",),
     "time_period": ("time",),
     "position_period": ("position",),
 }
@@ -164,7 +164,7 @@ def _learned(verdict: Verdict, label: Label) -> str:
                 return "false"
             continue
         _, place, *rest = name.split(":")
-        variable = rest[-1]
+        variable = rest[-1].partition("@")[0]
         element = int(rest[0]) if len(rest) == 2 and rest[0].isdigit() else None
         for port, variables, elements in truths:
             if PLACES.get(place, place) != port or (elements and element is not None and element not in elements):

@@ -17,7 +17,7 @@ from hexdbb.diagnosis import Diagnosis
 from hexdbb.diagnosis.learned_text import learned_parts
 from hexdbb.discovery import require_usable_effects
 from hexdbb.files.atomic_file import refuse_existing
-from hexdbb.learned import Hypothesis
+from hexdbb.learned import Learned
 from hexdbb.learned.places import is_learned
 from hexdbb.ledger import add_effect
 from hexdbb.ledger.json_form import added_json
@@ -60,7 +60,7 @@ def command(
     model = existing_model(model_path, effects_path)
     name = Choice.parse(effect).effect
     if is_learned(name):
-        Hypothesis.parse(name)
+        Learned.parse(name)
     else:
         model.info(name)  # an unknown name is refused before records are read
     messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.projection import Projection
-from hexdbb.learned import Hypothesis, Space
+from hexdbb.learned import Learned, Space
 from hexdbb.model import LearnedEffect, Model
 from hexdbb.samples import Samples
 
@@ -58,7 +58,7 @@ def learned_effect(samples: Samples, model: Model, name: str, noise: Noise | Non
 
 def space_of(samples: Samples, model: Model, name: str) -> Space:
     """Return the functions that a name stands for, on some samples; `InputError` as `learned_effect`."""
-    return Space.of(Hypothesis.parse(name), samples, model.machine.sliders.screw_lead_mm)
+    return Space.of(Learned.parse(name), samples, model.machine.sliders.screw_lead_mm)
 
 
 def with_bands(model: Model, covariance: Floats, samples: Samples) -> Model:

@@ -15,12 +15,12 @@ from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import GROUPINGS, Candidate, Cause, GroupError, Grouping, NextTest, Verdict
 from hexdbb.effects.words import effect_clause
 from hexdbb.errors import RunError
-from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import HeldOut, Trial
 from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
+from hexdbb.learned import Learned
 from hexdbb.model import Choice, Model, Size
 from hexdbb.units import shown_factor, shown_unit
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from hexdbb.evidence.families import ALL, Learned
 from hexdbb.evidence.trial import HeldOut
+from hexdbb.learned import ALL, Learned
 
 GROUPS = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 PLACES = {

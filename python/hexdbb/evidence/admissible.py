@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.families import Learned
 from hexdbb.evidence.trial import HeldOut, Trial, Trials, heldout
+from hexdbb.learned import Learned
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
 
@@ -35,7 +35,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons = []
     if any(
-        isinstance(each.hypothesis, Learned) and each.hypothesis.variable.column == "time" for each in trial.members
+        isinstance(each.hypothesis, Learned) and each.hypothesis.variable.column == "time_s" for each in trial.members
     ):
         return Checked(predicted, share, ())
     for grouping, held in predicted.items():

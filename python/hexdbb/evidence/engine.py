@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -14,20 +14,17 @@ from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
-from hexdbb.evidence.families import Learned
-from hexdbb.evidence.joints import joint_state
 from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.learned import Learned, Space
 from hexdbb.model import Model, OwnEffect, Tabulated, Term, is_shaped, new_term
 from hexdbb.model.terms import started_term
-from hexdbb.samples import PUSH_SHAPES, Samples
+from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 SHAPE_ROUNDS = 3
 """Steps of Gauss and Newton for shapes of users' effects: enough to compare hypotheses; what is added is fitted on."""
-FIRST_PORT = {"slider": 0, "leg": 6, "platform_joint": 30, "ball": 48, "cup": 51, "reading": 54}
-PLACE_PORT = {**{place: place for place in FIRST_PORT}, "lateral": "slider_joint", "vertical": "slider_joint"}
 
 
 @dataclass(frozen=True)
@@ -46,19 +43,20 @@ class Fitted:
 class TabulatedLearned:
     """A learned hypothesis as an effect of the engine: its coefficients in the prior's own axes.
 
-    `size_mm` is the prior standard deviation of each, `factor` T (`families.py`).
+    `size_mm` is the prior standard deviation of each, `factor` T (`signatures.py`).
     """
 
-    hypothesis: Learned
+    space: Space
     factor: Floats
     size_mm: float
-    state: Mapping[str, Floats] = field(repr=False)
-    rows: Ints = field(repr=False)
+    state: State
+    rows: Ints
+    """Rows of the state in the whole table."""
 
     @property
     def name(self) -> str:
         """Name in the model."""
-        return self.hypothesis.name
+        return self.space.hypothesis.name
 
     def info(self) -> _core.EffectInfo:
         """Describe it as the engine's own are described."""
@@ -74,7 +72,7 @@ class TabulatedLearned:
             element_kind="machine",
             elements=["1"],
             parameters=values,
-            ports=[PLACE_PORT[self.hypothesis.place]],
+            ports=[self.space.hypothesis.port],
         )
 
     def tabulated(self, samples: Samples) -> Tabulated:
@@ -82,19 +80,18 @@ class TabulatedLearned:
         values: list[int] = []
         ports: list[int] = []
         tables: list[Floats] = []
-        functions = self.hypothesis.variable.columns
-        for column, design in self.hypothesis.basis(self.state):
-            component = column % 3 if self.hypothesis.components == 3 else 0
+        hypothesis, functions = self.space.hypothesis, self.space.hypothesis.variable.columns
+        for component in range(hypothesis.components):
             own = self.factor[component * functions : (component + 1) * functions]
-            pushed = design @ own
             kept = np.flatnonzero(np.any(own != 0.0, axis=0))
-            for port, weight in _ports(self.hypothesis.place, column):
-                for value in kept:
-                    values.append(int(value))
-                    ports.append(port)
-                    tables.append(weight * pushed[:, value])
+            for element, pushes in hypothesis.pushes(component):
+                pushed = self.state.design(self.space, element) @ own[:, kept]
+                for port, weight in pushes:
+                    values += kept.tolist()
+                    ports += [port] * len(kept)
+                    tables.append(weight * pushed)
         table = np.zeros((int(samples.row_numbers.max()) + 1, len(values)))
-        table[self.rows] = np.column_stack(tables)
+        table[self.rows] = np.hstack(tables)
         return Tabulated(self.info(), tuple(values), tuple(ports), table)
 
 
@@ -135,7 +132,7 @@ class Engine:
             "lap": _codes(part["lap"]),
             "sweep": _codes(part["sweep"]),
         }
-        return Readings(_state(part), groups, self.row_noise_mm, part.machine.sliders.screw_lead_mm)
+        return Readings(State(part, part.machine.sliders.screw_lead_mm), groups, self.row_noise_mm)
 
     def fit(self, model: Model) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.
@@ -188,7 +185,7 @@ class Engine:
             residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
             own=own,
             standing=(model.values - start)[free] / prior,
-            pushes=_pushes(_core.port_sensitivity(engine, block) * weight),
+            ports=_core.port_sensitivity(engine, block) * weight,
         )
         covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
         return Fitted(model, linear, covariance, free)
@@ -239,9 +236,10 @@ class Engine:
         freed = [each.effect == effect and each.element in elements for each in model.parameters()]
         return model.with_free(model.free | np.array(freed))
 
-    def with_learned(self, model: Model, hypothesis: Learned, factor: Floats, size_mm: float, name: str = "") -> Model:
+    def with_learned(self, model: Model, hypothesis: Learned, factor: Floats, size_mm: float) -> Model:
         """Return the model with a learned hypothesis, its coefficients free, at zero."""
-        own = TabulatedLearned(hypothesis, factor, size_mm, self.readings.state, self.part.row_numbers)
+        state = self.readings.state
+        own = TabulatedLearned(state.space(hypothesis), factor, size_mm, state, self.part.row_numbers)
         wider = model.knowing_effects([own])
         return replace(wider, terms=(*wider.terms, new_term(own.name, factor.shape[1])))
 
@@ -281,67 +279,3 @@ def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
 def _codes(values: NDArray[np.generic]) -> Ints:
     codes: Ints = np.unique(values, return_inverse=True)[1].ravel()
     return codes
-
-
-def _pushes(sensitivity: Floats) -> dict[str, Floats]:
-    widths = [int(np.prod(shape, dtype=int)) for shape in PUSH_SHAPES.values()]
-    parts = dict(zip(PUSH_SHAPES, np.split(sensitivity, np.cumsum(widths)[:-1], axis=1), strict=True))
-    across = np.array([_core.guideway_axes(slider // 2) for slider in range(6)])
-    local = np.einsum("nki,kij->nkj", parts["slider_joint"].reshape(-1, 6, 3), across)
-    return {
-        "slider": parts["slider"],
-        "leg": parts["leg"],
-        "lateral": local[..., 0],
-        "vertical": local[..., 2],
-        "ball": parts["ball"],
-        "cup": parts["cup"],
-        "reading": parts["reading"].reshape(-1, 1),
-        "platform_joint": parts["platform_joint"].reshape(len(sensitivity), 18),
-    }
-
-
-def _ports(place: str, column: int) -> list[tuple[int, float]]:
-    """Return the engine's port columns of a place's column, each with its weight."""
-    if place in FIRST_PORT:
-        return [(FIRST_PORT[place] + column, 1.0)]
-    axis = _core.guideway_axes(column // 2)[:, 0 if place == "lateral" else 2]
-    return [(12 + 3 * column + base, float(axis[base])) for base in range(3) if axis[base] != 0.0]
-
-
-def _state(part: Samples) -> State:
-    time_s = part["time_s"]
-    passed = (time_s - time_s.min()) / max(float(np.ptp(time_s)), 1e-9)
-    state = {
-        "position": part["sliders_mm"],
-        "velocity": part["velocity_mm_s"],
-        "speed": np.abs(part["velocity_mm_s"]),
-        "acceleration": part["acceleration_mm_s2"],
-        "direction": part["travel_direction"],
-        "since_reversal_s": part["since_reversal_s"],
-        "since_reversal_mm": part["since_reversal_mm"],
-        "leg_force": part["leg_force"],
-        "slider_joint_angle": part["slider_joint_angle_rad"],
-        "slider_joint_rate": part["slider_joint_rate_rad_s"],
-        "platform_joint_angle": part["platform_joint_angle_rad"],
-        "platform_joint_rate": part["platform_joint_rate_rad_s"],
-        "time": time_s,
-        "time_in_run": time_s - _begin_s(time_s, part["sweep"]),
-        "elapsed": passed - passed.mean(),
-        "feed": part["feed_mm_s"],
-        "polar_angle": part["angle_rad"],
-        "circle_direction": part["direction"],
-        "nominal_reading": part["nominal_reading_mm"],
-    }
-    if np.isfinite(part["warming_k"]).all():
-        state["warming"] = part["warming_k"]
-    state |= joint_state(part)
-    return State({name: np.asarray(values, np.float64) for name, values in state.items()})
-
-
-def _begin_s(time_s: Floats, sweep: NDArray[np.integer]) -> Floats:
-    """Return the time at which each row's sweep begins, shape (n,)."""
-    member = np.unique(sweep, return_inverse=True)[1].ravel()
-    begin = np.full(int(member.max()) + 1, np.inf)
-    np.minimum.at(begin, member, time_s)
-    found: Floats = begin[member]
-    return found

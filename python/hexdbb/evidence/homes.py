@@ -15,8 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.evidence.families import ALL, Learned
 from hexdbb.evidence.readings import Linear, Thinned
+from hexdbb.evidence.signatures import signature_of
+from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
 
@@ -57,8 +58,8 @@ class Homes:
         self._absorbed = thin.own @ (vectors[:, seen] / np.sqrt(values[seen]))
         self._spaces = []
         for each in hypotheses:
-            space = each.space(thin, thinned.readings)
-            visible = self._visible(space.signature)
+            space = signature_of(each, thin, thinned.readings)
+            visible = self._visible(space.table)
             values, vectors = np.linalg.eigh(visible.T @ visible)
             kept = values > 1e-9 * values[-1]
             half = vectors[:, kept] / np.sqrt(values[kept])

@@ -14,8 +14,8 @@ from scipy import stats
 from hexdbb import _core
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Fitted
-from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Known
+from hexdbb.learned import Learned
 from hexdbb.units import shown_factor, shown_unit
 
 

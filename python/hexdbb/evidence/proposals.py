@@ -17,19 +17,17 @@ from scipy.linalg import solve_triangular
 from scipy.special import logsumexp
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.families import ALL, Learned
 from hexdbb.evidence.readings import Linear, Readings, Thinned
-from hexdbb.evidence.variables import Variable
+from hexdbb.learned import ALL, Learned, periodic, step
 from hexdbb.predictors.periods import strongest_frequency
 
 Floats = NDArray[np.float64]
 
+EVERY = slice(0, None)
 WIDE_MM = 1.0
 """Prior standard deviation of steps found already, while the next is sought: beyond any step."""
 SHORTEST_MM = 0.4
 """Shortest period of a position: below, neighbouring readings no longer follow it at a usual feed."""
-PERIOD_COLUMNS = 8
-"""Splines of a period: a sine with two harmonics."""
 
 
 @dataclass(frozen=True)
@@ -45,32 +43,36 @@ def proposals(linear: Linear, readings: Readings, thinned: Thinned, criteria: Cr
     return [*_steps(linear, readings, thinned, criteria), *_periods(linear, readings)]
 
 
-def _shifting() -> Iterator[tuple[str, int, slice]]:
-    """Yield places that may shift: place, element, columns of its pushes."""
+def _shifting() -> Iterator[tuple[str, int]]:
+    """Yield places that may shift, each with its element."""
     for place in ("slider", "leg"):
         for element in range(1, 7):
-            yield place, element, slice(element - 1, element)
-    for place in ("ball", "cup"):
-        yield place, ALL, slice(0, 3)
-    yield "reading", ALL, slice(0, 1)
+            yield place, element
+    yield from (("ball", ALL), ("cup", ALL), ("reading", ALL))
+
+
+def _answers(linear: Linear, place: str, element: int) -> Floats:
+    """Return what a push at a place does to the readings, a column for each axis."""
+    at = Learned(place, element, step([0.0]))
+    return np.column_stack([linear.answer(at.pushes(axis)[0][1]) for axis in range(at.components)])
 
 
 def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
-    time_s, few = readings.state["time"], thinned.linear(linear)
+    time_s, few = readings.state["time_s"], thinned.linear(linear)
+    few_s = thinned.readings.state["time_s"]
     found = []
     temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
-    for place, element, columns in _shifting():
-        scan = _Scan(few, thinned.readings.state["time"], few.pushes[place][:, columns], temper)
+    for place, element in _shifting():
+        scan = _Scan(few, few_s, _answers(few, place, element), temper)
         instants, log_prior, gain = scan.greedy(criteria.most_steps, criteria.detect_nats)
         if instants:
-            found.append((gain + log_prior, place, element, columns, instants, log_prior))
+            found.append((gain + log_prior, place, element, instants, log_prior))
     found.sort(key=lambda each: -each[0])
     chosen = []
-    for _, place, element, columns, instants, log_prior in found[: criteria.full_fits]:
-        whole = _Scan(linear, time_s, linear.pushes[place][:, columns], temper)
-        refined = whole.refined(instants, float(np.median(np.diff(np.unique(thinned.readings.state["time"])))))
-        variable = Variable("step", "time", "s", len(refined), instants=tuple(sorted(refined)))
-        chosen.append(Proposal(Learned(place, element, variable), log_prior))
+    for _, place, element, instants, log_prior in found[: criteria.full_fits]:
+        whole = _Scan(linear, time_s, _answers(linear, place, element), temper)
+        refined = whole.refined(instants, float(np.median(np.diff(np.unique(few_s)))))
+        chosen.append(Proposal(Learned(place, element, step(refined)), log_prior))
     return chosen
 
 
@@ -92,24 +94,34 @@ class _Scan:
         self.time_s, self.pushes, self.temper = time_s[order], pushes[order], temper
         self.own, self.residual, self.standing = linear.own[order], linear.residual[order], linear.standing
 
-    def gains(self, instants: list[float]) -> Floats:
-        """Return the log likelihood that a step from every row on gains beside steps found already, shape (n,)."""
+    def gains(self, instants: list[float], rows: slice = EVERY) -> Floats:
+        """Return the log likelihood that a step gains beside steps found already, by the row from which it holds.
+
+        Parameters
+        ----------
+        instants : list of float
+        rows : slice
+            Rows asked for, shape (m,) of them; the sums of those behind are taken once.
+        """
         added = [self.pushes * (self.time_s >= at)[:, None] * WIDE_MM for at in instants]
         own = np.hstack([self.own, *added])
         standing = np.concatenate([self.standing, np.zeros(own.shape[1] - self.own.shape[1])])
         factor = np.linalg.cholesky(own.T @ own + np.eye(own.shape[1]))
-        fitted = solve_triangular(factor, own.T @ self.residual - standing, lower=True)
-        count, width = self.pushes.shape
+        fitted = solve_triangular(factor, own.T @ self.residual - standing, lower=True, check_finite=False)
+        width = self.pushes.shape[1]
         table = np.concatenate([self.pushes, own, self.residual[:, None]], axis=1)
-        sums = np.cumsum((self.pushes[:, :, None] * table[:, None, :])[::-1], axis=0)[::-1]
+        behind = slice(rows.stop, None) if rows.stop is not None else slice(0, 0)
+        sums = np.cumsum((self.pushes[rows, :, None] * table[rows, None, :])[::-1], axis=0)[::-1]
+        sums = sums + self.pushes[behind].T @ table[behind]
+        count = len(sums)
         cross = sums[:, :, width:-1].reshape(count * width, -1)
-        half = solve_triangular(factor, cross.T, lower=True).T.reshape(count, width, -1)
+        half = solve_triangular(factor, cross.T, lower=True, check_finite=False).T.reshape(count, width, -1)
         information = sums[:, :, :width] - np.matmul(half, half.transpose(0, 2, 1))
         gradient = sums[:, :, -1] - half @ fitted
         known = information + np.eye(width) / WIDE_MM**2
         gain: Floats = 0.5 * np.einsum("ni,ni->n", gradient, np.linalg.solve(known, gradient[..., None])[..., 0])
         # Rows of one instant step together: a step begins at the first of them.
-        first = np.concatenate([[False], np.diff(self.time_s) > 0.0])
+        first = np.concatenate([[False], np.diff(self.time_s) > 0.0])[rows]
         return np.where(first, gain / self.temper, -np.inf)
 
     def greedy(self, most: int, worth: float) -> tuple[list[float], float, float]:
@@ -133,34 +145,33 @@ class _Scan:
         """Return the best instants near some found on fewer rows."""
         found = list(instants)
         for place, at in enumerate(instants):
-            gains = self.gains([each for other, each in enumerate(found) if other != place])
-            gains[np.abs(self.time_s - at) > 2.0 * window_s] = -np.inf
+            near = slice(*np.searchsorted(self.time_s, [at - 2.0 * window_s, at + 2.0 * window_s]))
+            gains = self.gains([each for other, each in enumerate(found) if other != place], near)
             if np.isfinite(gains).any():
-                found[place] = float(self.time_s[int(np.argmax(gains))])
+                found[place] = float(self.time_s[near][int(np.argmax(gains))])
         return found
 
 
 def _periods(linear: Linear, readings: Readings) -> Iterator[Proposal]:
-    position, time_s = readings.state["position"], readings.state["time"]
-    places = [("slider", each, [each - 1]) for each in range(1, 7)]
-    for place in ("lateral", "vertical"):
-        places += [(place, each, [2 * each - 2, 2 * each - 1]) for each in range(1, 4)]
-    for place, element, columns in places:
-        weighted = np.concatenate([linear.residual * linear.pushes[place][:, column] for column in columns])
-        values = np.concatenate([position[:, column] for column in columns])
-        yield from _period(place, element, "position", "mm", weighted, values, 1.0 / SHORTEST_MM)
+    position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
+    places = [("slider", each) for each in range(1, 7)]
+    places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
+    for place, element in places:
+        pushes = Learned(place, element, periodic("position", 1.0)).pushes(0)
+        weighted = np.concatenate([linear.residual * linear.answer(ports) for _, ports in pushes])
+        values = np.concatenate([position[:, column] for column, _ in pushes])
+        yield from _period(place, element, "position", weighted, values, 1.0 / SHORTEST_MM)
     gaps = np.diff(np.unique(time_s))
     if len(gaps):
         highest = 0.5 / float(np.median(gaps))
-        weighted = linear.residual * linear.pushes["reading"][:, 0]
-        yield from _period("reading", ALL, "time", "s", weighted, time_s, highest)
+        weighted = linear.residual * _answers(linear, "reading", ALL)[:, 0]
+        yield from _period("reading", ALL, "time", weighted, time_s, highest)
 
 
 def _period(
-    place: str, element: int, column: str, unit: str, weighted: Floats, values: Floats, highest: float
+    place: str, element: int, column: str, weighted: Floats, values: Floats, highest: float
 ) -> Iterator[Proposal]:
     frequency = strongest_frequency(weighted, values, highest)
     if frequency is not None:
-        variable = Variable(f"{column}_period", column, unit, PERIOD_COLUMNS, period=1.0 / frequency)
         tried = max(float(np.ptp(values)) * highest, 1.0)
-        yield Proposal(Learned(place, element, variable), -float(np.log(tried)))
+        yield Proposal(Learned(place, element, periodic(column, 1.0 / frequency)), -float(np.log(tried)))

@@ -11,13 +11,14 @@ few neighbouring ones where sampling is dense (`engine.py`).
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.learned import Columns, Learned, Space, Variable
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -26,12 +27,64 @@ GROUPINGS = ("circle", "feed", "direction", "lap")
 """What may be held out as a whole, in the order in which results are reported."""
 
 
-class State(dict[str, Floats]):
-    """Variables by name, with the designs that were made of them."""
+class State:
+    """Columns of some rows by name (`hexdbb.samples`), with the spaces and designs that were made of them.
 
-    def __init__(self, columns: Mapping[str, Floats]) -> None:
-        super().__init__(columns)
-        self.designs: dict[Hashable, Floats] = {}
+    Parameters
+    ----------
+    columns : Columns
+        Samples, or anything that has their columns.
+    screw_lead_mm : float
+        Travel of a slider per turn of its screw.
+    """
+
+    def __init__(self, columns: Columns, screw_lead_mm: float) -> None:
+        self._columns, self.screw_lead_mm = columns, screw_lead_mm
+        self._known: dict[str, Floats] = {}
+        self._spaces: dict[Learned, Space] = {}
+        self._designs: dict[tuple[Variable, int, float, float], NDArray[np.float32]] = {}
+
+    def __getitem__(self, name: str) -> Floats:
+        """Return a column, shape (n,), (n, 3) or (n, 6)."""
+        if name not in self._known:
+            self._known[name] = np.asarray(self._columns[name], np.float64)
+        return self._known[name]
+
+    def __len__(self) -> int:
+        return len(self["time_s"])
+
+    def rows(self, rows: Ints) -> State:
+        """Return some rows, whose functions are those of the whole."""
+        part = State(_Rows(self, rows), self.screw_lead_mm)
+        part._spaces = self._spaces
+        return part
+
+    def space(self, hypothesis: Learned) -> Space:
+        """Return the functions of a hypothesis; `InputError` where its variable is not measured or hardly varies."""
+        if hypothesis not in self._spaces:
+            self._spaces[hypothesis] = Space.of(hypothesis, self, self.screw_lead_mm)
+        return self._spaces[hypothesis]
+
+    def design(self, space: Space, element: int) -> NDArray[np.float32]:
+        """Return a space's functions in every row, shape (n, columns), kept: places share their variables."""
+        key = (space.hypothesis.variable, element, space.low, space.high)
+        if key not in self._designs:
+            self._designs[key] = space.design(self, element).astype(np.float32)
+        return self._designs[key]
+
+
+class _Rows:
+    """Rows of a state's columns."""
+
+    def __init__(self, whole: State, rows: Ints) -> None:
+        self._whole, self._rows = whole, rows
+
+    def __getitem__(self, name: str) -> Floats:
+        found: Floats = self._whole[name][self._rows]
+        return found
+
+    def __len__(self) -> int:
+        return len(self._rows)
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,20 +93,17 @@ class Readings:
 
     Attributes
     ----------
-    state : mapping of str to ndarray, shape (n,) or (n, 6)
-        Variables on which a cause may depend, by name.
+    state : State
+        Columns on which a cause may depend.
     groups : mapping of str to ndarray of int, shape (n,)
         Number of the circle, feed, direction and lap of each row, from 0; `sweep` in order of time.
     noise_mm : ndarray, shape (n,)
         Standard deviation of each row.
-    screw_lead_mm : float
-        Travel of a slider per turn of its screw.
     """
 
-    state: Mapping[str, Floats]
+    state: State
     groups: Mapping[str, Ints]
     noise_mm: Floats
-    screw_lead_mm: float = 5.0
 
     def __len__(self) -> int:
         return len(self.noise_mm)
@@ -71,15 +121,22 @@ class Linear:
         J, per prior standard deviation.
     standing : ndarray, shape (p,)
         Values in prior standard deviations.
-    pushes : mapping of str to ndarray
-        S by place, noise standard deviations per mm: `slider`, `leg`, `lateral`, `vertical` (n, 6), `ball`, `cup`
-        (n, 3), `reading` (n, 1), `platform_joint` (n, 18).
+    ports : ndarray, shape (n, 55)
+        S by port column (`_core.PORTS`), noise standard deviations per mm.
     """
 
     residual: Floats
     own: Floats
     standing: Floats
-    pushes: Mapping[str, Floats]
+    ports: Floats
+
+    def answer(self, pushes: Sequence[tuple[int, float]]) -> Floats:
+        """Return what a push of one mm at some port columns, each with its weight, does to the readings, shape (n,)."""
+        (first, weight), *others = pushes
+        found: Floats = weight * self.ports[:, first]
+        for port, weight in others:
+            found = found + weight * self.ports[:, port]
+        return found
 
     @property
     def log_evidence(self) -> float:
@@ -102,10 +159,9 @@ class Thinned:
         whole = len(readings)
         self.rows: Ints = np.unique(np.linspace(0, whole - 1, min(whole, count)).astype(np.intp))
         self.readings = Readings(
-            State({name: values[self.rows] for name, values in readings.state.items()}),
+            readings.state.rows(self.rows),
             {name: numbers[self.rows] for name, numbers in readings.groups.items()},
             readings.noise_mm[self.rows],
-            readings.screw_lead_mm,
         )
 
     def linear(self, linear: Linear) -> Linear:
@@ -114,5 +170,5 @@ class Thinned:
             residual=linear.residual[self.rows],
             own=linear.own[self.rows],
             standing=linear.standing,
-            pushes={place: push[self.rows] for place, push in linear.pushes.items()},
+            ports=linear.ports[self.rows],
         )

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.families import Learned, Space
 from hexdbb.evidence.marginal import Marginal, marginal, solved
 from hexdbb.evidence.readings import Thinned
+from hexdbb.evidence.signatures import Signature, signature_of
 from hexdbb.evidence.sums import Block, Sums, Training, squared_error
+from hexdbb.learned import Learned
 
 Floats = NDArray[np.float64]
 
@@ -84,8 +85,8 @@ class Screen:
         """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows."""
         scored = []
         for each in self._ranked(hypotheses)[: self.criteria.held_out]:
-            space = each.space(self.sums.linear, self.sums.readings)
-            block = self.sums.block(space.signature)
+            space = signature_of(each, self.sums.linear, self.sums.readings)
+            block = self.sums.block(space.table)
             scored.append((self._scored(each, block, self._factors(space), self.sizes_mm), block))
         return self._held_out(scored)
 
@@ -94,14 +95,14 @@ class Screen:
         sums = Sums(linear, self.thinned.readings, ())
         evidence = []
         for each in hypotheses:
-            space = each.space(linear, self.thinned.readings)
-            projected = sums.whole.project(sums.block(space.signature))
+            space = signature_of(each, linear, self.thinned.readings)
+            projected = sums.whole.project(sums.block(space.table))
             factors = self._factors(space)
             found = marginal(projected.information, projected.gradient, factors, self.sizes_mm, temper=self.temper)
             evidence.append(found.log_evidence)
         return [hypotheses[place] for place in np.argsort(evidence)[::-1]]
 
-    def _factors(self, space: Space) -> list[Floats]:
+    def _factors(self, space: Signature) -> list[Floats]:
         levels = self.criteria.roughness if space.hypothesis.variable.is_smooth else self.criteria.roughness[:1]
         return [space.prior_factor(level) for level in levels]
 

@@ -18,13 +18,14 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.families import ALL, Learned, learned_hypotheses
 from hexdbb.evidence.homes import SAME_FORM, Homes
 from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear, Thinned
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
+from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
+from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
 
@@ -75,7 +76,7 @@ class Search:
         # An effect that the model has already has its home too: what its own values take away is not geometry's.
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
-        self.hypotheses = list(learned_hypotheses(readings))
+        self.hypotheses = all_varying(readings)
         self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
         self.homes = Homes(linear, self.thinned, self.hypotheses)
         self.trials = Trials(self.engine, self.homes, self.criteria)

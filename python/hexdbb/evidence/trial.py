@@ -21,13 +21,14 @@ from scipy import stats
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
-from hexdbb.evidence.families import Learned
 from hexdbb.evidence.homes import Homes, discrepancy
 from hexdbb.evidence.marginal import marginal
 from hexdbb.evidence.physical import outside_domain
 from hexdbb.evidence.readings import GROUPINGS, Linear
 from hexdbb.evidence.screen import Known
+from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums, squared_error
+from hexdbb.learned import Learned
 from hexdbb.model import Model
 
 Floats = NDArray[np.float64]
@@ -203,8 +204,8 @@ class Trials:
         size_mm, functions = self._size(fitted, member.hypothesis)
         if not functions or size_mm <= 0.0:
             return linear, Form(0.0, 0.0, ())
-        spaces = [each.space(linear, self.engine.readings) for each in functions]
-        signature = np.hstack([each.signature for each in spaces])
+        spaces = [signature_of(each, linear, self.engine.readings) for each in functions]
+        signature = np.hstack([each.table for each in spaces])
         roughness = self.criteria.roughness[1]
         parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
         factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
@@ -221,7 +222,7 @@ class Trials:
             return linear, Form(0.0, 0.0, tuple(each.name for each in functions))
         at, squares = 0, []
         for space in spaces:
-            width = space.signature.shape[1]
+            width = space.table.shape[1]
             squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
             at += width
         deviation = float(np.sqrt(sum(squares))) / size_mm

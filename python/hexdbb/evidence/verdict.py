@@ -8,11 +8,11 @@ from typing import Literal
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
-from hexdbb.evidence.families import Learned
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 

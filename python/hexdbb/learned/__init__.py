@@ -4,9 +4,22 @@ Everything here is data and arithmetic on it: a hypothesis is chosen by name fro
 its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
 """
 
-from hexdbb.learned.places import ALL, Hypothesis, hypotheses
-from hexdbb.learned.space import Curve, Space, Table
-from hexdbb.learned.variables import Variable
+from hexdbb.learned.places import ALL, Learned, hypotheses
+from hexdbb.learned.space import Columns, Curve, Space, Table
+from hexdbb.learned.variables import Variable, periodic, step
 from hexdbb.learned.words import Form, describe
 
-__all__ = ["ALL", "Curve", "Form", "Hypothesis", "Space", "Table", "Variable", "describe", "hypotheses"]
+__all__ = [
+    "ALL",
+    "Columns",
+    "Curve",
+    "Form",
+    "Learned",
+    "Space",
+    "Table",
+    "Variable",
+    "describe",
+    "hypotheses",
+    "periodic",
+    "step",
+]

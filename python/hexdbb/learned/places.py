@@ -40,7 +40,7 @@ Push = tuple[int, tuple[tuple[int, float], ...]]
 
 
 @dataclass(frozen=True)
-class Hypothesis:
+class Learned:
     """A place, its element and a variable."""
 
     place: str
@@ -48,7 +48,7 @@ class Hypothesis:
     variable: Variable
 
     @classmethod
-    def parse(cls, name: str) -> Hypothesis:
+    def parse(cls, name: str) -> Learned:
         """Find a hypothesis by name.
 
         Raises
@@ -64,11 +64,12 @@ class Hypothesis:
         given = parts[1] if elements and len(parts) > 1 else ""
         if elements and given not in elements:
             raise InputError(f"{name}: element {given!r} (expected one of {', '.join(elements)})")
-        rest = parts[2:] if elements else parts[1:]
+        rest = ":".join(parts[2:] if elements else parts[1:])
         known = {each.name: each for each in VARIABLES[place]}
-        if len(rest) != 1 or rest[0] not in known:
-            raise InputError(f"{name}: variable {':'.join(rest)!r} (expected one of {', '.join(known)})")
-        return cls(place, ALL if given in ("", WHOLE) else int(given), known[rest[0]])
+        variable = known.get(rest) or v.numbered(rest)
+        if variable is None:
+            raise InputError(f"{name}: variable {rest!r} (expected one of {', '.join(known)})")
+        return cls(place, ALL if given in ("", WHOLE) else int(given), variable)
 
     @property
     def name(self) -> str:
@@ -113,12 +114,14 @@ def is_learned(name: str) -> bool:
     return name.startswith(f"{PREFIX}:")
 
 
-def hypotheses() -> Iterator[Hypothesis]:
+def hypotheses() -> Iterator[Learned]:
     """Yield every hypothesis there is; whether its variable varies in some samples, `Space.of` checks."""
     for place, variables in VARIABLES.items():
         for name in _element_names(place) or ("",):
             for variable in variables:
-                yield Hypothesis(place, ALL if name in ("", WHOLE) else int(name), variable)
+                if name == WHOLE and variable in v.OF_ONE:
+                    continue
+                yield Learned(place, ALL if name in ("", WHOLE) else int(name), variable)
 
 
 def _element_names(place: str) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.learned.places import ALL, Hypothesis
+from hexdbb.learned.places import ALL, Learned
 from hexdbb.learned.space import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
@@ -24,7 +24,7 @@ ALL_OF = {"slider": "all sliders along their guideways", "leg": "length of all l
 AXES = (" along x", " along y", " along z")
 
 
-def place_words(hypothesis: Hypothesis, component: int = 0) -> str:
+def place_words(hypothesis: Learned, component: int = 0) -> str:
     """Return where a function pushes, in words."""
     if hypothesis.element == ALL and hypothesis.place in ALL_OF:
         return ALL_OF[hypothesis.place]
@@ -32,7 +32,7 @@ def place_words(hypothesis: Hypothesis, component: int = 0) -> str:
     return PLACES[hypothesis.place].format(hypothesis.element) + axis
 
 
-def sentence(hypothesis: Hypothesis, curve: Curve, period: float = 0.0, component: int = 0) -> str:
+def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, component: int = 0) -> str:
     """Return what a function is, in one sentence: where it pushes, on what it depends, its form."""
     form = describe(curve, period)
     band = float(np.median(curve.sigma_mm)) * UM_PER_MM

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
-from hexdbb.learned.places import Hypothesis, Push
-from hexdbb.learned.variables import ELAPSED, SCREW_LEAD
+from hexdbb.learned.places import Learned, Push
+from hexdbb.learned.variables import ELAPSED, INSTANT_S, SCREW_LEAD, Variable
 
 Floats = NDArray[np.float64]
 
@@ -29,6 +29,10 @@ SIGN_POINTS = (-3.0, -2.5, -2.0, -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.0)
 """Further points about a step, in its widths, on either side: lines between them miss tanh by 2 % at most."""
 SAMPLES_PER_SPLINE = 5
 """Fewest different samples per spline: fewer leave some splines to the prior alone."""
+AXES = 3
+"""Numbers of a column that belongs to axes, not to sliders or legs."""
+COUNTED = 4096
+"""Samples of which different values are counted, evenly chosen: several times what any variable asks for."""
 SMALLEST_RANGE = 1e-9
 """Relative range below which a variable is constant but for rounding."""
 
@@ -37,7 +41,7 @@ class Columns(Protocol):
     """Samples, of which this package knows the columns alone (`hexdbb.samples.Samples`)."""
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        """Return a column, shape (n,) or (n, 6)."""
+        """Return a column, shape (n,), (n, 3) or (n, 6)."""
         ...
 
     def __len__(self) -> int: ...
@@ -109,7 +113,7 @@ class Space:
 
     Attributes
     ----------
-    hypothesis : Hypothesis
+    hypothesis : Learned
     low, high : float
         Range of the splines' argument: of the column, or of its logarithm.
     period : float
@@ -120,7 +124,7 @@ class Space:
         Of the time that a growing function grows over.
     """
 
-    hypothesis: Hypothesis
+    hypothesis: Learned
     low: float = 0.0
     high: float = 1.0
     period: float = 0.0
@@ -129,7 +133,7 @@ class Space:
     span_s: float = 1.0
 
     @classmethod
-    def of(cls, hypothesis: Hypothesis, samples: Columns, screw_lead_mm: float) -> Space:
+    def of(cls, hypothesis: Learned, samples: Columns, screw_lead_mm: float) -> Space:
         """Set the limits from samples.
 
         Raises
@@ -142,11 +146,13 @@ class Space:
         period = screw_lead_mm if variable.period == SCREW_LEAD else variable.period
         low, high, width = 0.0, period or 1.0, 0.0
         if variable.column:
-            values = np.concatenate([_of(samples, variable.column, each) for each in elements])
+            values = np.concatenate([_of(samples, variable, each) for each in elements])
             known = values[np.isfinite(values) & (np.abs(values) < NEVER)]
-            if len(known) and float(np.ptp(known)) <= SMALLEST_RANGE * max(float(np.abs(known).max()), SMALLEST_RANGE):
+            least = max(variable.least, SMALLEST_RANGE * max(float(np.abs(known).max(initial=0.0)), 1.0))
+            if len(known) and float(np.ptp(known)) <= least:
                 raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
-            different = min(len(np.unique(known)), len(known) // len(elements))
+            some = known[:: max(1, len(known) // COUNTED)]
+            different = min(len(np.unique(some)), len(known) // len(elements))
             if different < SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count:
                 raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
             width = SIGN_PART * float(np.sqrt(np.mean(known**2))) if variable.signed else 0.0
@@ -168,6 +174,8 @@ class Space:
         """Return T of the prior covariance T T' of one function's coefficients, shape (columns, columns)."""
         variable = self.hypothesis.variable
         factor = np.eye(variable.columns)
+        if variable.instants:
+            return factor
         factor[: variable.count, : variable.count] = splines.prior_factor(
             variable.count, roughness, periodic=self.period > 0.0
         )
@@ -179,10 +187,10 @@ class Space:
         if variable.times == ELAPSED:
             weight = (samples["time_s"] - self.middle_s) / self.span_s
         else:
-            weight = _of(samples, variable.times, element) if variable.times else np.ones(len(samples))
+            weight = _times(samples, variable, element) if variable.times else np.ones(len(samples))
         if not variable.column:
             return weight[:, None].copy()
-        found: Floats = weight[:, None] * self.functions(_of(samples, variable.column, element))
+        found: Floats = weight[:, None] * self.functions(_of(samples, variable, element))
         return found
 
     def functions(self, at: Floats) -> Floats:
@@ -190,6 +198,8 @@ class Space:
         variable = self.hypothesis.variable
         if not variable.column:
             return np.ones((len(at), 1))
+        if variable.instants:
+            return (at[:, None] >= np.array(variable.instants)).astype(np.float64)
         known = np.where(np.abs(at) < NEVER, at, np.inf if variable.is_log else np.nan)
         argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
         if variable.count == 1:
@@ -206,6 +216,9 @@ class Space:
         variable = self.hypothesis.variable
         if not variable.column:
             return np.zeros(1)
+        if variable.instants:
+            ends = (self.low, *variable.instants, self.high)
+            return np.unique([*ends, *(each - 0.5 * INSTANT_S for each in variable.instants)])
         count = max(POINTS, POINTS_PER_SPLINE * variable.count) if variable.count > 1 else 2
         low, high = (0.0, self.period) if self.period else (self.low, self.high)
         at = np.linspace(low, high, count)
@@ -219,10 +232,10 @@ class Space:
 
     def counts(self, samples: Columns) -> Floats:
         """Return how many samples lie nearest to each point, shape (m,)."""
-        points, column = self.points(), self.hypothesis.variable.column
+        points, variable = self.points(), self.hypothesis.variable
         if len(points) < 2:
             return np.full(1, float(len(samples)))
-        values = np.concatenate([_of(samples, column, element) for element, _ in self.hypothesis.pushes(0)])
+        values = np.concatenate([_of(samples, variable, element) for element, _ in self.hypothesis.pushes(0)])
         values = values[np.isfinite(values) & (np.abs(values) < NEVER)]
         if self.period:
             values = np.mod(values, self.period)
@@ -247,7 +260,15 @@ class Space:
         return tuple(found)
 
 
-def _of(samples: Columns, name: str, element: int) -> Floats:
-    """Return a column, that of one element where it has six."""
-    values = np.asarray(samples[name], np.float64)
+def _of(samples: Columns, variable: Variable, element: int) -> Floats:
+    """Return a variable's column: that of one element where it has six, one axis of three."""
+    values = np.asarray(samples[variable.column], np.float64)
+    if values.ndim == 1:
+        return values
+    found: Floats = values[:, variable.axis if values.shape[1] == AXES else element]
+    return found
+
+
+def _times(samples: Columns, variable: Variable, element: int) -> Floats:
+    values = np.asarray(samples[variable.times], np.float64)
     return values if values.ndim == 1 else values[:, element]

@@ -1,11 +1,15 @@
 """Variables on which an unknown cause may depend: a column of the samples and a space of functions of it.
 
 A closed list: a file or a command names a variable, it never defines one. Each stands for splines of a column, possibly
-times a second column, possibly with a step where the column changes sign.
+times a second column, possibly with a step where the column changes sign. Two kinds carry numbers in their names, which
+the readings chose: steps at instants (`step@12.5/340.2`) and what repeats with a period (`time_period@0.25`).
 """
 
 from __future__ import annotations
 
+import math
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +41,12 @@ class Variable:
         Whether a step with the column's sign belongs to it.
     is_log : bool
         Whether the splines are those of the column's logarithm.
+    axis : int
+        Component of a column of three.
+    least : float
+        Range up to which it counts as constant.
+    instants : tuple of float
+        Values of the column from which a step each holds; then there are no splines.
     """
 
     name: str
@@ -48,13 +58,29 @@ class Variable:
     period: float = 0.0
     signed: bool = False
     is_log: bool = False
+    axis: int = 0
+    least: float = 0.0
+    instants: tuple[float, ...] = ()
 
     @property
     def columns(self) -> int:
         """Number of functions."""
         return self.count + int(self.signed)
 
+    @property
+    def is_smooth(self) -> bool:
+        """Whether it has splines enough for their smoothness to be chosen."""
+        return self.count > SPLINES_MIN and not self.instants
 
+
+SPLINES_MIN = 3
+"""A cubic spline has one more function at least."""
+PERIOD_SPLINES = 8
+"""Splines of a period that the readings chose: a sine with two harmonics."""
+INSTANT_S = 1e-4
+"""Resolution of instants in names: far below the time between two samples."""
+LEAST_TILT = 1e-3
+"""rad: drives that follow a command of constant orientation leave a hundredth of it; a commanded change is more."""
 SCREW_LEAD = -1.0
 """Period of a variable that repeats with every turn of the machine's screws."""
 TURN = 2.0 * np.pi
@@ -81,6 +107,12 @@ VELOCITY = Variable("velocity", "velocity_mm_s", "mm/s", "velocity of the slider
 ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12)
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 TIME = Variable("time", "time_s", "s", "time", 10)
+FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
+TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
+ROLL, PITCH, YAW = (
+    Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
+    for axis, name in enumerate(("roll", "pitch", "yaw"))
+)
 TIME_POSITION = Variable("time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED)
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
@@ -112,20 +144,53 @@ FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
-    *(TIME, TIME_POSITION, WARMING, SCREW_PHASE),
+    *(TIME, FINE_TIME, TIME_POSITION, WARMING, SCREW_PHASE),
 )
 OF_LEG = (
     *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE)),
-    *(TURNING, JOINT_ANGLE, PLATFORM_TURNING, PLATFORM_ANGLE, SWING, SWING_ANGLE),
+    *(TURNING, JOINT_ANGLE, PLATFORM_TURNING, PLATFORM_ANGLE, SWING, SWING_ANGLE, ROLL, PITCH, YAW),
 )
 OF_GUIDEWAY = (
     Variable("position", "sliders_mm", "mm", "position of the slider", 24),
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 200),
     TIME_POSITION,
 )
-OF_BALL = (TIME,)
+OF_BALL = (TIME, FINE_TIME, ROLL, PITCH, YAW)
 OF_PLATFORM_JOINT = (
     Variable("constant", "", "", "nothing: an offset"),
     Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5),
 )
-OF_READING = (ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, WARMING, CIRCLE_DIRECTION, FEED)
+OF_READING = (
+    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION, FEED),
+    *(ROLL, PITCH, YAW),
+)
+OF_ONE = (FINE_POSITION, FINE_TIME)
+"""Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""
+
+
+def step(instants_s: Sequence[float]) -> Variable:
+    """Return the variable of steps at some instants, rounded down to what its name holds."""
+    kept = sorted({math.floor(each / INSTANT_S + 1e-6) * INSTANT_S for each in instants_s})
+    names = [f"{each:.4f}".rstrip("0").rstrip(".") for each in kept]
+    at = tuple(float(each) for each in names)
+    return Variable(f"step@{'/'.join(names)}", "time_s", "s", "time", len(at), instants=at)
+
+
+def periodic(column: str, period: float) -> Variable:
+    """Return the variable of what repeats with a period of `time` (s) or `position` (mm)."""
+    name = f"{period:.7g}"
+    of = {"time": ("time_s", "s", "time"), "position": ("sliders_mm", "mm", "position of the slider")}
+    return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
+
+
+def numbered(name: str) -> Variable | None:
+    """Return the variable whose name carries numbers; None where the name is not of that kind."""
+    kind, _, numbers = name.partition("@")
+    if kind not in ("step", "time_period", "position_period"):
+        return None
+    if not re.fullmatch(r"-?\d+(\.\d+)?(/-?\d+(\.\d+)?)*", numbers):
+        return None
+    values = [float(each) for each in numbers.split("/")]
+    if kind == "step":
+        return step(values)
+    return periodic(kind.removesuffix("_period"), values[0]) if len(values) == 1 and values[0] > 0.0 else None

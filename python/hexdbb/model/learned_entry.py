@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexdbb.errors import InputError
-from hexdbb.learned import Hypothesis, Space
+from hexdbb.learned import Learned, Space
 from hexdbb.model.entries import LearnedEntry
 from hexdbb.model.learned import LearnedEffect
 from hexdbb.model.shown import shown_value
@@ -35,7 +35,7 @@ def learned_effect(name: str, entry: LearnedEntry) -> LearnedEffect:
     InputError
         A name that is no hypothesis, or numbers that do not go with it.
     """
-    hypothesis = Hypothesis.parse(name)
+    hypothesis = Learned.parse(name)
     variable = hypothesis.variable
     if entry.splines != variable.count:
         raise InputError(f"{name}: splines {entry.splines} (expected {variable.count})")

@@ -1,4 +1,4 @@
-"""Columns that few ask for, computed when they are: the legs' swing about their guideways, the bar in the platform.
+"""Columns that few ask for, computed when they are: the legs' swing, the bar in the platform, time within a sweep.
 
 The swing of a leg is the angle about its guideway at which it stands, from the guideway's own axes; its rate is the
 central difference along the slider's smoothed velocity, so that the encoders' steps do not show in it.
@@ -18,14 +18,14 @@ from hexdbb.machine import MachineFile
 
 Floats = NDArray[np.float64]
 
-DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "bar_angle_rad")
+DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "bar_angle_rad", "time_in_sweep_s")
 STEP_S = 1e-3
 """Half the time over which the swing is differenced: sliders move some 0.1 mm in it, far above rounding, far below
 lengths over which the swing bends."""
 
 
 def derived_columns(machine: MachineFile, columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6), (n, 6) and (n,); rad and rad/s."""
+    """Return the columns `DERIVED`: (n, 6), (n, 6), (n,) and (n,); rad, rad/s, rad and s."""
     sliders_mm, way_mm = columns["sliders_mm"], STEP_S * np.nan_to_num(columns["velocity_mm_s"])
     later, earlier = _swing(machine, sliders_mm + way_mm), _swing(machine, sliders_mm - way_mm)
     _, rotation, _ = forward(machine, sliders_mm)
@@ -33,7 +33,17 @@ def derived_columns(machine: MachineFile, columns: Mapping[str, NDArray[Any]]) -
         "swing_angle_rad": _swing(machine, sliders_mm),
         "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
         "bar_angle_rad": columns["angle_rad"] - np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0]),
+        "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
     }
+
+
+def _begin_s(time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
+    """Return the time at which each sample's sweep begins, shape (n,)."""
+    member = np.unique(sweep, return_inverse=True)[1].ravel()
+    begin = np.full(int(member.max()) + 1, np.inf)
+    np.minimum.at(begin, member, time_s)
+    found: Floats = begin[member]
+    return found
 
 
 def _swing(machine: MachineFile, sliders_mm: Floats) -> Floats:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
+from hexdbb import _core
 from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.samples.prediction import PORT_COUNT
 
 
 @pytest.fixture
@@ -16,19 +20,15 @@ def readings() -> Readings:
     turn = 2.0 * np.pi * np.arange(rows) / 120.0
     position = 200.0 + 40.0 * np.sin(turn[:, None] + np.arange(6)) + 3.0 * np.cos(0.37 * turn[:, None])
     velocity = np.gradient(position, time_s, axis=0)
-    state = State(
-        {
-            "position": position,
-            "velocity": velocity,
-            "speed": np.abs(velocity),
-            "acceleration": np.gradient(velocity, time_s, axis=0),
-            "direction": np.sign(velocity),
-            "time": time_s,
-            "elapsed": time_s / time_s[-1] - 0.5,
-            "polar_angle": turn % (2.0 * np.pi),
-            "circle_direction": np.where(np.arange(rows) // 120 % 2 == 0, 1.0, -1.0),
-        }
-    )
+    columns = {
+        "sliders_mm": position,
+        "velocity_mm_s": velocity,
+        "acceleration_mm_s2": np.gradient(velocity, time_s, axis=0),
+        "travel_direction": np.sign(velocity),
+        "time_s": time_s,
+        "angle_rad": turn % (2.0 * np.pi),
+        "direction": np.where(np.arange(rows) // 120 % 2 == 0, 1.0, -1.0),
+    }
     circle = np.arange(rows) // 240
     groups = {
         "circle": circle,
@@ -37,16 +37,26 @@ def readings() -> Readings:
         "lap": np.arange(rows) // 120 % 2,
         "sweep": circle,
     }
-    return Readings(state, groups, np.full(rows, 5e-4))
+    return Readings(State(columns, 5.0), groups, np.full(rows, 5e-4))
 
 
 @pytest.fixture
 def linear(readings: Readings) -> Linear:
     """Five values of the model's own, pushes that vary smoothly, a residual of noise."""
     draw = np.random.default_rng(3)
-    rows, turn = len(readings), readings.state["polar_angle"]
+    rows, turn = len(readings), readings.state["angle_rad"]
     waves = np.column_stack([np.ones(rows), *(f(k * turn) for k in (1, 2) for f in (np.cos, np.sin))])
-    widths = {"slider": 6, "leg": 6, "lateral": 6, "vertical": 6, "ball": 3, "cup": 3, "platform_joint": 18}
-    pushes = {place: 2000.0 * (waves @ draw.normal(size=(5, width))) for place, width in widths.items()}
-    pushes["reading"] = np.full((rows, 1), 2000.0)
-    return Linear(draw.normal(size=rows), 3.0 * waves, np.zeros(5), pushes)
+    ports = 2000.0 * (waves @ draw.normal(size=(5, PORT_COUNT)))
+    ports[:, _core.PORTS["reading"][0]] = 2000.0
+    return Linear(draw.normal(size=rows), 3.0 * waves, np.zeros(5), ports)
+
+
+@pytest.fixture
+def port(linear: Linear) -> Callable[[str], np.ndarray]:
+    """Return the readings' answers at the columns of a port."""
+
+    def of(name: str) -> np.ndarray:
+        first, count = _core.PORTS[name]
+        return linear.ports[:, first : first + count]
+
+    return of

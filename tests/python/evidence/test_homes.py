@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
-from hexdbb.evidence import variables as v
-from hexdbb.evidence.families import Learned
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.readings import Linear, Readings, Thinned
+from hexdbb.learned import Learned
+from hexdbb.learned import variables as v
+
+Port = Callable[[str], np.ndarray]
 
 HYPOTHESES = [
     Learned("slider", 2, v.POSITION),
@@ -19,18 +23,18 @@ HYPOTHESES = [
 ]
 
 
-def test_a_form_lives_where_it_acts(linear: Linear, readings: Readings) -> None:
+def test_a_form_lives_where_it_acts(linear: Linear, readings: Readings, port: Port) -> None:
     homes = Homes(linear, Thinned(readings), HYPOTHESES)
-    position = readings.state["position"][:, 1]
-    form = linear.pushes["slider"][:, 1] * np.sin(position / 15.0)
+    position = readings.state["sliders_mm"][:, 1]
+    form = port("slider")[:, 1] * np.sin(position / 15.0)
     found = homes.of(form)
     assert found[0].hypothesis.name == "learned:slider:2:position"
     assert {each.hypothesis.element for each in found} == {2}
 
 
-def test_the_size_of_a_form_is_that_of_its_push(linear: Linear, readings: Readings) -> None:
+def test_the_size_of_a_form_is_that_of_its_push(linear: Linear, readings: Readings, port: Port) -> None:
     homes = Homes(linear, Thinned(readings), [Learned("slider", 2, v.DIRECTION)])
-    form = linear.pushes["slider"][:, 1] * readings.state["direction"][:, 1] * 0.004
+    form = port("slider")[:, 1] * readings.state["travel_direction"][:, 1] * 0.004
     assert homes.of(form)[0].rms_mm == pytest.approx(0.004, rel=0.05)
 
 
@@ -39,8 +43,8 @@ def test_what_geometry_imitates_has_no_home(linear: Linear, readings: Readings) 
     assert homes.of(linear.own @ np.arange(1.0, 6.0)) == []
 
 
-def test_many_at_once_are_as_one_by_one(linear: Linear, readings: Readings) -> None:
+def test_many_at_once_are_as_one_by_one(linear: Linear, readings: Readings, port: Port) -> None:
     homes = Homes(linear, Thinned(readings), HYPOTHESES)
-    forms = linear.pushes["slider"][:, :3] * readings.state["position"][:, :3]
+    forms = port("slider")[:, :3] * readings.state["sliders_mm"][:, :3]
     together = [[each.hypothesis.name for each in found] for found in homes.of_each(forms)]
     assert together == [[each.hypothesis.name for each in homes.of(form)] for form in forms.T]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -10,6 +12,8 @@ from scipy.special import logsumexp
 from hexdbb.evidence.marginal import marginal, solved
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.sums import Sums
+
+Port = Callable[[str], np.ndarray]
 
 
 def _density(linear: Linear, signature: np.ndarray, factor: np.ndarray, size: float) -> float:
@@ -21,9 +25,9 @@ def _density(linear: Linear, signature: np.ndarray, factor: np.ndarray, size: fl
 
 def test_evidence_is_the_ratio_of_densities(linear: Linear, readings: Readings) -> None:
     rows = np.arange(0, len(readings), 6)
-    few = Linear(linear.residual[rows], linear.own[rows], np.full(5, 0.3), {"leg": linear.pushes["leg"][rows]})
-    part = Readings({}, {}, readings.noise_mm[rows])
-    signature = few.pushes["leg"][:, :3]
+    few = Linear(linear.residual[rows], linear.own[rows], np.full(5, 0.3), linear.ports[rows])
+    part = Readings(readings.state, {}, readings.noise_mm[rows])
+    signature = few.ports[:, :3]
     sums = Sums(few, part, ())
     projected = sums.whole.project(sums.block(signature))
     factors, sizes = [np.eye(3), np.diag([1.0, 2.0, 0.5])], np.array([1e-4, 1e-3, 1e-2])
@@ -34,9 +38,9 @@ def test_evidence_is_the_ratio_of_densities(linear: Linear, readings: Readings) 
     assert found.best == divmod(int(np.argmax(every)), 3)
 
 
-def test_coefficients_are_those_of_the_best_prior(linear: Linear, readings: Readings) -> None:
+def test_coefficients_are_those_of_the_best_prior(linear: Linear, readings: Readings, port: Port) -> None:
     sums = Sums(linear, readings, ())
-    projected = sums.whole.project(sums.block(linear.pushes["cup"]))
+    projected = sums.whole.project(sums.block(port("cup")))
     found = marginal(projected.information, projected.gradient, [np.eye(3)], np.array([1e-4, 1e-3]))
     again = solved(projected.information, projected.gradient, found.factor, found.size)
     assert found.coefficients == pytest.approx(again, rel=1e-8)
@@ -49,6 +53,6 @@ def test_laplace_evidence_of_a_linear_model_is_its_density(linear: Linear) -> No
     before = linear.residual[:60] + own @ at
     information = own.T @ own + np.eye(5)
     best = np.linalg.solve(information, own.T @ before)
-    fitted = Linear(before - own @ best, own, best, {})
+    fitted = Linear(before - own @ best, own, best, linear.ports[:60])
     density = stats.multivariate_normal(np.zeros(60), np.eye(60) + own @ own.T).logpdf(before)
     assert fitted.log_evidence == pytest.approx(density + 30.0 * np.log(2.0 * np.pi))

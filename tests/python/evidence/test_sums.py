@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.sums import Sums, squared_error
+
+Port = Callable[[str], np.ndarray]
 
 
 def _joint(linear: Linear, signature: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -22,9 +26,9 @@ def _joint(linear: Linear, signature: np.ndarray, rows: np.ndarray) -> tuple[np.
 
 @pytest.mark.parametrize("grouping", ["circle", "feed", "direction", "lap"])
 def test_a_group_left_out_is_predicted_as_by_a_fit_without_its_rows(
-    linear: Linear, readings: Readings, grouping: str
+    linear: Linear, readings: Readings, port: Port, grouping: str
 ) -> None:
-    signature = linear.pushes["slider"][:, :2] * np.sin(readings.state["position"][:, :2])
+    signature = port("slider")[:, :2] * np.sin(readings.state["sliders_mm"][:, :2])
     sums = Sums(linear, readings)
     block = sums.block(signature)
     for number, cells in enumerate(sums.groups(grouping)):
@@ -40,8 +44,8 @@ def test_a_group_left_out_is_predicted_as_by_a_fit_without_its_rows(
         assert squared_error(sums, cells, own, block, coefficients) == pytest.approx(float(error @ error), rel=1e-8)
 
 
-def test_one_cell_holds_the_sums_of_all_cells(linear: Linear, readings: Readings) -> None:
-    signature = linear.pushes["ball"]
+def test_one_cell_holds_the_sums_of_all_cells(linear: Linear, readings: Readings, port: Port) -> None:
+    signature = port("ball")
     one, many = (Sums(linear, readings, groupings) for groupings in ((), ("circle", "lap")))
     assert one.block(signature).cross[0] == pytest.approx(many.block(signature).cross.sum(axis=0))
     assert one.whole.own_values() == pytest.approx(many.whole.own_values())

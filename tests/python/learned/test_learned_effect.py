@@ -15,7 +15,7 @@ from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.effects import draft, load_effects
 from hexdbb.errors import InputError
 from hexdbb.files.plain_text import plain_text
-from hexdbb.learned import Hypothesis, Space, hypotheses
+from hexdbb.learned import Learned, Space, hypotheses
 from hexdbb.ledger import add_effect, fit_model, undo
 from hexdbb.model import Choice, LearnedEffect, Model, load_model, new_model, save_model
 from hexdbb.plan import load_plan
@@ -153,22 +153,22 @@ def test_what_is_not_there_is_refused_by_name(samples: Samples, before: Model, n
 
 def test_every_hypothesis_is_found_by_its_name_and_reaches_its_port(planned: Samples) -> None:
     for hypothesis in hypotheses():
-        assert Hypothesis.parse(hypothesis.name) == hypothesis
+        assert Learned.parse(hypothesis.name) == hypothesis
     names = ["learned:lateral:2:position", "learned:platform_joint:3:constant", "learned:ball:time"]
     for name in names:
-        space = Space.of(Hypothesis.parse(name), planned, LEAD_MM)
+        space = Space.of(Learned.parse(name), planned, LEAD_MM)
         effect = LearnedEffect(space, 10.0, 0.01)
         table = effect.tabulated(planned)
         assert table.per_unit.shape == (len(planned), len(table.values))
         assert set(table.values) == set(range(effect.size))
     # At one height with a level platform the legs keep their angle to it.
     with pytest.raises(InputError, match="platform_joint_angle_rad hardly varies in these samples"):
-        Space.of(Hypothesis.parse("learned:platform_joint:3:joint_angle"), planned, LEAD_MM)
+        Space.of(Learned.parse("learned:platform_joint:3:joint_angle"), planned, LEAD_MM)
 
 
 def made(planned: Samples, name: str, function: Callable[[np.ndarray], np.ndarray]) -> Model:
     """A model with a learned effect that is some function of its variable, fitted to it point by point."""
-    space = Space.of(Hypothesis.parse(name), planned, LEAD_MM)
+    space = Space.of(Learned.parse(name), planned, LEAD_MM)
     points = space.points()
     effect = LearnedEffect(space, 0.1, 0.01)
     basis = space.functions(points) @ effect.factor

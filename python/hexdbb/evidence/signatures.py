@@ -1,0 +1,86 @@
+"""What learned functions do to the readings, as numbers.
+
+A function is linear in its coefficients: W = sum over the elements e it acts at of S_e B(u_e), S the reading's answer
+to a push there (`Linear.ports`), B the splines of the variable of that element (`hexdbb.learned.Space`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.errors import InputError
+from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.learned import Learned, Space, hypotheses
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Signature:
+    """A learned hypothesis on some rows.
+
+    Attributes
+    ----------
+    space : Space
+        Its functions.
+    table : ndarray, shape (n, components x columns)
+        W, in noise standard deviations per mm.
+    square : ndarray, shape (columns, columns)
+        Mean over rows and elements of B'B: c' square c is the mean square of a function, mm^2.
+    """
+
+    space: Space
+    table: Floats
+    square: Floats
+
+    @property
+    def hypothesis(self) -> Learned:
+        """Hypothesis whose functions they are."""
+        return self.space.hypothesis
+
+    def prior_factor(self, roughness: float) -> Floats:
+        """Return T such that coefficients T z, z standard normal, make functions of mean square one over the rows."""
+        factor = self.space.prior_factor(roughness)
+        factor = factor / np.sqrt(max(float(np.sum(factor * (self.square @ factor))), 1e-300))
+        return np.kron(np.eye(self.hypothesis.components), factor)
+
+    def rms_mm(self, coefficients: Floats) -> float:
+        """Return the root mean square of the functions of some coefficients."""
+        parts = coefficients.reshape(self.hypothesis.components, -1)
+        return float(np.sqrt(np.einsum("ci,ij,cj->", parts, self.square, parts)))
+
+
+def signature_of(hypothesis: Learned, linear: Linear, readings: Readings) -> Signature:
+    """Return a hypothesis' signature in a linearisation."""
+    state = readings.state
+    space = state.space(hypothesis)
+    parts = []
+    for component in range(hypothesis.components):
+        total: Floats | None = None
+        for element, pushes in hypothesis.pushes(component):
+            part = linear.answer(pushes)[:, None] * state.design(space, element)
+            total = part if total is None else total + part
+        assert total is not None  # every place has an element
+        parts.append(total)
+    designs = [state.design(space, element) for element, _ in hypothesis.pushes(0)]
+    square = sum((np.asarray(each.T @ each, np.float64) for each in designs), np.zeros(2 * designs[0].shape[1:]))
+    return Signature(space, np.hstack(parts), square / (len(designs) * len(readings)))
+
+
+def varying(every: Iterable[Learned], readings: Readings) -> Iterator[Learned]:
+    """Yield those hypotheses whose variable is measured and varies in the readings."""
+    for each in every:
+        try:
+            readings.state.space(each)
+        except InputError:
+            continue
+        yield each
+
+
+def all_varying(readings: Readings) -> list[Learned]:
+    """Return every learned hypothesis that the readings can tell of."""
+    return list(varying(hypotheses(), readings))
