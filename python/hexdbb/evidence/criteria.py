@@ -38,6 +38,8 @@ class Criteria:
         form of this relative difference must not exclude its effect.
     roughness : tuple of float
         Penalties over which the evidence of a spline is averaged: white coefficients to nearly a parabola.
+    ranking_roughness : float
+        The one penalty with which learned functions are ranked before the few best are scored: the middle one.
     size_um : tuple of float
         Sizes of a learned function over which the evidence is averaged: smallest, largest, number (geometric).
     catalogue_scale : tuple of float
@@ -94,6 +96,7 @@ class Criteria:
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
     roughness: tuple[float, ...] = (1.0, 30.0, 1000.0)
+    ranking_roughness: float = 30.0
     size_um: tuple[float, float, int] = (0.03, 3000.0, 26)
     catalogue_scale: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0, 10.0)
     detect_nats: float = 5.0
@@ -101,7 +104,7 @@ class Criteria:
     domain_sigmas: float = 3.0
     full_fits: int = 5
     later_fits: int = 3
-    held_out: int = 30
+    held_out: int = 12
     most_steps: int = 6
     max_effects: int = 4
     heldout_share_min: float = 0.5

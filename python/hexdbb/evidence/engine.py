@@ -132,7 +132,8 @@ class Engine:
             "lap": _codes(part["lap"]),
             "sweep": _codes(part["sweep"]),
         }
-        return Readings(State(part, part.machine.sliders.screw_lead_mm), groups, self.row_noise_mm)
+        ports = _core.port_sensitivity(self._engine(self.base), part.block(self.base)) / self.row_noise_mm[:, None]
+        return Readings(State(part, part.machine.sliders.screw_lead_mm), groups, self.row_noise_mm, ports)
 
     def fit(self, model: Model) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.
@@ -185,7 +186,6 @@ class Engine:
             residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
             own=own,
             standing=(model.values - start)[free] / prior,
-            ports=_core.port_sensitivity(engine, block) * weight,
         )
         covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
         return Fitted(model, linear, covariance, free)

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.evidence.readings import Linear, Thinned
-from hexdbb.evidence.signatures import signature_of
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
@@ -58,8 +58,8 @@ class Homes:
         self._absorbed = thin.own @ (vectors[:, seen] / np.sqrt(values[seen]))
         self._spaces = []
         for each in hypotheses:
-            space = signature_of(each, thin, thinned.readings)
-            visible = self._visible(space.table)
+            space = thinned.signature(each)
+            visible = self._visible(space.table.astype(np.float64))
             values, vectors = np.linalg.eigh(visible.T @ visible)
             kept = values > 1e-9 * values[-1]
             half = vectors[:, kept] / np.sqrt(values[kept])

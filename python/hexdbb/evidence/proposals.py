@@ -17,7 +17,8 @@ from scipy.linalg import solve_triangular
 from scipy.special import logsumexp
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.readings import Linear, Readings, Thinned
+from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned, periodic, step
 from hexdbb.predictors.periods import strongest_frequency
 
@@ -51,26 +52,28 @@ def _shifting() -> Iterator[tuple[str, int]]:
     yield from (("ball", ALL), ("cup", ALL), ("reading", ALL))
 
 
-def _answers(linear: Linear, place: str, element: int) -> Floats:
+def _answers(readings: Readings, place: str, element: int) -> Floats:
     """Return what a push at a place does to the readings, a column for each axis."""
     at = Learned(place, element, step([0.0]))
-    return np.column_stack([linear.answer(at.pushes(axis)[0][1]) for axis in range(at.components)])
+    return np.column_stack([readings.answer(at.pushes(axis)[0][1]) for axis in range(at.components)])
 
 
 def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
     time_s, few = readings.state["time_s"], thinned.linear(linear)
     few_s = thinned.readings.state["time_s"]
-    found = []
     temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
-    for place, element in _shifting():
-        scan = _Scan(few, few_s, _answers(few, place, element), temper)
+    scans = [(_Scan(few, few_s, _answers(thinned.readings, *at), temper), *at) for at in _shifting()]
+    # One step tells which places shift; a second and further ones are sought at the best of them only.
+    scans = sorted(scans, key=lambda each: -each[0].gains([]).max())[: criteria.full_fits]
+    found = []
+    for scan, place, element in scans:
         instants, log_prior, gain = scan.greedy(criteria.most_steps, criteria.detect_nats)
         if instants:
             found.append((gain + log_prior, place, element, instants, log_prior))
     found.sort(key=lambda each: -each[0])
     chosen = []
-    for _, place, element, instants, log_prior in found[: criteria.full_fits]:
-        whole = _Scan(linear, time_s, _answers(linear, place, element), temper)
+    for _, place, element, instants, log_prior in found:
+        whole = _Scan(linear, time_s, _answers(readings, place, element), temper)
         refined = whole.refined(instants, float(np.median(np.diff(np.unique(few_s)))))
         chosen.append(Proposal(Learned(place, element, step(refined)), log_prior))
     return chosen
@@ -158,13 +161,13 @@ def _periods(linear: Linear, readings: Readings) -> Iterator[Proposal]:
     places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
     for place, element in places:
         pushes = Learned(place, element, periodic("position", 1.0)).pushes(0)
-        weighted = np.concatenate([linear.residual * linear.answer(ports) for _, ports in pushes])
+        weighted = np.concatenate([linear.residual * readings.answer(ports) for _, ports in pushes])
         values = np.concatenate([position[:, column] for column, _ in pushes])
         yield from _period(place, element, "position", weighted, values, 1.0 / SHORTEST_MM)
     gaps = np.diff(np.unique(time_s))
     if len(gaps):
         highest = 0.5 / float(np.median(gaps))
-        weighted = linear.residual * _answers(linear, "reading", ALL)[:, 0]
+        weighted = linear.residual * _answers(readings, "reading", ALL)[:, 0]
         yield from _period("reading", ALL, "time", weighted, time_s, highest)
 
 

@@ -12,12 +12,11 @@ few neighbouring ones where sampling is dense (`engine.py`).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.learned import Columns, Learned, Space, Variable
 
 Floats = NDArray[np.float64]
@@ -88,6 +87,41 @@ class _Rows:
 
 
 @dataclass(frozen=True, eq=False)
+class Cells:
+    """Rows that no grouping tells apart, cell by cell, padded to one length.
+
+    Attributes
+    ----------
+    keys : ndarray of int, shape (cells, 1 + groupings)
+        Group of each cell, by grouping; the first column is zero.
+    order : ndarray of int, shape (n,)
+        Rows, cell after cell.
+    at : ndarray of int, shape (n,)
+        Place of each of these in a table of `shape` (cells, longest cell).
+    shape : tuple of int
+    counts : ndarray of int, shape (cells,)
+    """
+
+    keys: Ints
+    order: Ints
+    at: Ints
+    shape: tuple[int, int]
+    counts: Ints
+
+    @classmethod
+    def of(cls, groups: Sequence[Ints], rows: int) -> Cells:
+        """Make the cells of some groupings."""
+        table = np.column_stack([np.zeros(rows, np.intp), *groups])
+        keys, cell = np.unique(table, axis=0, return_inverse=True)
+        cell = cell.ravel()
+        counts = np.bincount(cell, minlength=len(keys))
+        width = int(counts.max())
+        begin = np.cumsum(counts) - counts
+        at = (np.arange(rows) - np.repeat(begin, counts)) + width * np.repeat(np.arange(len(keys)), counts)
+        return cls(keys, np.argsort(cell, kind="stable"), at, (len(keys), width), counts)
+
+
+@dataclass(frozen=True, eq=False)
 class Readings:
     """What does not change with the model.
 
@@ -99,11 +133,30 @@ class Readings:
         Number of the circle, feed, direction and lap of each row, from 0; `sweep` in order of time.
     noise_mm : ndarray, shape (n,)
         Standard deviation of each row.
+    ports : ndarray, shape (n, 55)
+        S by port column (`_core.PORTS`), noise standard deviations per mm. That of the model as it was fitted first: it
+        is the machine's lever arms, which values of a tenth of a millimetre change by a ten-thousandth.
     """
 
     state: State
     groups: Mapping[str, Ints]
     noise_mm: Floats
+    ports: Floats
+    _cells: dict[tuple[str, ...], Cells] = field(default_factory=dict, repr=False)
+
+    def cells(self, groupings: tuple[str, ...]) -> Cells:
+        """Return the cells of some groupings; none make one cell of all rows."""
+        if groupings not in self._cells:
+            self._cells[groupings] = Cells.of([self.groups[name] for name in groupings], len(self))
+        return self._cells[groupings]
+
+    def answer(self, pushes: Sequence[tuple[int, float]]) -> Floats:
+        """Return what a push of one mm at some port columns, each with its weight, does to the readings, shape (n,)."""
+        (first, weight), *others = pushes
+        found: Floats = weight * self.ports[:, first]
+        for port, weight in others:
+            found = found + weight * self.ports[:, port]
+        return found
 
     def __len__(self) -> int:
         return len(self.noise_mm)
@@ -121,22 +174,11 @@ class Linear:
         J, per prior standard deviation.
     standing : ndarray, shape (p,)
         Values in prior standard deviations.
-    ports : ndarray, shape (n, 55)
-        S by port column (`_core.PORTS`), noise standard deviations per mm.
     """
 
     residual: Floats
     own: Floats
     standing: Floats
-    ports: Floats
-
-    def answer(self, pushes: Sequence[tuple[int, float]]) -> Floats:
-        """Return what a push of one mm at some port columns, each with its weight, does to the readings, shape (n,)."""
-        (first, weight), *others = pushes
-        found: Floats = weight * self.ports[:, first]
-        for port, weight in others:
-            found = found + weight * self.ports[:, port]
-        return found
 
     @property
     def log_evidence(self) -> float:
@@ -144,31 +186,3 @@ class Linear:
         information = self.own.T @ self.own + np.eye(self.own.shape[1])
         fit = float(self.residual @ self.residual) + float(self.standing @ self.standing)
         return -0.5 * (fit + float(np.linalg.slogdet(information)[1]))
-
-
-class Thinned:
-    """Some rows, evenly spread, of all linearisations of the same readings; designs made for one are kept for others.
-
-    Parameters
-    ----------
-    readings : Readings
-    count : int
-    """
-
-    def __init__(self, readings: Readings, count: int = DEFAULT.thinned_rows) -> None:
-        whole = len(readings)
-        self.rows: Ints = np.unique(np.linspace(0, whole - 1, min(whole, count)).astype(np.intp))
-        self.readings = Readings(
-            readings.state.rows(self.rows),
-            {name: numbers[self.rows] for name, numbers in readings.groups.items()},
-            readings.noise_mm[self.rows],
-        )
-
-    def linear(self, linear: Linear) -> Linear:
-        """Return the rows of a linearisation."""
-        return Linear(
-            residual=linear.residual[self.rows],
-            own=linear.own[self.rows],
-            standing=linear.standing,
-            ports=linear.ports[self.rows],
-        )

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.marginal import Marginal, marginal, solved
-from hexdbb.evidence.readings import Thinned
 from hexdbb.evidence.signatures import Signature, signature_of
 from hexdbb.evidence.sums import Block, Sums, Training, squared_error
+from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned
 
 Floats = NDArray[np.float64]
@@ -85,7 +85,7 @@ class Screen:
         """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows."""
         scored = []
         for each in self._ranked(hypotheses)[: self.criteria.held_out]:
-            space = signature_of(each, self.sums.linear, self.sums.readings)
+            space = signature_of(each, self.sums.readings)
             block = self.sums.block(space.table)
             scored.append((self._scored(each, block, self._factors(space), self.sizes_mm), block))
         return self._held_out(scored)
@@ -95,9 +95,9 @@ class Screen:
         sums = Sums(linear, self.thinned.readings, ())
         evidence = []
         for each in hypotheses:
-            space = signature_of(each, linear, self.thinned.readings)
-            projected = sums.whole.project(sums.block(space.table))
-            factors = self._factors(space)
+            signature = self.thinned.signature(each)
+            projected = sums.whole.project(sums.block(signature.table.astype(np.float64)))
+            factors = [signature.prior_factor(self.criteria.ranking_roughness)]
             found = marginal(projected.information, projected.gradient, factors, self.sizes_mm, temper=self.temper)
             evidence.append(found.log_evidence)
         return [hypotheses[place] for place in np.argsort(evidence)[::-1]]

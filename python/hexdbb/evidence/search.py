@@ -20,10 +20,11 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import SAME_FORM, Homes
 from hexdbb.evidence.proposals import proposals
-from hexdbb.evidence.readings import Linear, Thinned
+from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned
 

@@ -1,7 +1,7 @@
 """What learned functions do to the readings, as numbers.
 
 A function is linear in its coefficients: W = sum over the elements e it acts at of S_e B(u_e), S the reading's answer
-to a push there (`Linear.ports`), B the splines of the variable of that element (`hexdbb.learned.Space`).
+to a push there (`Readings.ports`), B the splines of the variable of that element (`hexdbb.learned.Space`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.readings import Readings
 from hexdbb.learned import Learned, Space, hypotheses
 
 Floats = NDArray[np.float64]
@@ -46,7 +46,7 @@ class Signature:
         """Return T such that coefficients T z, z standard normal, make functions of mean square one over the rows."""
         factor = self.space.prior_factor(roughness)
         factor = factor / np.sqrt(max(float(np.sum(factor * (self.square @ factor))), 1e-300))
-        return np.kron(np.eye(self.hypothesis.components), factor)
+        return factor if self.hypothesis.components == 1 else np.kron(np.eye(self.hypothesis.components), factor)
 
     def rms_mm(self, coefficients: Floats) -> float:
         """Return the root mean square of the functions of some coefficients."""
@@ -54,15 +54,15 @@ class Signature:
         return float(np.sqrt(np.einsum("ci,ij,cj->", parts, self.square, parts)))
 
 
-def signature_of(hypothesis: Learned, linear: Linear, readings: Readings) -> Signature:
-    """Return a hypothesis' signature in a linearisation."""
+def signature_of(hypothesis: Learned, readings: Readings) -> Signature:
+    """Return a hypothesis' signature on some rows."""
     state = readings.state
     space = state.space(hypothesis)
     parts = []
     for component in range(hypothesis.components):
         total: Floats | None = None
         for element, pushes in hypothesis.pushes(component):
-            part = linear.answer(pushes)[:, None] * state.design(space, element)
+            part = readings.answer(pushes)[:, None] * state.design(space, element)
             total = part if total is None else total + part
         assert total is not None  # every place has an element
         parts.append(total)

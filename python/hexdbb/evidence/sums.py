@@ -51,22 +51,12 @@ class Sums:
 
     def __init__(self, linear: Linear, readings: Readings, groupings: tuple[str, ...] = GROUPINGS) -> None:
         self.linear, self.readings, self.groupings = linear, readings, groupings
-        whole = np.zeros(len(readings), np.intp)
-        keys = np.column_stack([whole, *(readings.groups[name] for name in groupings)])
-        self.keys, cell = np.unique(keys, axis=0, return_inverse=True)
-        cell = cell.ravel()
-        self._order = np.argsort(cell, kind="stable")
-        self._counts = np.bincount(cell, minlength=len(self.keys))
-        width = int(self._counts.max())
-        begin = np.concatenate([[0], np.cumsum(self._counts)[:-1]])
-        self._at = (np.arange(len(cell)) - np.repeat(begin, self._counts)) + width * np.repeat(
-            np.arange(len(self.keys)), self._counts
-        )
-        self._shape = (len(self.keys), width)
+        cells = readings.cells(groupings)
+        self.keys, self._order, self._at, self._shape = cells.keys, cells.order, cells.at, cells.shape
         self._padded = self._pad(np.column_stack([linear.own, linear.residual]))
         self.base = np.matmul(self._padded.transpose(0, 2, 1), self._padded)
         """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
-        self.rows = self._counts.astype(np.float64)
+        self.rows = cells.counts.astype(np.float64)
 
     def block(self, signature: Floats) -> Block:
         """Return the sums of a signature, shape (n, k)."""

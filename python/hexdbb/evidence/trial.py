@@ -21,7 +21,7 @@ from scipy import stats
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
-from hexdbb.evidence.homes import Homes, discrepancy
+from hexdbb.evidence.homes import Home, Homes, discrepancy
 from hexdbb.evidence.marginal import marginal
 from hexdbb.evidence.physical import outside_domain
 from hexdbb.evidence.readings import GROUPINGS, Linear
@@ -29,7 +29,7 @@ from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums, squared_error
 from hexdbb.learned import Learned
-from hexdbb.model import Model
+from hexdbb.model import Model, Parameter
 
 Floats = NDArray[np.float64]
 KEPT = 24
@@ -103,6 +103,7 @@ class Trials:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._known: dict[frozenset[str], Trial] = {}
         self._present = [Known(*each) for each in engine.present()]
+        self._homes: dict[tuple[str, str, str], list[Home]] = {}
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
 
     def of(self, members: Sequence[Member]) -> Trial:
@@ -204,7 +205,7 @@ class Trials:
         size_mm, functions = self._size(fitted, member.hypothesis)
         if not functions or size_mm <= 0.0:
             return linear, Form(0.0, 0.0, ())
-        spaces = [signature_of(each, linear, self.engine.readings) for each in functions]
+        spaces = [signature_of(each, self.engine.readings) for each in functions]
         signature = np.hstack([each.table for each in spaces])
         roughness = self.criteria.roughness[1]
         parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
@@ -248,12 +249,21 @@ class Trials:
             if parameter.effect != known.effect or parameter.element not in known.elements or parameter.is_shape:
                 continue
             # Columns of the discrepancies stand behind those of the free values.
-            homes = self.homes.of(fitted.linear.own[:, place])
+            homes = self._homes_of(parameter, fitted.linear.own[:, place])
             if homes:
                 square += (homes[0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
                 functions += [each for each in discrepancy(homes) if each not in functions]
         assert len(readings) > 0
         return float(np.sqrt(square)), functions
+
+    def _homes_of(self, parameter: Parameter, signature: Floats) -> list[Home]:
+        """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""
+        key = (parameter.effect, parameter.element, parameter.name)
+        if any(each.is_shape for each in self.engine.base.info(parameter.effect).parameters):
+            return self.homes.of(signature)
+        if key not in self._homes:
+            self._homes[key] = self.homes.of(signature)
+        return self._homes[key]
 
 
 @dataclass(frozen=True)

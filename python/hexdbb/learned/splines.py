@@ -10,6 +10,8 @@ how smooth the function is; it is chosen by marginal likelihood, which is REML s
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
@@ -58,6 +60,7 @@ def design(values: Floats, low: float, high: float, count: int, *, periodic: boo
     return found
 
 
+@lru_cache(maxsize=512)
 def prior_factor(count: int, roughness: float, *, periodic: bool = False) -> Floats:
     """Return T of the prior covariance T T' of a spline's coefficients, shape (count, count)."""
     if count < DEGREE:

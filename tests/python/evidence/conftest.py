@@ -37,7 +37,7 @@ def readings() -> Readings:
         "lap": np.arange(rows) // 120 % 2,
         "sweep": circle,
     }
-    return Readings(State(columns, 5.0), groups, np.full(rows, 5e-4))
+    return Readings(State(columns, 5.0), groups, np.full(rows, 5e-4), _ports(turn))
 
 
 @pytest.fixture
@@ -45,18 +45,25 @@ def linear(readings: Readings) -> Linear:
     """Five values of the model's own, pushes that vary smoothly, a residual of noise."""
     draw = np.random.default_rng(3)
     rows, turn = len(readings), readings.state["angle_rad"]
-    waves = np.column_stack([np.ones(rows), *(f(k * turn) for k in (1, 2) for f in (np.cos, np.sin))])
-    ports = 2000.0 * (waves @ draw.normal(size=(5, PORT_COUNT)))
+    return Linear(draw.normal(size=rows), 3.0 * _waves(turn), np.zeros(5))
+
+
+def _waves(turn: np.ndarray) -> np.ndarray:
+    return np.column_stack([np.ones(len(turn)), *(f(k * turn) for k in (1, 2) for f in (np.cos, np.sin))])
+
+
+def _ports(turn: np.ndarray) -> np.ndarray:
+    ports = 2000.0 * (_waves(turn) @ np.random.default_rng(5).normal(size=(5, PORT_COUNT)))
     ports[:, _core.PORTS["reading"][0]] = 2000.0
-    return Linear(draw.normal(size=rows), 3.0 * waves, np.zeros(5), ports)
+    return ports
 
 
 @pytest.fixture
-def port(linear: Linear) -> Callable[[str], np.ndarray]:
+def port(readings: Readings) -> Callable[[str], np.ndarray]:
     """Return the readings' answers at the columns of a port."""
 
     def of(name: str) -> np.ndarray:
         first, count = _core.PORTS[name]
-        return linear.ports[:, first : first + count]
+        return readings.ports[:, first : first + count]
 
     return of

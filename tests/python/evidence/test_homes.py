@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from hexdbb.evidence.homes import Homes
-from hexdbb.evidence.readings import Linear, Readings, Thinned
+from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned
 from hexdbb.learned import variables as v
 

@@ -25,9 +25,9 @@ def _density(linear: Linear, signature: np.ndarray, factor: np.ndarray, size: fl
 
 def test_evidence_is_the_ratio_of_densities(linear: Linear, readings: Readings) -> None:
     rows = np.arange(0, len(readings), 6)
-    few = Linear(linear.residual[rows], linear.own[rows], np.full(5, 0.3), linear.ports[rows])
-    part = Readings(readings.state, {}, readings.noise_mm[rows])
-    signature = few.ports[:, :3]
+    few = Linear(linear.residual[rows], linear.own[rows], np.full(5, 0.3))
+    part = Readings(readings.state, {}, readings.noise_mm[rows], readings.ports[rows])
+    signature = readings.ports[rows, :3]
     sums = Sums(few, part, ())
     projected = sums.whole.project(sums.block(signature))
     factors, sizes = [np.eye(3), np.diag([1.0, 2.0, 0.5])], np.array([1e-4, 1e-3, 1e-2])
@@ -53,6 +53,6 @@ def test_laplace_evidence_of_a_linear_model_is_its_density(linear: Linear) -> No
     before = linear.residual[:60] + own @ at
     information = own.T @ own + np.eye(5)
     best = np.linalg.solve(information, own.T @ before)
-    fitted = Linear(before - own @ best, own, best, linear.ports[:60])
+    fitted = Linear(before - own @ best, own, best)
     density = stats.multivariate_normal(np.zeros(60), np.eye(60) + own @ own.T).logpdf(before)
     assert fitted.log_evidence == pytest.approx(density + 30.0 * np.log(2.0 * np.pi))

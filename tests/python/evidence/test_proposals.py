@@ -10,7 +10,8 @@ import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.proposals import proposals
-from hexdbb.evidence.readings import Linear, Readings, Thinned
+from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.thinned import Thinned
 
 Port = Callable[[str], np.ndarray]
 
