@@ -1,9 +1,9 @@
 """Effect after effect until nothing that matters is missing: look, add what is found, ask again of what was added.
 
 Of one look all causes that are known for sure are added, the largest first. An early choice may have stood in for what
-a later one explains better; after every look each earlier one is therefore taken out on trial, and for good where BIC
-prefers the model without it. An effect that the readings cannot tell from another is never added, nor is one that has
-been taken out before.
+a later one explains better; after every look each earlier one is therefore taken out on trial, and for good where the
+model without it has more evidence. An effect that the readings cannot tell from another is never added, nor is one that
+has been taken out before.
 """
 
 from __future__ import annotations
@@ -12,12 +12,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
-from hexdbb.diagnosis import Diagnosis, Noise, evaluate_fit, judging_noise
+from hexdbb.diagnosis import Diagnosis, Noise, judging_noise
 from hexdbb.discovery.discover import Progress, discover
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.words import joined
+from hexdbb.evidence.engine import Engine
 from hexdbb.ledger import add_effect, remove_effect
 from hexdbb.model import Choice, Model
 from hexdbb.samples import Samples
@@ -127,23 +126,21 @@ def without_needless(
 
 
 def is_needed(samples: Samples, model: Model, choice: str) -> bool:
-    """Whether a model explains records better, by BIC, with an effect (or some elements of it) than without.
+    """Check whether a model has more evidence with an effect (or some elements of it) than without.
 
     Raises
     ------
     InputError
         An effect or element that the model does not have.
+    RunError
+        Where a fit does not succeed.
     """
     known, noise = model.with_mounts(samples.mounts), judging_noise(samples).noise
     without = known.without_effect(Choice.parse(choice))
-    values = int(known.free.sum()) - int(without.free.sum())
-    more, correlation, readings = _squared(samples, without, noise)
-    less, correlation, readings = _squared(samples, known, noise)
-    return (more - less) / correlation > values * float(np.log(readings / correlation))
+    return _log_evidence(samples, known, noise) > _log_evidence(samples, without, noise)
 
 
-def _squared(samples: Samples, model: Model, noise: Noise) -> tuple[float, float, int]:
-    """Squared residuals over the noise's variance, how many neighbours tell as much as one, and number of readings."""
-    result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)[1]
-    squared = float(result.residual_mm @ result.residual_mm) / noise.sigma_mm**2
-    return squared, result.correlation, len(result.residual_mm)
+def _log_evidence(samples: Samples, model: Model, noise: Noise) -> float:
+    """Return the log marginal likelihood of a model, free values fitted (Laplace)."""
+    engine = Engine(samples, model, noise)
+    return engine.linearised(engine.base).linear.log_evidence

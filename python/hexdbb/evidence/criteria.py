@@ -21,6 +21,25 @@ class Criteria:
         A signature has some tens of degrees of freedom.
     fewest_rows : int
         The same where nothing is learned and only homes are asked for.
+    same_form : float
+        Explained part of a signature from which a learned hypothesis is said to contain it (its home).
+    near_form : float
+        Where none contains it, the hypotheses nearest to it from this part on stand for its discrepancy.
+    most_homes : int
+        Functions of so many variables stand for a discrepancy; more add columns and no freedom.
+    shape_starts : tuple of float
+        Starts of a shape parameter (the logarithm of a time), in prior standard deviations: first order cannot move it.
+    shape_rounds : int
+        Steps of Gauss and Newton for shapes of users' effects: enough to compare; what is added is fitted on.
+    least_seen : float
+        Directions of a learned prior of which the readings tell less than this part of a value's worth are left out of
+        full fits.
+    most_seen : int
+        Directions in a full fit, the best seen: a fit's time grows with their square.
+    step_mm : float
+        Prior standard deviation of steps found already, while the next is sought: beyond any step.
+    shortest_mm : float
+        Shortest period of a position: below, neighbouring readings no longer follow it at a usual feed.
     form_visible : float
         Directions of a discrepancy of which geometry leaves less than this part are geometry's.
     extrapolates : float
@@ -88,6 +107,15 @@ class Criteria:
     fit_rows: int = 3000
     thinned_rows: int = 2400
     fewest_rows: int = 1200
+    same_form: float = 0.97
+    near_form: float = 0.8
+    most_homes: int = 3
+    shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
+    shape_rounds: int = 3
+    least_seen: float = 0.05
+    most_seen: int = 30
+    step_mm: float = 1.0
+    shortest_mm: float = 0.4
     form_visible: float = 0.02
     extrapolates: float = 2.0
     most_rounds: int = 2

@@ -23,9 +23,6 @@ from hexdbb.samples import Samples
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-SHAPE_ROUNDS = 3
-"""Steps of Gauss and Newton for shapes of users' effects: enough to compare hypotheses; what is added is fitted on."""
-
 
 @dataclass(frozen=True)
 class Fitted:
@@ -108,7 +105,7 @@ class Engine:
     """
 
     def __init__(self, samples: Samples, model: Model, noise: Noise, criteria: Criteria = DEFAULT) -> None:
-        self.samples, self.noise = samples, noise
+        self.samples, self.noise, self.criteria = samples, noise, criteria
         self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
         self.residual_mm = result.residual_mm
         begin, count = _blocks(samples["sweep"], criteria.max_rows)
@@ -146,7 +143,7 @@ class Engine:
             Where the fit did not end in a usable solution.
         """
         shaped = np.array([each.shape is not None for each in model.parameters()])
-        rounds = SHAPE_ROUNDS if (shaped & model.free).any() else 1
+        rounds = self.criteria.shape_rounds if (shaped & model.free).any() else 1
         for _ in range(rounds):
             model = self._fitted_once(model, shaped)
         return self.linearised(model)

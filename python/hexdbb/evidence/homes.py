@@ -15,18 +15,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
-
-SAME_FORM = 0.97
-"""Explained part of a signature from which a hypothesis is said to contain it."""
-NEAR_FORM = 0.8
-"""Where none contains it, the hypotheses nearest to it from this part on stand for its discrepancy."""
-MOST_HOMES = 3
-"""Functions of so many variables stand for the discrepancy; more add columns and no freedom."""
 
 
 @dataclass(frozen=True)
@@ -47,9 +41,13 @@ class Homes:
     thinned : Thinned
     hypotheses : sequence of Learned
         All that are learned.
+    criteria : Criteria
     """
 
-    def __init__(self, linear: Linear, thinned: Thinned, hypotheses: Sequence[Learned]) -> None:
+    def __init__(
+        self, linear: Linear, thinned: Thinned, hypotheses: Sequence[Learned], criteria: Criteria = DEFAULT
+    ) -> None:
+        self.criteria = criteria
         self.rows = thinned.rows
         thin = thinned.linear(linear)
         values, vectors = np.linalg.eigh(thin.own.T @ thin.own)
@@ -79,27 +77,27 @@ class Homes:
         for space, basis, half in self._spaces:
             along = basis.T @ own
             explained = np.divide(np.sum(along**2, axis=0), total, out=np.zeros_like(total), where=shown)
-            for column in np.flatnonzero(explained >= NEAR_FORM):
+            for column in np.flatnonzero(explained >= self.criteria.near_form):
                 size = space.rms_mm(half @ along[:, column])
                 found[column].append(Home(space.hypothesis, float(explained[column]), size))
-        return [_nearest(each) for each in found]
+        return [self._nearest(each) for each in found]
 
     def _visible(self, signature: Floats) -> Floats:
         left: Floats = signature - self._absorbed @ (self._absorbed.T @ signature)
         return left
 
+    def _nearest(self, found: Sequence[Home]) -> list[Home]:
+        same = self.criteria.same_form
+        best = max((each.explained for each in found), default=0.0)
+        near = [each for each in found if each.explained >= min(same, best - (1.0 - same))]
+        return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
-def _nearest(found: Sequence[Home]) -> list[Home]:
-    best = max((each.explained for each in found), default=0.0)
-    near = [each for each in found if each.explained >= min(SAME_FORM, best - (1.0 - SAME_FORM))]
-    return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
-
-def discrepancy(homes: Sequence[Home]) -> list[Learned]:
+def discrepancy(homes: Sequence[Home], most: int = DEFAULT.most_homes) -> list[Learned]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element."""
     chosen: list[Learned] = []
     ranked = sorted(homes, key=lambda each: -each.explained)
-    useful = [each.hypothesis for each in ranked if 1 < each.hypothesis.variable.columns <= 24][:MOST_HOMES]
+    useful = [each.hypothesis for each in ranked if 1 < each.hypothesis.variable.columns <= 24][:most]
     for each in useful:
         chosen.append(each)
         if each.element == ALL and each.place in ("slider", "leg"):

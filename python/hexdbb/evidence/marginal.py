@@ -20,20 +20,12 @@ from scipy.special import logsumexp
 Floats = NDArray[np.float64]
 
 
-SEEN = 0.05
-"""Directions of a prior of which the readings tell less than this part of a value's worth are left out of full fits."""
-
-
-MOST_SEEN = 30
-"""Directions of a full fit, the best seen: a fit's time grows with their square."""
-
-
 @dataclass(frozen=True, eq=False)
 class Marginal:
     """Log evidence over the base, averaged over the grid; the grid's best point and the coefficients there.
 
-    `best` is the place of the prior factor and of the size in their grids; `seen` is the factor turned to its own
-    axes, those left out that the readings do not see: shape (k, r).
+    `best` is the place of the prior factor and of the size in their grids, `axes` the factor turned to its own axes,
+    shape (k, r), and `strength` what the readings tell of each, in values' worth.
     """
 
     log_evidence: float
@@ -41,7 +33,14 @@ class Marginal:
     size: float
     factor: Floats
     coefficients: Floats
-    seen: Floats
+    axes: Floats
+    strength: Floats
+
+    def seen(self, least: float, most: int) -> Floats:
+        """Return the axes that the readings see, at most so many, the best: shape (k, r)."""
+        enough = max(least, float(np.sort(self.strength)[-min(len(self.strength), most)]))
+        found: Floats = self.axes[:, self.strength >= min(enough, float(self.strength.max()))]
+        return found
 
 
 def marginal(
@@ -88,14 +87,9 @@ def marginal(
         size=size,
         factor=factors[best[0]],
         coefficients=coefficients,
-        seen=factors[best[0]] @ vectors[:, _seen(size**2 * values * temper)],
+        axes=factors[best[0]] @ vectors,
+        strength=size**2 * values * temper,
     )
-
-
-def _seen(strength: Floats) -> NDArray[np.bool_]:
-    least = max(SEEN, float(np.sort(strength)[-min(len(strength), MOST_SEEN)]))
-    found: NDArray[np.bool_] = strength >= min(least, float(strength.max()))
-    return found
 
 
 def solved(information: Floats, gradient: Floats, factor: Floats, size: float) -> Floats:

@@ -25,10 +25,7 @@ from hexdbb.predictors.periods import strongest_frequency
 Floats = NDArray[np.float64]
 
 EVERY = slice(0, None)
-WIDE_MM = 1.0
-"""Prior standard deviation of steps found already, while the next is sought: beyond any step."""
-SHORTEST_MM = 0.4
-"""Shortest period of a position: below, neighbouring readings no longer follow it at a usual feed."""
+"""All rows."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class Proposal:
 
 def proposals(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
     """Return the steps and periods of a linearisation that are worth a look."""
-    return [*_steps(linear, readings, thinned, criteria), *_periods(linear, readings)]
+    return [*_steps(linear, readings, thinned, criteria), *_periods(linear, readings, criteria)]
 
 
 def _shifting() -> Iterator[tuple[str, int]]:
@@ -62,7 +59,7 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     time_s, few = readings.state["time_s"], thinned.linear(linear)
     few_s = thinned.readings.state["time_s"]
     temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
-    scans = [(_Scan(few, few_s, _answers(thinned.readings, *at), temper), *at) for at in _shifting()]
+    scans = [(_Scan(few, few_s, _answers(thinned.readings, *at), temper, criteria.step_mm), *at) for at in _shifting()]
     # One step tells which places shift; a second and further ones are sought at the best of them only.
     scans = sorted(scans, key=lambda each: -each[0].gains([]).max())[: criteria.full_fits]
     found = []
@@ -73,7 +70,7 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     found.sort(key=lambda each: -each[0])
     chosen = []
     for _, place, element, instants, log_prior in found:
-        whole = _Scan(linear, time_s, _answers(readings, place, element), temper)
+        whole = _Scan(linear, time_s, _answers(readings, place, element), temper, criteria.step_mm)
         refined = whole.refined(instants, float(np.median(np.diff(np.unique(few_s)))))
         chosen.append(Proposal(Learned(place, element, step(refined)), log_prior))
     return chosen
@@ -90,9 +87,12 @@ class _Scan:
         Of what shifts.
     temper : float
         Variance that stands for the noise's one.
+    step_mm : float
+        Prior standard deviation of a step.
     """
 
-    def __init__(self, linear: Linear, time_s: Floats, pushes: Floats, temper: float) -> None:
+    def __init__(self, linear: Linear, time_s: Floats, pushes: Floats, temper: float, step_mm: float) -> None:
+        self.step_mm = step_mm
         order = np.argsort(time_s, kind="stable")
         self.time_s, self.pushes, self.temper = time_s[order], pushes[order], temper
         self.own, self.residual, self.standing = linear.own[order], linear.residual[order], linear.standing
@@ -106,7 +106,7 @@ class _Scan:
         rows : slice
             Rows asked for, shape (m,) of them; the sums of those behind are taken once.
         """
-        added = [self.pushes * (self.time_s >= at)[:, None] * WIDE_MM for at in instants]
+        added = [self.pushes * (self.time_s >= at)[:, None] * self.step_mm for at in instants]
         own = np.hstack([self.own, *added])
         standing = np.concatenate([self.standing, np.zeros(own.shape[1] - self.own.shape[1])])
         factor = np.linalg.cholesky(own.T @ own + np.eye(own.shape[1]))
@@ -121,7 +121,7 @@ class _Scan:
         half = solve_triangular(factor, cross.T, lower=True, check_finite=False).T.reshape(count, width, -1)
         information = sums[:, :, :width] - np.matmul(half, half.transpose(0, 2, 1))
         gradient = sums[:, :, -1] - half @ fitted
-        known = information + np.eye(width) / WIDE_MM**2
+        known = information + np.eye(width) / self.step_mm**2
         gain: Floats = 0.5 * np.einsum("ni,ni->n", gradient, np.linalg.solve(known, gradient[..., None])[..., 0])
         # Rows of one instant step together: a step begins at the first of them.
         first = np.concatenate([[False], np.diff(self.time_s) > 0.0])[rows]
@@ -155,7 +155,7 @@ class _Scan:
         return found
 
 
-def _periods(linear: Linear, readings: Readings) -> Iterator[Proposal]:
+def _periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [("slider", each) for each in range(1, 7)]
     places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
@@ -163,7 +163,7 @@ def _periods(linear: Linear, readings: Readings) -> Iterator[Proposal]:
         pushes = Learned(place, element, periodic("position", 1.0)).pushes(0)
         weighted = np.concatenate([linear.residual * readings.answer(ports) for _, ports in pushes])
         values = np.concatenate([position[:, column] for column, _ in pushes])
-        yield from _period(place, element, "position", weighted, values, 1.0 / SHORTEST_MM)
+        yield from _period(place, element, "position", weighted, values, 1.0 / criteria.shortest_mm)
     gaps = np.diff(np.unique(time_s))
     if len(gaps):
         highest = 0.5 / float(np.median(gaps))

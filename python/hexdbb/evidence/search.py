@@ -18,7 +18,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.homes import SAME_FORM, Homes
+from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -79,7 +79,7 @@ class Search:
         readings = self.engine.readings
         self.hypotheses = all_varying(readings)
         self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
-        self.homes = Homes(linear, self.thinned, self.hypotheses)
+        self.homes = Homes(linear, self.thinned, self.hypotheses, self.criteria)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
@@ -214,10 +214,10 @@ class Search:
         whose: Sequence[tuple[str, str, str, float]],
     ) -> None:
         """Count what is proposed among the kin of known effects whose form it contains: a pitch error is periodic."""
-        homes = Homes(linear, self.thinned, proposed).of_each(signatures)
+        homes = Homes(linear, self.thinned, proposed, self.criteria).of_each(signatures)
         for (effect, element, _, _), found in zip(whose, homes, strict=True):
             name = Known(effect, (element,), self._is_whole(effect)).name
-            same = {each.hypothesis.name for each in found if each.explained >= SAME_FORM}
+            same = {each.hypothesis.name for each in found if each.explained >= self.criteria.same_form}
             self.kin.setdefault(name, set()).update(same)
 
     def _log_prior(self, hypothesis: Hypothesis) -> float:
@@ -259,9 +259,13 @@ class Search:
     def _is_whole(self, effect: str) -> bool:
         return len(self.engine.base.info(effect).elements) == 1
 
+    @property
+    def _sight(self) -> tuple[float, int]:
+        return self.criteria.least_seen, self.criteria.most_seen
+
     def _member(self, scored: Scored) -> Member:
         if isinstance(scored.hypothesis, Learned):
-            return Member(scored.hypothesis, scored.marginal.seen, scored.marginal.size)
+            return Member(scored.hypothesis, scored.marginal.seen(*self._sight), scored.marginal.size)
         return Member(scored.hypothesis)
 
 

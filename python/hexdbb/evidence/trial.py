@@ -34,8 +34,6 @@ from hexdbb.model import Model, Parameter
 Floats = NDArray[np.float64]
 KEPT = 24
 """Linearisations kept in memory: some megabytes each."""
-SHAPE_STARTS = (-1.5, 0.0, 1.5)
-"""Starts of a shape parameter (a logarithm of a time), in prior standard deviations: first order cannot move it."""
 
 
 @dataclass(frozen=True)
@@ -188,7 +186,7 @@ class Trials:
         if not shapes.any():
             return self.engine.fit(model)
         found = []
-        for start in SHAPE_STARTS:
+        for start in self.criteria.shape_starts:
             values = np.where(shapes, start * model.prior_sigma, model.values)
             try:
                 found.append(self.engine.fit(model.with_values(values)))
@@ -252,7 +250,7 @@ class Trials:
             homes = self._homes_of(parameter, fitted.linear.own[:, place])
             if homes:
                 square += (homes[0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
-                functions += [each for each in discrepancy(homes) if each not in functions]
+                functions += [each for each in discrepancy(homes, self.criteria.most_homes) if each not in functions]
         assert len(readings) > 0
         return float(np.sqrt(square)), functions
 
