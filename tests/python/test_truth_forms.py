@@ -31,12 +31,12 @@ from tests.truth.forms.ports import Action, add
 from tests.truth.forms.sizes import UnreachableSizeError, remaining
 from tests.truth.simulate import Pace, true_readings_mm
 
+from hexdbb import _core
 from hexdbb.diagnosis import diagnose
 from hexdbb.errors import InputError
 from hexdbb.model import new_model
 from hexdbb.plan import Plan, load_plan
 from hexdbb.record import read_record
-from hexdbb.rig.mechanisms import CATALOGUED as RIG_CATALOGUED
 from hexdbb.rig.mechanisms import MECHANISMS, Motion, Push
 from hexdbb.rig.truth import TruthFile, random_truth
 from hexdbb.samples import Samples
@@ -89,7 +89,7 @@ def test_the_truth_with_forms_imports_nothing_of_the_estimator():
 
 
 def test_every_effect_of_the_catalogue_has_forms_and_the_halves_share_none():
-    assert set(CATALOGUED) == set(RIG_CATALOGUED)
+    assert set(CATALOGUED) == set(_core.effect_names("catalogue"))
     assert set(FAMILIES) == set(VARIABLES)
     for kind, family in FAMILIES.items():
         assert family.calibrate, kind
