@@ -24,11 +24,13 @@ from tests.truth.forms.sizes import UnreachableSizeError
 
 from hexdbb import _core
 from hexdbb.diagnosis import judging_noise
+from hexdbb.discovery.discover import absent_effects
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import Verdict, judge
-from hexdbb.model import new_model
+from hexdbb.ledger import add_effect
+from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples
 
 MOST_PROCESSES = 2
@@ -92,6 +94,8 @@ def judged(name: str, withheld: Sequence[str]) -> dict[str, Any]:
     began = time.process_time()
     search = Search(Engine(samples, model, judging_noise(samples).noise), effects, DEFAULT)
     verdict = judge(search)
+    seconds = time.process_time() - began
+    result = outcome(verdict, labels, withheld)
     return {
         "case": name,
         "withheld": list(withheld),
@@ -110,9 +114,20 @@ def judged(name: str, withheld: Sequence[str]) -> dict[str, Any]:
         ],
         "left": [search.root.trial.left, verdict.node.trial.left],
         "heldout": {} if verdict.checked is None else {k: asdict(v) for k, v in verdict.checked.heldout.items()},
-        "seconds": time.process_time() - began,
-        "outcome": outcome(verdict, labels, withheld),
+        "seconds": seconds,
+        "outcome": result,
+        "after_adding": _after_adding(samples, model, verdict)
+        if result == "right" and verdict.grade == "effect"
+        else "",
     }
+
+
+def _after_adding(samples: Samples, model: Model, verdict: Verdict) -> str:
+    """Return what is said once all that was found has been added."""
+    for each in verdict.found:
+        model = add_effect(samples, model, each.hypothesis.name).model
+    again = Search(Engine(samples, model, judging_noise(samples).noise), absent_effects(model), DEFAULT)
+    return judge(again).grade
 
 
 def outcome(verdict: Verdict, labels: Sequence[Label], withheld: Sequence[str]) -> str:
@@ -206,7 +221,8 @@ def _row(line: dict[str, Any]) -> str:
     return f"catalogue, {case.times_noise:g} x"
 
 
-def _done(path: Path) -> list[dict[str, Any]]:
+def read_lines(path: Path) -> list[dict[str, Any]]:
+    """Return the results in a file, one a line; none where there is no file."""
     if not path.exists():
         return []
     return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
@@ -229,14 +245,14 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=1, choices=range(1, MOST_PROCESSES + 1))
     parser.add_argument("--table", action="store_true", help="only print the table")
     asked = parser.parse_args()
-    known = {(each["case"], tuple(each["withheld"])) for each in _done(asked.lines)}
+    known = {(each["case"], tuple(each["withheld"])) for each in read_lines(asked.lines)}
     tasks = [each for each in wanted(asked.half, asked.seeds) if each not in known]
     tasks = [] if asked.table else tasks[: asked.most or len(tasks)]
     with ProcessPoolExecutor(asked.processes) as pool, asked.lines.open("a", encoding="utf-8") as file:
         for line in pool.map(_safe, tasks):
             file.write(json.dumps(line, default=float) + "\n")
             file.flush()
-    print(table(_done(asked.lines)))
+    print(table(read_lines(asked.lines)))
 
 
 if __name__ == "__main__":
