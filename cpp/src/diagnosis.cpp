@@ -166,11 +166,13 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   const Descent fine =
       descend([&](const Eigen::VectorXd& z) { return posterior_at(model, accumulator, unknowns, noise_mm, z); }, few,
               coarse.z, bound, kFall, kMost);
-  out.usable = fine.is_reachable;
+  // Of several minima the coarse descent may choose one that all readings like less than the start: Ceres begins anew.
+  const double at_start = posterior_at(model, accumulator, unknowns, noise_mm, start).cost;
+  out.usable = fine.is_reachable && !(at_start < fine.cost);
   out.iterations = fine.steps;
   out.termination = fine.is_at_rest ? "Converged: no further step improves the fit." : "Iteration limit reached.";
   out.values = unknowns.values(fine.z.data());
-  return fine.z;
+  return out.usable ? fine.z : start;
 }
 
 /// Compute the covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.

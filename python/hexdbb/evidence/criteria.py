@@ -23,6 +23,8 @@ class Criteria:
         The same where nothing is learned and only homes are asked for.
     same_form : float
         Explained part of a signature from which a learned hypothesis is said to contain it (its home).
+    form_home : float
+        Explained part from which a hypothesis at the best one's place lends its functions to a discrepancy.
     near_form : float
         Where none contains it, the hypotheses nearest to it from this part on stand for its discrepancy.
     most_homes : int
@@ -76,7 +78,10 @@ class Criteria:
     held_out : int
         Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
     most_steps : int
-        Steps of one thing, at most: a count lost again and again, a gauge that jumps back and forth.
+        Steps of one thing, at most: a count lost again and again, a gauge that jumps back and forth. Shared by the axes
+        where the direction is not known: six steps of three axes each imitate whatever differs from circle to circle.
+    change_part : float
+        Part of a circle's readings about its beginning in which one step is sought, but no second one.
     max_effects : int
         Effects looked for at once.
     heldout_share_min : float
@@ -108,7 +113,8 @@ class Criteria:
     thinned_rows: int = 2400
     fewest_rows: int = 1200
     same_form: float = 0.97
-    near_form: float = 0.8
+    form_home: float = 0.9
+    near_form: float = 0.5
     most_homes: int = 3
     shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
     shape_rounds: int = 3
@@ -134,6 +140,7 @@ class Criteria:
     later_fits: int = 3
     held_out: int = 12
     most_steps: int = 6
+    change_part: float = 0.05
     max_effects: int = 4
     heldout_share_min: float = 0.5
     heldout_ratio: float = 1.5
@@ -145,7 +152,7 @@ class Criteria:
     explained_min: float = 0.75
     form_limit: float = 0.5
     same_kind_share: float = 0.05
-    secondary: float = 1.0
+    secondary: float = 2.0
 
 
 DEFAULT = Criteria()

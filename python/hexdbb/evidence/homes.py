@@ -22,6 +22,9 @@ from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
 
+MOST_COLUMNS = 24
+"""Splines of a discrepancy, at most: a finer function is no form gone wrong but another cause."""
+
 
 @dataclass(frozen=True)
 class Home:
@@ -69,6 +72,13 @@ class Homes:
 
     def of_each(self, signatures: Floats) -> list[list[Home]]:
         """Return the hypotheses that contain each of some signatures, shape (n, m)."""
+        return [self._nearest(each, self.criteria.same_form) for each in self._found(signatures)]
+
+    def around(self, signature: Floats) -> list[Home]:
+        """Return the hypotheses in whose functions an effect's form may be wrong: those that nearly contain it."""
+        return self._nearest(self._found(signature[:, None])[0], self.criteria.form_home)
+
+    def _found(self, signatures: Floats) -> list[list[Home]]:
         whole = signatures[self.rows]
         own = self._visible(whole)
         total = np.sum(own**2, axis=0)
@@ -80,14 +90,13 @@ class Homes:
             for column in np.flatnonzero(explained >= self.criteria.near_form):
                 size = space.rms_mm(half @ along[:, column])
                 found[column].append(Home(space.hypothesis, float(explained[column]), size))
-        return [self._nearest(each) for each in found]
+        return found
 
     def _visible(self, signature: Floats) -> Floats:
         left: Floats = signature - self._absorbed @ (self._absorbed.T @ signature)
         return left
 
-    def _nearest(self, found: Sequence[Home]) -> list[Home]:
-        same = self.criteria.same_form
+    def _nearest(self, found: Sequence[Home], same: float) -> list[Home]:
         best = max((each.explained for each in found), default=0.0)
         near = [each for each in found if each.explained >= min(same, best - (1.0 - same))]
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
@@ -96,8 +105,11 @@ class Homes:
 def discrepancy(homes: Sequence[Home], most: int = DEFAULT.most_homes) -> list[Learned]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element."""
     chosen: list[Learned] = []
-    ranked = sorted(homes, key=lambda each: -each.explained)
-    useful = [each.hypothesis for each in ranked if 1 < each.hypothesis.variable.columns <= 24][:most]
+    ranked = [each.hypothesis for each in sorted(homes, key=lambda each: -each.explained)]
+    there = {(each.place, each.element) for each in ranked[:1]}
+    useful = [
+        each for each in ranked if 1 < each.variable.columns <= MOST_COLUMNS and (each.place, each.element) in there
+    ][:most]
     for each in useful:
         chosen.append(each)
         if each.element == ALL and each.place in ("slider", "leg"):

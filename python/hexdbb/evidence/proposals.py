@@ -56,21 +56,23 @@ def _answers(readings: Readings, place: str, element: int) -> Floats:
 
 
 def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
-    time_s, few = readings.state["time_s"], thinned.linear(linear)
+    few = thinned.linear(linear)
     few_s = thinned.readings.state["time_s"]
     temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
-    scans = [(_Scan(few, few_s, _answers(thinned.readings, *at), temper, criteria.step_mm), *at) for at in _shifting()]
+    scans = [
+        (_Scan(few, thinned.readings, _answers(thinned.readings, *at), temper, criteria), *at) for at in _shifting()
+    ]
     # One step tells which places shift; a second and further ones are sought at the best of them only.
     scans = sorted(scans, key=lambda each: -each[0].gains([]).max())[: criteria.full_fits]
     found = []
     for scan, place, element in scans:
-        instants, log_prior, gain = scan.greedy(criteria.most_steps, criteria.detect_nats)
+        instants, log_prior, gain = scan.greedy(criteria.most_steps // scan.pushes.shape[1], criteria.detect_nats)
         if instants:
             found.append((gain + log_prior, place, element, instants, log_prior))
     found.sort(key=lambda each: -each[0])
     chosen = []
     for _, place, element, instants, log_prior in found:
-        whole = _Scan(linear, time_s, _answers(readings, place, element), temper, criteria.step_mm)
+        whole = _Scan(linear, readings, _answers(readings, place, element), temper, criteria)
         refined = whole.refined(instants, float(np.median(np.diff(np.unique(few_s)))))
         chosen.append(Proposal(Learned(place, element, step(refined)), log_prior))
     return chosen
@@ -82,18 +84,23 @@ class _Scan:
     Parameters
     ----------
     linear : Linear
-    time_s : ndarray, shape (n,)
+    readings : Readings
     pushes : ndarray, shape (n, c)
         Of what shifts.
     temper : float
         Variance that stands for the noise's one.
-    step_mm : float
-        Prior standard deviation of a step.
+    criteria : Criteria
     """
 
-    def __init__(self, linear: Linear, time_s: Floats, pushes: Floats, temper: float, step_mm: float) -> None:
-        self.step_mm = step_mm
+    def __init__(self, linear: Linear, readings: Readings, pushes: Floats, temper: float, criteria: Criteria) -> None:
+        self.step_mm = criteria.step_mm
+        time_s, circle = readings.state["time_s"], readings.groups["circle"]
         order = np.argsort(time_s, kind="stable")
+        changes = np.flatnonzero(np.diff(circle[order]))
+        every = np.arange(len(order))
+        reach = criteria.change_part * len(order) / (len(changes) + 1.0)
+        self.at_change = np.abs(every[:, None] - changes - 1).min(axis=1, initial=len(order)) <= reach
+        """Rows at which one circle follows another."""
         self.time_s, self.pushes, self.temper = time_s[order], pushes[order], temper
         self.own, self.residual, self.standing = linear.own[order], linear.residual[order], linear.standing
 
@@ -135,6 +142,9 @@ class _Scan:
         worth += 0.5 * self.pushes.shape[1] * float(np.log(len(self.time_s)))
         for _ in range(most):
             gains = self.gains(instants)
+            if instants and self.at_change[np.searchsorted(self.time_s, instants)].any():
+                # A constant for each circle is no step in time: what differs from circle to circle is the posture.
+                gains[self.at_change] = -np.inf
             best = int(np.argmax(gains))
             spread = float(logsumexp(gains)) - float(np.log(np.isfinite(gains).sum())) - float(gains[best])
             if gains[best] + spread < worth:

@@ -258,9 +258,9 @@ class Trials:
         """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""
         key = (parameter.effect, parameter.element, parameter.name)
         if any(each.is_shape for each in self.engine.base.info(parameter.effect).parameters):
-            return self.homes.of(signature)
+            return self.homes.around(signature)
         if key not in self._homes:
-            self._homes[key] = self.homes.of(signature)
+            self._homes[key] = self.homes.around(signature)
         return self._homes[key]
 
 

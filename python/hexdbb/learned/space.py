@@ -19,6 +19,8 @@ NEVER = 1e5
 """Times and distances since a reversal beyond this stand for a reversal that never was (the engine's 1e6)."""
 SHORTEST = 1e-3
 """Shortest time (s) or distance (mm) since a reversal that a logarithm is taken of: below the samples' spacing."""
+FIRST_PART = 0.005
+"""Part of the samples below a logarithm's range: the first few after a reversal would take half of its splines."""
 SIGN_PART = 0.05
 """A step with the sign of a column is smeared over this part of the column's RMS, within which noise sets the sign."""
 POINTS = 41
@@ -159,6 +161,8 @@ class Space:
             if not period:
                 argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
                 low, high = float(argument.min()), float(argument.max())
+                if variable.is_log:
+                    low = float(np.quantile(argument, FIRST_PART))
         if variable.times and variable.times != ELAPSED and not np.any(samples[variable.times]):
             raise InputError(f"{name}: {variable.times} is zero in all samples (expected it to vary)")
         time_s = samples["time_s"]
