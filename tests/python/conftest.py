@@ -9,11 +9,19 @@ from contextlib import AbstractContextManager, contextmanager
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from hexdbb.plan import load_plan
 from hexdbb.record import SLIDER_COLUMNS, Record
 
 SAMPLES_PER_SWEEP = 25
+
+
+@pytest.fixture(scope="session", autouse=True)
+def one_thread() -> Iterator[None]:
+    """As commands and `hexdbb`'s functions have it; tests of what is behind these would take several times as long."""
+    with threadpool_limits(1, "blas"):
+        yield
 
 
 @pytest.fixture

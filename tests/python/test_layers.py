@@ -24,6 +24,7 @@ ALLOWED: dict[str, set[str]] = {
     "errors": set(),
     "units": set(),
     "_core": set(),
+    "threads": set(),
     "files": {"errors"},
     # what is measured on, and what is asked of it
     "machine": {"errors", "files"},
@@ -49,17 +50,30 @@ ALLOWED: dict[str, set[str]] = {
         "learned",
         "_core",
     },
-    "ledger": {"errors", "files", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
+    "ledger": {"errors", "files", "threads", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
     # which variables of the samples predict a residual
     "predictors": {"record", "model", "samples", "effects", "_core"},
     # where the model fails; readings come in as arrays, predicted or measured
-    "comparison": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
+    "comparison": {
+        "errors",
+        "files",
+        "threads",
+        "units",
+        "plan",
+        "record",
+        "model",
+        "samples",
+        "diagnosis",
+        "predictors",
+    },
     "plots": {"errors", "files", "plan", "learned", "model", "comparison", "predictors"},
     # hypotheses on what is missing, decided by their evidence
-    "evidence": {"errors", "units", "kinematics", "model", "samples", "diagnosis", "predictors", "_core"},
+    "evidence": {"errors", "units", "learned", "model", "samples", "diagnosis", "predictors", "_core"},
     "discovery": {
         "errors",
         "files",
+        "threads",
+        "learned",
         "units",
         "plan",
         "record",

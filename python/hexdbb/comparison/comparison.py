@@ -23,6 +23,7 @@ from hexdbb.files.plain_text import plain_text
 from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
 from hexdbb.samples import Samples, predict
+from hexdbb.threads import one_thread
 
 WORST_COUNT = 5
 """Number of worst arcs listed: as many as are read."""
@@ -93,6 +94,7 @@ class Comparison:
         return comparison_html(self)
 
 
+@one_thread
 def compare(samples: Samples, model: Model) -> Comparison:
     """Compare the readings of samples with those that a model predicts.
 

@@ -25,6 +25,7 @@ from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
 from hexdbb.samples import Samples
+from hexdbb.threads import one_thread
 
 Progress = Callable[[str], None]
 
@@ -34,6 +35,7 @@ LEAST_SWEEPS = 2
 """Sweeps below which no direction, circle or feed can be held out."""
 
 
+@one_thread
 def discover(
     samples: Samples,
     model: Model,

@@ -14,10 +14,12 @@ from hexdbb.learned.places import is_learned
 from hexdbb.ledger.step import sizes_of, with_step
 from hexdbb.model import Choice, Model
 from hexdbb.samples import Samples, predict
+from hexdbb.threads import one_thread
 
 Floats = NDArray[np.float64]
 
 
+@one_thread
 def fit_model(samples: Samples, model: Model, *, robust: bool = False, check_held_out: bool = True) -> Diagnosis:
     """Fit a model's free effects to samples and enter that into its ledger.
 
@@ -28,6 +30,7 @@ def fit_model(samples: Samples, model: Model, *, robust: bool = False, check_hel
     return with_step("diagnose", model, found.residual_before_mm, found)
 
 
+@one_thread
 def add_effect(samples: Samples, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:
     """Add an effect to a model and fit everything that is free.
 
@@ -64,6 +67,7 @@ def add_effect(samples: Samples, model: Model, choice: str, *, robust: bool = Fa
     return with_step("add", model, before_mm, found, added, sizes_of(found.model, added))
 
 
+@one_thread
 def remove_effect(samples: Samples, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:
     """Remove an effect, or some elements of it, from a model and fit everything that is free.
 
