@@ -24,7 +24,7 @@ from tests.truth.forms.sizes import UnreachableSizeError
 
 from hexdbb import _core
 from hexdbb.diagnosis import judging_noise
-from hexdbb.discovery.discover import absent_effects
+from hexdbb.discovery import discover
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
@@ -126,8 +126,7 @@ def _after_adding(samples: Samples, model: Model, verdict: Verdict) -> str:
     """Return what is said once all that was found has been added."""
     for each in verdict.found:
         model = add_effect(samples, model, each.hypothesis.name).model
-    again = Search(Engine(samples, model, judging_noise(samples).noise), absent_effects(model), DEFAULT)
-    return judge(again).grade
+    return discover(samples, model).verdict
 
 
 def outcome(verdict: Verdict, labels: Sequence[Label], withheld: Sequence[str]) -> str:

@@ -37,7 +37,7 @@ class Criteria:
         Directions of a learned prior of which the readings tell less than this part of a value's worth are left out of
         full fits.
     most_seen : int
-        Directions in a full fit, the best seen: a fit's time grows with their square.
+        Directions in a full fit, the best seen: a fit's time grows with their square, and with 30 a dent's place is lost.
     step_mm : float
         Prior standard deviation of steps found already, while the next is sought: beyond any step.
     shortest_mm : float
@@ -119,7 +119,7 @@ class Criteria:
     shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
     shape_rounds: int = 3
     least_seen: float = 0.05
-    most_seen: int = 30
+    most_seen: int = 100
     step_mm: float = 1.0
     shortest_mm: float = 0.4
     form_visible: float = 0.02

@@ -11,7 +11,10 @@ import pytest
 from tests.truth.cases import case
 from tests.truth.plans import PACE
 
+from hexdbb.discovery import Discovery, discover
+from hexdbb.model import new_model
 from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 Measured = Callable[[str], Record]
 
@@ -32,3 +35,15 @@ def few(measured: Measured) -> Record:
     """Give every eighth sample of a machine without a fault: enough for algebra."""
     record = measured("none-s3")
     return record.part(np.arange(len(record)) % 8 == 0)
+
+
+@lru_cache
+def _found(name: str) -> Discovery:
+    record = _measured(name)
+    return discover(Samples.of([record]), new_model(record.machine))
+
+
+@pytest.fixture(scope="session")
+def found_in() -> Callable[[str], Discovery]:
+    """Give what is found missing from a new model on the record of a case."""
+    return _found
