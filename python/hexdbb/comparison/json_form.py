@@ -114,7 +114,7 @@ class RadialJson(JsonPart):
     rms_um: NotNegative | None
     """Root mean square over every sample; null where no circle is full."""
     peak_to_valley_um: NotNegative | None
-    """Of the worst circle at one feed, both directions."""
+    """Largest minus smallest on the worst circle at one feed, both directions."""
     worst_circle: int | None
     """Its id."""
 

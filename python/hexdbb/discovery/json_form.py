@@ -65,7 +65,7 @@ class CauseJson(JsonPart):
     alike: tuple[str, ...]
     """The same effect at other elements, which explains the readings as well."""
     rivals: tuple[str, ...]
-    """Of another kind, that explain the readings as well."""
+    """Hypotheses of another kind that explain the readings as well."""
     parameters: tuple[SizeJson, ...]
     """Its values."""
     clause: str
@@ -103,11 +103,11 @@ class StructureJson(JsonPart):
     variable: str
     """Name of the variable."""
     share: float
-    """Of the unexplained mean square, cross-validated."""
+    """Explained part of the unexplained mean square, cross-validated."""
     period: float | None
     """Where it repeats."""
     unit: str
-    """Of period and place."""
+    """Unit of period and place."""
     place: tuple[float, float] | None
     """From where to where, where it is confined to one place, or between which samples something shifts."""
     size_um: NotNegative | None

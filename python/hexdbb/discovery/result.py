@@ -226,7 +226,7 @@ class Discovery:
 
     @property
     def lack_of_fit(self) -> LackOfFit:
-        """Of the model as it is."""
+        """Lack of fit of the model as it is."""
         return self.sufficiency.lack_of_fit
 
     @property
