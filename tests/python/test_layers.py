@@ -64,6 +64,7 @@ ALLOWED: dict[str, set[str]] = {
         "plan",
         "record",
         "kinematics",
+        "learned",
         "model",
         "samples",
         "effects",

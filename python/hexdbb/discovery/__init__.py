@@ -2,6 +2,8 @@
 
 from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, without_needless
 from hexdbb.discovery.discover import Progress, absent_effects, discover
+from hexdbb.discovery.draft import Draft, draft_effect
+from hexdbb.discovery.likely import LikelyCause, likely_cause
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Candidate, Cause, Discovery, GroupError, NextTest, Structure
 
@@ -10,7 +12,9 @@ __all__ = [
     "Candidate",
     "Cause",
     "Discovery",
+    "Draft",
     "GroupError",
+    "LikelyCause",
     "NextTest",
     "Progress",
     "Structure",
@@ -18,7 +22,9 @@ __all__ = [
     "closing_sentence",
     "discover",
     "discover_all",
+    "draft_effect",
     "is_needed",
+    "likely_cause",
     "require_usable_effects",
     "without_needless",
 ]

@@ -62,6 +62,8 @@ class CauseJson(JsonPart):
     """How far the machine's form is from the effect's, as a part of its size."""
     refinements: tuple[str, ...]
     """Learned functions at its place that describe the deviation."""
+    function: str | None
+    """The learned function that is this cause without its formula, as hexdbb add takes it; null where none is."""
     alike: tuple[str, ...]
     """The same effect at other elements, which explains the readings as well."""
     rivals: tuple[str, ...]
