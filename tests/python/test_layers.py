@@ -52,9 +52,6 @@ ALLOWED: dict[str, set[str]] = {
     "ledger": {"errors", "files", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
     # which variables of the samples predict a residual
     "predictors": {"record", "model", "samples", "effects", "_core"},
-    # where the model fails; readings come in as arrays, predicted or measured
-    "comparison": {"errors", "files", "units", "plan", "record", "model", "samples", "diagnosis", "predictors"},
-    "plots": {"errors", "files", "plan", "learned", "model", "comparison", "predictors"},
     # hypotheses on what is missing, decided by their evidence
     "evidence": {"errors", "units", "kinematics", "model", "samples", "diagnosis", "predictors", "_core"},
     "discovery": {
@@ -73,6 +70,31 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "evidence",
         "_core",
+    },
+    # where the model fails, and the likely cause; readings come in as arrays, predicted or measured
+    "comparison": {
+        "errors",
+        "files",
+        "units",
+        "plan",
+        "record",
+        "model",
+        "samples",
+        "diagnosis",
+        "predictors",
+        "discovery",
+    },
+    "plots": {
+        "errors",
+        "files",
+        "plan",
+        "learned",
+        "model",
+        "samples",
+        "diagnosis",
+        "predictors",
+        "discovery",
+        "comparison",
     },
     # what a controller does about it
     "trajectory": {"errors", "machine", "plan", "kinematics"},

@@ -79,7 +79,7 @@ def diagnose(measured: Measured, model: Model, *, robust: bool = False) -> Diagn
     return ledger.fit_model(table_of(measured), model, robust=robust)
 
 
-def compare(measured: Measured, model: Model) -> Comparison:
+def compare(measured: Measured, model: Model, *, find_cause: bool = True) -> Comparison:
     """Compare measured readings with those a model predicts: all that ``hexdbb compare`` prints.
 
     Parameters
@@ -87,13 +87,17 @@ def compare(measured: Measured, model: Model) -> Comparison:
     measured : Record, sequence of Record, or Samples
         The cup of a mount that the model does not know is fitted first, which is stated.
     model : Model
+    find_cause : bool
+        Whether the likely cause of the residual is looked for, where that is more than noise: some two seconds for
+        20,000 readings.
 
     Returns
     -------
     Comparison
-        ISO 230-4 quantities for each circle, feed and direction, worst places, predictors of the residual.
+        Likely cause of the residual, ISO 230-4 quantities for each circle, feed and direction, worst places, predictors
+        of the residual.
     """
-    return comparison.compare(table_of(measured), model)
+    return comparison.compare(table_of(measured), model, find_cause=find_cause)
 
 
 def discover(

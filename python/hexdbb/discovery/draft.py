@@ -66,5 +66,4 @@ def _model(found: Discovery, name: str) -> Model | None:
 def _sentence(name: str, main: str) -> str:
     if name == main:
         return f"{name}, the main cause"
-    reason = f"the main cause, {main}, is not one" if main else "no cause was named"
-    return f"{name}, the best learned function: {reason}"
+    return f"{name}, the best learned function; " + (f"the main cause is {main}" if main else "no cause was named")

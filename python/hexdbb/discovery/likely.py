@@ -43,6 +43,8 @@ MOST = 0.5
 """Part of the residual beyond the noise from which the model's own values are its likely cause: the larger part."""
 STRAND = ("slider", "leg")
 """Kinds of elements that belong together by number: leg k stands on slider k, what one does the other seems to do."""
+SET_UP = {"mount": ("ball", "cup"), "ball": ("ball", "cup"), "cup": ("ball", "cup")}
+"""What belongs together in a set-up: ball and cup shift the reading nearly alike."""
 
 
 @dataclass(frozen=True)
@@ -140,9 +142,11 @@ def _subjects(cause: Cause, model: Model) -> tuple[str, ...]:
     """Return the elements that a cause acts at, as predictors of a residual name them."""
     if is_learned(cause.choice):
         _, place, *rest = cause.choice.split(":")
-        kind, elements = KINDS.get(place, ""), tuple(each for each in rest[:1] if each.isdecimal())
+        kind, elements = KINDS.get(place, place), tuple(each for each in rest[:1] if each.isdecimal())
     else:
         kind, elements = model.info(cause.effect).element_kind, cause.elements
+    if kind in SET_UP:
+        return SET_UP[kind]
     kinds = STRAND if kind in STRAND else (kind,) if kind in KINDS.values() else ()
     return tuple(f"{each} {element}" for element in elements for each in kinds)
 

@@ -44,9 +44,8 @@ def likely_sentence(causes: Sequence[Cause], share: float, heldout: Mapping[str,
     clauses = []
     for each in causes:
         others = f" (or {joined(each.rivals)}, which explains these readings as well)" if each.rivals else ""
-        clauses.append(
-            f"no known effect, {each.clause}{others}" if is_learned(each.choice) else f"{each.clause}{others}"
-        )
+        known = "no known effect, " if is_learned(each.choice) else ""
+        clauses.append(f"{known}{each.clause}{others}")
     likely = "likely cause" if len(causes) == 1 else "likely causes"
     return f"{likely}: {_list(clauses)}; {explained_words(len(causes), share, heldout)}"
 
