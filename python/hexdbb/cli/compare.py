@@ -12,7 +12,7 @@ from rich.progress import Progress
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
-from hexdbb.cli.shared_options import json_option, model_option, records_argument
+from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument
 from hexdbb.comparison import Comparison, compare
 from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
@@ -75,7 +75,7 @@ def command(
     else:
         output_console().print(comparison_text(comparison))
     if written:
-        messages.print(f"pictures: {', '.join(str(path) for path in written)}", markup=False)
+        print_pictures(written, messages)
 
 
 def _comparison(

@@ -59,7 +59,7 @@ def _candidates(candidates: tuple[Candidate, ...]) -> Table:
     table.add_column("hypothesis", no_wrap=True, min_width=max(len(each.choice) for each in candidates))
     for name in ("log evidence", "explains", "RMS, µm", *(LEFT_OUT[name] for name in groups)):
         table.add_column(name, justify="right", min_width=max(map(len, name.split())))
-    table.add_column("refused")
+    table.add_column("refused", min_width=len("refused"))
     for each in candidates:
         errors = [f"{each.heldout[name].after_um:.2f}" if name in each.heldout else "" for name in groups]
         numbers = (f"{each.log_evidence:,.0f}", f"{each.share:.0%}", f"{each.rms_after_um:.2f}")

@@ -47,8 +47,7 @@ def comparison_text(comparison: Comparison) -> RenderableType:
 def cause_lines(comparison: Comparison) -> Iterator[Text]:
     """Yield the likely cause of the residual in one sentence, where there is one."""
     if comparison.cause is not None:
-        # One line, as hexdbb discover prints its answer: where it breaks is the terminal's.
-        yield Text(capital(comparison.cause.sentence), style="bold", no_wrap=True, overflow="ignore")
+        yield Text(capital(comparison.cause.sentence), style="bold")
 
 
 def _radial_lines(comparison: Comparison) -> Iterator[str]:

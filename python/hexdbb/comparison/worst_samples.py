@@ -164,7 +164,7 @@ def _worst(samples: Samples, residual_um: FloatArray) -> Mask:
 
 
 def _circumstances(samples: Samples, worst: Mask) -> Iterator[tuple[str, str, Mask]]:
-    """Yield what samples may have in common: the element it belongs to, if any, the words, and which samples have it."""
+    """Yield what samples may have in common: the element it belongs to, if any, words, and which samples have it."""
     for direction, name in DIRECTION_NAMES.items():
         yield "", name, samples["direction"] == direction
     for feed_mm_s in np.unique(samples["feed_mm_s"]):

@@ -3,6 +3,7 @@
 from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, without_needless
 from hexdbb.discovery.discover import Progress, absent_effects, discover
 from hexdbb.discovery.draft import Draft, draft_effect
+from hexdbb.discovery.form import CauseForm, form_of
 from hexdbb.discovery.likely import LikelyCause, likely_cause
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Candidate, Cause, Discovery, GroupError, NextTest, Structure
@@ -11,6 +12,7 @@ __all__ = [
     "AutoStep",
     "Candidate",
     "Cause",
+    "CauseForm",
     "Discovery",
     "Draft",
     "GroupError",
@@ -23,6 +25,7 @@ __all__ = [
     "discover",
     "discover_all",
     "draft_effect",
+    "form_of",
     "is_needed",
     "likely_cause",
     "require_usable_effects",

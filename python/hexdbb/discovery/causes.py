@@ -30,8 +30,6 @@ from hexdbb.units import shown_factor, shown_unit
 Floats = NDArray[np.float64]
 Judge = Callable[[Model, Floats], Sufficiency]
 
-SMALLEST_DEVIATION = 0.01
-"""Deviation of form from which it is told: below, a machine's effect is as the formula has it."""
 MORE = "something else is missing besides"
 
 
@@ -115,7 +113,7 @@ def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
         That describe the forms, where some were found.
     """
     engine, present = search.engine, search.root.trial.present
-    deviating = [(name, form) for name, form in present if form.deviation >= SMALLEST_DEVIATION]
+    deviating = [(name, form) for name, form in present if form.deviation >= words.SMALLEST_DEVIATION]
     whose = [f"{name} ({words.percent(form.deviation)} off)" for name, form in deviating]
     whose += [name for name in dict.fromkeys(map(search.refined, refining)) if name not in dict(deviating)]
     functions = [each.name for each in refining] or [form.functions[0] for _, form in deviating if form.functions]
@@ -144,7 +142,7 @@ def _remarks(
         else [
             f"the machine's form differs from that of {each.choice} by {words.percent(each.form_deviation)} of its size"
             for each in causes
-            if each.form_deviation >= SMALLEST_DEVIATION
+            if each.form_deviation >= words.SMALLEST_DEVIATION
         ]
     )
     beside_um = left_um(search, trial)

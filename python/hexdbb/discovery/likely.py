@@ -134,11 +134,11 @@ def _missing(samples: Samples, model: Model) -> LikelyCause | None:
     left_mm = predict(samples, with_all).residual_mm
     enough = assess_sufficiency(samples, with_all, left_mm)
     choices = tuple(each.choice for each in found.causes)
-    subjects = tuple(subject for each in found.causes for subject in _subjects(each, with_all))
+    subjects = tuple(subject for each in found.causes for subject in subjects_of(each, with_all))
     return LikelyCause(found.likely, choices, subjects, left_mm, not enough.matters)
 
 
-def _subjects(cause: Cause, model: Model) -> tuple[str, ...]:
+def subjects_of(cause: Cause, model: Model) -> tuple[str, ...]:
     """Return the elements that a cause acts at, as predictors of a residual name them."""
     if is_learned(cause.choice):
         _, place, *rest = cause.choice.split(":")

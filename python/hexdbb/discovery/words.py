@@ -12,6 +12,8 @@ from hexdbb.model import Term
 
 GROUPS = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 NOTHING = "nothing is missing: what is left is noise"
+SMALLEST_DEVIATION = 0.01
+"""Deviation of form from which it is stated: below, a machine's effect is as the formula has it."""
 
 
 def function_clause(term: Term) -> str:

@@ -26,6 +26,21 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
         raise InputError(f"{path}: exists already (expected a new name, or leave to overwrite it)")
 
 
+def prepare_folder(folder: Path) -> None:
+    """Make a folder for files to be written, where there is none; the one it stands in must exist.
+
+    Raises
+    ------
+    InputError
+        It stands in none, or is a file.
+    """
+    if not folder.parent.is_dir():
+        raise InputError(f"{folder}: no such directory {folder.parent} (expected one that exists)")
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{folder}: is a file (expected the name of a folder)")
+    folder.mkdir(exist_ok=True)
+
+
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary path to write to; it replaces `path` when the block ends without an error.
