@@ -15,7 +15,7 @@ from hexdbb.cli.shared_options import json_option, model_option, plot_option, pr
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.errors import InputError
-from hexdbb.files.atomic_file import prepare_folder, refuse_existing
+from hexdbb.files.atomic_file import refuse_existing, require_folder
 from hexdbb.identifiability import measured_sensitivity, minimal_set
 from hexdbb.ledger import fit_model
 from hexdbb.model import Model, load_model, new_model, save_model
@@ -63,7 +63,7 @@ def command(
     """
     refuse_existing(model_path, overwrite=True)
     if folder is not None:
-        prepare_folder(folder)
+        require_folder(folder)
     messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])

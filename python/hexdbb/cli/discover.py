@@ -14,9 +14,17 @@ from hexdbb.cli.discovery_text import print_discovery
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
-from hexdbb.discovery import AutoStep, Discovery, Progress, closing_sentence, discover, discover_all, draft_effect
-from hexdbb.errors import InputError
-from hexdbb.files.atomic_file import prepare_folder, refuse_existing, write_text
+from hexdbb.discovery import (
+    AutoStep,
+    Discovery,
+    Progress,
+    closing_sentence,
+    discover,
+    discover_all,
+    draft_effect,
+    require_draftable,
+)
+from hexdbb.files.atomic_file import refuse_existing, require_folder, write_text
 from hexdbb.model import Model, save_model
 from hexdbb.record import read_record
 from hexdbb.samples import Samples
@@ -77,9 +85,9 @@ def command(
       hexdbb discover today.parquet -m model.toml --draft mine.py --plot pictures
     """
     if draft_path is not None:
-        _require_draftable(draft_path, overwrite)
+        require_draftable(draft_path, overwrite)
     if folder is not None:
-        prepare_folder(folder)
+        require_folder(folder)
     if auto:
         refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
@@ -105,12 +113,6 @@ def command(
         drafted = draft_effect(found)
         write_text(draft_path, drafted.source)
         messages.print(f"{draft_path}: draft of {drafted.sentence}", markup=False, highlight=False, soft_wrap=True)
-
-
-def _require_draftable(path: Path, overwrite: bool) -> None:
-    if path.suffix != ".py":
-        raise InputError(f"--draft {path}: expected the name of a Python file, FILE.py")
-    refuse_existing(path, overwrite)
 
 
 def _draw(found: Discovery, folder: Path, messages: Console) -> None:

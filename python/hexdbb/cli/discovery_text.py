@@ -90,6 +90,11 @@ def _next(found: Discovery, records: str, model_path: Path) -> list[str]:
         ]
     if found.verdict == "effect" and found.best is not None:
         return [f"next: hexdbb add {found.best.choice} -m {model_path} {records}"]
+    if found.verdict == "unknown" and found.causes and found.causes[0].function is not None:
+        return [
+            "next: give it its physics, as an effect of your own that is drafted by:"
+            f" hexdbb discover {records} -m {model_path} --draft mine.py"
+        ]
     if found.verdict == "unknown":
         return [
             "next: write what it may be as an effect of your own, and let it compete:"

@@ -2,7 +2,7 @@
 
 from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, without_needless
 from hexdbb.discovery.discover import Progress, absent_effects, discover
-from hexdbb.discovery.draft import Draft, draft_effect
+from hexdbb.discovery.draft import Draft, draft_effect, require_draftable
 from hexdbb.discovery.form import CauseForm, form_of
 from hexdbb.discovery.likely import LikelyCause, likely_cause
 from hexdbb.discovery.own_effects import require_usable_effects
@@ -28,6 +28,7 @@ __all__ = [
     "form_of",
     "is_needed",
     "likely_cause",
+    "require_draftable",
     "require_usable_effects",
     "without_needless",
 ]

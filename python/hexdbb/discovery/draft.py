@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from hexdbb.discovery.learning import can_learn, with_learned
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.words import NOTHING
 from hexdbb.effects import draft
-from hexdbb.errors import RunError
+from hexdbb.errors import InputError, RunError
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import Model
 
 
@@ -29,6 +31,19 @@ class Draft:
     name: str
     sentence: str
     source: str = field(repr=False)
+
+
+def require_draftable(path: Path, overwrite: bool) -> None:
+    """Check that a draft may be written to a file.
+
+    Raises
+    ------
+    InputError
+        It is no Python file, or exists already.
+    """
+    if path.suffix != ".py":
+        raise InputError(f"{path}: cannot hold an effect (expected the name of a Python file, NAME.py)")
+    refuse_existing(path, overwrite)
 
 
 def draft_effect(found: Discovery) -> Draft:

@@ -26,8 +26,8 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
         raise InputError(f"{path}: exists already (expected a new name, or leave to overwrite it)")
 
 
-def prepare_folder(folder: Path) -> None:
-    """Make a folder for files to be written, where there is none; the one it stands in must exist.
+def require_folder(folder: Path) -> None:
+    """Check that a folder is there, or can be made: the one it stands in exists.
 
     Raises
     ------
@@ -38,7 +38,6 @@ def prepare_folder(folder: Path) -> None:
         raise InputError(f"{folder}: no such directory {folder.parent} (expected one that exists)")
     if folder.exists() and not folder.is_dir():
         raise InputError(f"{folder}: is a file (expected the name of a folder)")
-    folder.mkdir(exist_ok=True)
 
 
 @contextmanager

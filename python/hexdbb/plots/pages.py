@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison, iso230
-from hexdbb.files.atomic_file import prepare_folder, replacing
+from hexdbb.files.atomic_file import replacing, require_folder
 from hexdbb.plan import Circle
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
@@ -166,7 +166,8 @@ def save_pages(pages: Sequence[Page], folder: Path) -> list[Path]:
     RunError
         A file cannot be written.
     """
-    prepare_folder(folder)
+    require_folder(folder)
+    folder.mkdir(exist_ok=True)
     return [path for page in pages for path in save_figure(page.draw(), folder / page.suffix)]
 
 
