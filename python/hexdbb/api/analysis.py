@@ -90,7 +90,7 @@ def compare(measured: Measured, model: Model, *, find_cause: bool = True) -> Com
         The cup of a mount that the model does not know is fitted first, which is stated.
     model : Model
     find_cause : bool
-        Whether the likely cause of the residual is looked for, where that is more than noise: some two seconds for
+        Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
         20,000 readings.
 
     Returns

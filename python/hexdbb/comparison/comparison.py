@@ -111,7 +111,7 @@ def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Compa
         At least one.
     model : Model
     find_cause : bool
-        Whether the likely cause of the residual is looked for, where that is more than noise: some two seconds for
+        Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
         20,000 samples.
 
     Raises

@@ -24,15 +24,18 @@ def choice_of(hypothesis: Hypothesis) -> str:
     return str(Choice(hypothesis.effect, hypothesis.elements))
 
 
-def shown_candidates(search: Search, node: Node) -> tuple[Candidate, ...]:
-    """Return the sets tried that are worth showing: that of the verdict, then single hypotheses by their evidence."""
+def shown_candidates(search: Search, node: Node, checked: int = MAX_CHECKED) -> tuple[Candidate, ...]:
+    """Return the sets tried that are worth showing: that of the verdict, then single hypotheses by their evidence.
+
+    The errors of the first few (`checked`) where circles, feeds, directions or laps were left out are computed.
+    """
     single = [each for each in search.nodes if len(each.members) == 1 and each is not node]
     single.sort(key=lambda each: -each.score)
     shown: dict[tuple[str, ...], Node] = {} if node is search.root else {node.trial.names: node}
     for each in single:
         shown.setdefault(each.trial.names, each)
     nodes = list(shown.values())[:MAX_CANDIDATES]
-    return tuple(_candidate(search, each, rank < MAX_CHECKED) for rank, each in enumerate(nodes))
+    return tuple(_candidate(search, each, rank < checked) for rank, each in enumerate(nodes))
 
 
 def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis import Sufficiency, evaluate_fit
 from hexdbb.discovery import words
-from hexdbb.discovery.candidates import choice_of, shown_candidates
+from hexdbb.discovery.candidates import MAX_CHECKED, choice_of, shown_candidates
 from hexdbb.discovery.learning import can_learn, with_learned
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
@@ -49,7 +49,7 @@ class Told:
     learned: Model | None = None
 
 
-def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Told:
+def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_table: bool = True) -> Told:
     """Describe a verdict.
 
     Parameters
@@ -62,10 +62,12 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
         Judges what a fitted model leaves.
     matters_um : float
         Unexplained RMS from which it matters.
+    with_table : bool
+        Whether other hypotheses are held out too, for the table.
     """
     if judged.grade == "none":
         return _told_forms(search) if search.root.trial.present else _told_nothing(search, judged.sufficiency)
-    candidates = shown_candidates(search, judged.node)
+    candidates = shown_candidates(search, judged.node, MAX_CHECKED if with_table else 0)
     if not judged.found or judged.checked is None:
         sentence = "something is missing that nothing tried explains"
         return Told("unknown", sentence, (), candidates, search.engine.base, None)

@@ -42,7 +42,7 @@ def discover(
     *,
     matters_um: float | None = None,
     criteria: Criteria = DEFAULT,
-    with_structure: bool = True,
+    with_tables: bool = True,
 ) -> Discovery:
     """Look for what is missing from a model.
 
@@ -59,8 +59,8 @@ def discover(
         Unexplained RMS below which nothing is missing that matters (`hexdbb.diagnosis.sufficiency`).
     criteria : Criteria
         Constants that decide.
-    with_structure : bool
-        Whether predictors of what remains are ranked, where something does.
+    with_tables : bool
+        Whether other hypotheses are held out, and predictors of what remains ranked, to be shown beside the verdict.
 
     Raises
     ------
@@ -89,8 +89,8 @@ def discover(
     progress("screening all hypotheses, fitting the best")
     search = Search(engine, names, criteria)
     verdict = judge(search, enough.matters_um)
-    outcome = _outcome(told(search, verdict, judged, enough.matters_um), engine, enough)
-    if with_structure and outcome.verdict != "none" and (outcome.remaining or enough).matters:
+    outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
+    if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
         residual_mm = predict(samples, outcome.model).residual_mm
         structure = unexplained_structure(samples, outcome.model, residual_mm, judging.noise)
         outcome = replace(outcome, structure=structure)

@@ -138,6 +138,8 @@ def _draw_predictor(axes: Axes, predictor: Predictor) -> None:
         axes.set_xlabel(predictor.unit, fontsize=7, labelpad=1)
         low, high = axes.get_xlim()
         axes.set_xticks([tick for tick in axes.get_xticks() if low <= tick <= high])
+    low, high = axes.get_ylim()
+    axes.set_yticks([tick for tick in axes.get_yticks() if low <= tick <= high])
     axes.tick_params(labelsize=7)
     axes.grid(color="0.92", linewidth=0.5)
 
