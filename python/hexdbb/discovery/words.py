@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.families import Learned
 from hexdbb.evidence.trial import HeldOut
 from hexdbb.learned import ALL, describe
 from hexdbb.learned.shown import ALL_OF, PLACES, sentence
 from hexdbb.model import Term
 
-GROUPS = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
+GROUPS: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 NOTHING = "nothing is missing: what is left is noise"
 SMALLEST_DEVIATION = 0.01
 """Deviation of form from which it is stated: below, a machine's effect is as the formula has it."""
@@ -44,7 +45,7 @@ def place_clause(hypothesis: Learned) -> str:
 
 def unseen_words(heldout: Mapping[str, HeldOut], share: float) -> str:
     """Return on what it holds: ``on circles, feeds and directions not used to find it``; empty where on nothing."""
-    held = [GROUPS[name] for name, each in heldout.items() if each.share >= 0.5 * share]
+    held = [words for name, words in GROUPS.items() if name in heldout and heldout[name].share >= 0.5 * share]
     return f"on {joined(held)} not used to find it" if held else ""
 
 
