@@ -17,7 +17,8 @@ measure               `measure`, `simulated_rig`, `Plan`, `load_plan`, `shipped_
 records               `read_record`, `write_record`, `Record`; `Samples.of(records)` is the table that all below take
 models                `new_model`, `load_model`, `save_model`, `Model`, `effect_names`, `effect_info`
 why does it err       `diagnose`, `predict`, `compare`, `discover`, `discover_all`
-what is missing       `add_effect`, `remove_effect`, `undo`, `history`; an effect of your own: `effect`, `load_effects`
+what is missing       `add_effect`, `remove_effect`, `undo`, `history`; an effect of your own: `effect`,
+                      `load_effects`, `draft_effect`
 what follows          `compensate`, `propose_plan`
 errors                `HexdbbError`: `InputError` (bad input), `RunError` (what failed while running)
 ====================  ==================================================================================================

@@ -17,6 +17,9 @@ from .api import (
     discover_all as discover_all,
 )
 from .api import (
+    draft_effect as draft_effect,
+)
+from .api import (
     measure as measure,
 )
 from .api import (

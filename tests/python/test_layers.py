@@ -53,7 +53,27 @@ ALLOWED: dict[str, set[str]] = {
     "ledger": {"errors", "files", "threads", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
     # which variables of the samples predict a residual
     "predictors": {"record", "model", "samples", "effects", "_core"},
-    # where the model fails; readings come in as arrays, predicted or measured
+    # hypotheses on what is missing, decided by their evidence
+    "evidence": {"errors", "units", "learned", "model", "samples", "diagnosis", "predictors", "_core"},
+    "discovery": {
+        "errors",
+        "files",
+        "threads",
+        "units",
+        "plan",
+        "record",
+        "kinematics",
+        "learned",
+        "model",
+        "samples",
+        "effects",
+        "diagnosis",
+        "ledger",
+        "predictors",
+        "evidence",
+        "_core",
+    },
+    # where the model fails, and the likely cause; readings come in as arrays, predicted or measured
     "comparison": {
         "errors",
         "files",
@@ -65,27 +85,19 @@ ALLOWED: dict[str, set[str]] = {
         "samples",
         "diagnosis",
         "predictors",
+        "discovery",
     },
-    "plots": {"errors", "files", "plan", "learned", "model", "comparison", "predictors"},
-    # hypotheses on what is missing, decided by their evidence
-    "evidence": {"errors", "units", "learned", "model", "samples", "diagnosis", "predictors", "_core"},
-    "discovery": {
+    "plots": {
         "errors",
         "files",
-        "threads",
-        "learned",
-        "units",
         "plan",
-        "record",
-        "kinematics",
+        "learned",
         "model",
         "samples",
-        "effects",
         "diagnosis",
-        "ledger",
         "predictors",
-        "evidence",
-        "_core",
+        "discovery",
+        "comparison",
     },
     # what a controller does about it
     "trajectory": {"errors", "machine", "plan", "kinematics"},

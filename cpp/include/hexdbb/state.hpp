@@ -92,7 +92,7 @@ void for_each_column(StateType& state, Visit visit) {
   visit(ColumnInfo{"sweep", "1", "number of the uninterrupted capture"}, state.sweep);
   visit(ColumnInfo{"lap", "1", "number of the turn within its sweep"}, state.lap);
   visit(ColumnInfo{"direction", "1", "sense of the circle: +1 counter-clockwise, -1 clockwise"}, state.direction);
-  visit(ColumnInfo{"angle_rad", "rad", "commanded polar angle, counted on from lap to lap"}, state.angle_rad);
+  visit(ColumnInfo{"angle_rad", "rad", "commanded polar angle as recorded, any number of turns"}, state.angle_rad);
   visit(ColumnInfo{"angle_wrapped_rad", "rad", "commanded polar angle within 0 to 2 pi"}, state.angle_wrapped_rad);
   visit(ColumnInfo{"feed_mm_s", "mm/s", "commanded speed along the circle"}, state.feed_mm_s);
   visit(ColumnInfo{"temperature_c", "degC", "measured temperature; NaN: not measured", Of::kSample, true},

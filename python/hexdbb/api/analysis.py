@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 
 from hexdbb import comparison, discovery, ledger
 from hexdbb.comparison import Comparison
 from hexdbb.diagnosis import Diagnosis
-from hexdbb.discovery import AutoStep, Discovery
+from hexdbb.discovery import AutoStep, Discovery, Draft
+from hexdbb.files.atomic_file import write_text
 from hexdbb.model import Model
 from hexdbb.record import Record
 from hexdbb.samples import Prediction, Samples
@@ -79,7 +81,7 @@ def diagnose(measured: Measured, model: Model, *, robust: bool = False) -> Diagn
     return ledger.fit_model(table_of(measured), model, robust=robust)
 
 
-def compare(measured: Measured, model: Model) -> Comparison:
+def compare(measured: Measured, model: Model, *, find_cause: bool = True) -> Comparison:
     """Compare measured readings with those a model predicts: all that ``hexdbb compare`` prints.
 
     Parameters
@@ -87,13 +89,17 @@ def compare(measured: Measured, model: Model) -> Comparison:
     measured : Record, sequence of Record, or Samples
         The cup of a mount that the model does not know is fitted first, which is stated.
     model : Model
+    find_cause : bool
+        Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
+        20,000 readings.
 
     Returns
     -------
     Comparison
-        ISO 230-4 quantities for each circle, feed and direction, worst places, predictors of the residual.
+        Likely cause of the residual, ISO 230-4 quantities for each circle, feed and direction, worst places, predictors
+        of the residual.
     """
-    return comparison.compare(table_of(measured), model)
+    return comparison.compare(table_of(measured), model, find_cause=find_cause)
 
 
 def discover(
@@ -142,6 +148,39 @@ def discover_all(
 ) -> Iterator[AutoStep | Discovery]:
     """Add missing effects one by one until nothing is missing; yield every step, last of all the final verdict."""
     return discovery.discover_all(table_of(measured), model, progress=progress, matters_um=matters_um)
+
+
+def draft_effect(found: Discovery, output: Path | str | None = None, *, overwrite: bool = False) -> Draft:
+    """Write the main cause of a discovery, if it is learned, as an effect of your own, ready to be given its physics.
+
+    Parameters
+    ----------
+    found : Discovery
+        As `discover` returns it. Where its main cause is a known effect, the best learned function that was tried takes
+        its place, which `Draft.sentence` states.
+    output : path, optional
+        File to write, ``NAME.py``, as `load_effects` and ``--effects`` take it; none where not given.
+    overwrite : bool
+        Replace an existing file.
+
+    Returns
+    -------
+    Draft
+        `source` is the file's text, `name` the learned effect.
+
+    Raises
+    ------
+    InputError
+        The file exists already, or has another suffix.
+    RunError
+        Nothing is missing, or no learned function was tried.
+    """
+    if output is not None:
+        discovery.require_draftable(Path(output), overwrite)
+    drafted = discovery.draft_effect(found)
+    if output is not None:
+        write_text(Path(output), drafted.source)
+    return drafted
 
 
 def add_effect(measured: Measured, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:

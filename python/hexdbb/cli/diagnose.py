@@ -11,10 +11,11 @@ from rich.console import Console
 
 from hexdbb.cli.consoles import output_console
 from hexdbb.cli.effects_option import effects_option, own_effects
-from hexdbb.cli.shared_options import json_option, model_option, records_argument
+from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
+from hexdbb.diagnosis import Diagnosis
 from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.errors import InputError
-from hexdbb.files.atomic_file import refuse_existing
+from hexdbb.files.atomic_file import refuse_existing, require_folder
 from hexdbb.identifiability import measured_sensitivity, minimal_set
 from hexdbb.ledger import fit_model
 from hexdbb.model import Model, load_model, new_model, save_model
@@ -36,6 +37,7 @@ only that determines is not worth a value."""
     "--minimal", is_flag=True, help="Fit as many errors as the readings determine (pivoted QR), hold the rest."
 )
 @click.option("--robust", is_flag=True, help="Let readings far off (a gauge glitch) count less.")
+@plot_option
 @json_option
 def command(
     records: tuple[Path, ...],
@@ -45,6 +47,7 @@ def command(
     fix: str | None,
     minimal: bool,
     robust: bool,
+    folder: Path | None,
     as_json: bool,
 ) -> None:
     """Fit the free effects of a model to RECORD... (.parquet or .csv) and write the values into the model file.
@@ -54,10 +57,13 @@ def command(
       hexdbb diagnose demo.parquet -m demo-model.toml
       hexdbb diagnose monday.parquet tuesday.csv -m model.toml --json
       hexdbb diagnose monday.parquet -m model.toml --minimal
+      hexdbb diagnose monday.parquet -m model.toml --plot pictures
       hexdbb diagnose monday.parquet -m model.toml --effects mine.py
       hexdbb diagnose monday.parquet -m model.toml --free leg_length,slider_offset --fix leg_length:6 --robust
     """
     refuse_existing(model_path, overwrite=True)
+    if folder is not None:
+        require_folder(folder)
     messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
@@ -76,6 +82,16 @@ def command(
     else:
         output_console().print(diagnosis_text(found), soft_wrap=True)
     messages.print(f"{model_path}: values written")
+    if folder is not None:
+        _draw(found, folder, messages)
+
+
+def _draw(found: Diagnosis, folder: Path, messages: Console) -> None:
+    from hexdbb.plots import diagnosis_pages, save_pages  # matplotlib takes a second to import
+
+    with messages.status("drawing"):
+        written = save_pages(diagnosis_pages(found), folder)
+    print_pictures(written, messages)
 
 
 def choose_free(model: Model, free: str | None, fix: str | None) -> Model:

@@ -13,9 +13,18 @@ from hexdbb.cli.consoles import output_console
 from hexdbb.cli.discovery_text import print_discovery
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
-from hexdbb.cli.shared_options import json_option, model_option, records_argument
-from hexdbb.discovery import AutoStep, Discovery, Progress, closing_sentence, discover, discover_all
-from hexdbb.files.atomic_file import refuse_existing
+from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
+from hexdbb.discovery import (
+    AutoStep,
+    Discovery,
+    Progress,
+    closing_sentence,
+    discover,
+    discover_all,
+    draft_effect,
+    require_draftable,
+)
+from hexdbb.files.atomic_file import refuse_existing, require_folder, write_text
 from hexdbb.model import Model, save_model
 from hexdbb.record import read_record
 from hexdbb.samples import Samples
@@ -34,6 +43,16 @@ from hexdbb.samples import Samples
     help="Unexplained RMS in µm below which nothing is missing that matters; a quarter of the noise, or a thousandth"
     " of the reading error that the model explains, where not given.",
 )
+@click.option(
+    "--draft",
+    "draft_path",
+    metavar="FILE.py",
+    type=click.Path(path_type=Path),
+    help="Write the main cause, if it is learned, as an effect of your own, ready to be given its physics; else the"
+    " best learned function that was tried.",
+)
+@click.option("--overwrite", is_flag=True, help="Replace an existing FILE.py.")
+@plot_option
 @json_option
 def command(
     records: tuple[Path, ...],
@@ -41,6 +60,9 @@ def command(
     effects_path: Path | None,
     auto: bool,
     matters_um: float | None,
+    draft_path: Path | None,
+    overwrite: bool,
+    folder: Path | None,
     as_json: bool,
 ) -> None:
     """Find out what a model lacks, from RECORD... (.parquet or .csv).
@@ -60,7 +82,12 @@ def command(
       hexdbb discover today.parquet -m model.toml --effects mine.py
       hexdbb discover today.parquet -m model.toml --matters 0.5
       hexdbb discover today.parquet -m model.toml --auto
+      hexdbb discover today.parquet -m model.toml --draft mine.py --plot pictures
     """
+    if draft_path is not None:
+        require_draftable(draft_path, overwrite)
+    if folder is not None:
+        require_folder(folder)
     if auto:
         refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
@@ -76,10 +103,24 @@ def command(
     if as_json:
         shown = found.to_json([each.diagnosis for each in steps], closing)
         click.echo(json.dumps(shown, indent=2, allow_nan=False))
-        return
-    print_discovery(found, output_console(), " ".join(map(str, records)), model_path)
-    if closing is not None:
+    else:
+        print_discovery(found, output_console(), " ".join(map(str, records)), model_path)
+    if closing is not None and not as_json:
         output_console().print(closing, style="bold", highlight=False, soft_wrap=True)
+    if folder is not None:
+        _draw(found, folder, messages)
+    if draft_path is not None:
+        drafted = draft_effect(found)
+        write_text(draft_path, drafted.source)
+        messages.print(f"{draft_path}: draft of {drafted.sentence}", markup=False, highlight=False, soft_wrap=True)
+
+
+def _draw(found: Discovery, folder: Path, messages: Console) -> None:
+    from hexdbb.plots import discovery_pages, save_pages  # matplotlib takes a second to import
+
+    with messages.status("drawing"):
+        written = save_pages(discovery_pages(found), folder)
+    print_pictures(written, messages)
 
 
 def _automatic(

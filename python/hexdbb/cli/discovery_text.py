@@ -9,10 +9,8 @@ from rich.console import Console
 from rich.table import Table
 
 from hexdbb.discovery import Candidate, Cause, Discovery
-from hexdbb.discovery.result import Grouping
+from hexdbb.discovery.words import GROUPS
 from hexdbb.units import readable_unit
-
-LEFT_OUT: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 
 
 def print_discovery(found: Discovery, console: Console, records: str, model_path: Path) -> None:
@@ -54,12 +52,12 @@ def _print_doubts(cause: Cause, line: Callable[[str], None]) -> None:
 
 def _candidates(candidates: tuple[Candidate, ...]) -> Table:
     """Return the table of hypotheses: evidence, part explained, error by what was left out, why refused."""
-    groups = [name for name in LEFT_OUT if any(name in each.heldout for each in candidates)]
+    groups = [name for name in GROUPS if any(name in each.heldout for each in candidates)]
     table = Table(box=None, header_style="bold", pad_edge=False)
     table.add_column("hypothesis", no_wrap=True, min_width=max(len(each.choice) for each in candidates))
-    for name in ("log evidence", "explains", "RMS, µm", *(LEFT_OUT[name] for name in groups)):
+    for name in ("log evidence", "explains", "RMS, µm", *(GROUPS[name] for name in groups)):
         table.add_column(name, justify="right", min_width=max(map(len, name.split())))
-    table.add_column("refused")
+    table.add_column("refused", min_width=len("refused"))
     for each in candidates:
         errors = [f"{each.heldout[name].after_um:.2f}" if name in each.heldout else "" for name in groups]
         numbers = (f"{each.log_evidence:,.0f}", f"{each.share:.0%}", f"{each.rms_after_um:.2f}")
@@ -90,6 +88,11 @@ def _next(found: Discovery, records: str, model_path: Path) -> list[str]:
         ]
     if found.verdict == "effect" and found.best is not None:
         return [f"next: hexdbb add {found.best.choice} -m {model_path} {records}"]
+    if found.verdict == "unknown" and found.causes and found.causes[0].function is not None:
+        return [
+            "next: give it its physics, as an effect of your own that is drafted by:"
+            f" hexdbb discover {records} -m {model_path} --draft mine.py"
+        ]
     if found.verdict == "unknown":
         return [
             "next: write what it may be as an effect of your own, and let it compete:"

@@ -16,6 +16,7 @@ from hexdbb.comparison.both_directions import BothDirections, both_directions
 from hexdbb.comparison.harmonics import Harmonic, harmonics
 from hexdbb.comparison.iso230 import FloatArray, Path
 from hexdbb.comparison.quantities import Quantities, evaluate_quantities
+from hexdbb.comparison.reversals import Reversal, reversals
 from hexdbb.comparison.set_up import without_set_up_mm
 from hexdbb.plan import Circle
 from hexdbb.predictors import record_names
@@ -83,7 +84,8 @@ class DirectionComparison:
 class CircleComparison:
     """One circle of one record at one feed: `directions` holds counter-clockwise first, then clockwise.
 
-    `compensation` names the compensation file the record was driven with, None where it was not.
+    `compensation` names the compensation file the record was driven with, None where it was not; `reversals` is where
+    sliders reverse, by angle.
     """
 
     record_name: str
@@ -91,6 +93,7 @@ class CircleComparison:
     circle: Circle
     feed_mm_min: float
     directions: tuple[DirectionComparison, ...]
+    reversals: tuple[Reversal, ...] = ()
 
     @property
     def rms_mm(self) -> float:
@@ -177,7 +180,7 @@ def _compare_circle(samples: Samples, predicted_mm: FloatArray, here: IndexArray
     )
     # Nine decimals undo the rounding of mm/min to mm/s and back.
     feed_mm_min = round(SECONDS_PER_MINUTE * float(part["feed_mm_s"][0]), 9)
-    return CircleComparison(name, compensation_of(record), circle, feed_mm_min, directions)
+    return CircleComparison(name, compensation_of(record), circle, feed_mm_min, directions, reversals(part))
 
 
 def compensation_of(record: Record) -> str | None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from hexdbb.comparison.bystanders import marked
 from hexdbb.comparison.circles import CircleComparison, compare_circles, root_mean_square
 from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.comparison.json_form import ComparisonJson
@@ -17,6 +18,7 @@ from hexdbb.comparison.tables import comparison_text
 from hexdbb.comparison.worst_arcs import WorstArc, worst_arcs
 from hexdbb.comparison.worst_samples import WorstSamples, worst_samples
 from hexdbb.diagnosis import fit_mounts, noise_of
+from hexdbb.discovery import LikelyCause, likely_cause
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
 from hexdbb.files.plain_text import plain_text
@@ -48,9 +50,12 @@ class Comparison:
     worst_samples : WorstSamples
         The samples with the largest residuals, and what is over-represented among them.
     predictors : tuple of Predictor
-        Variables of the samples that explain the residual, those of most worth first.
+        Variables of the samples that explain the residual, those of most worth first; last those that only go with the
+        likely cause.
     fitted_mounts : tuple of str
         One sentence for each set-up that the model did not know, so that its cup was fitted first.
+    cause : LikelyCause or None
+        Of the residual; None where it is noise, or was not looked for, or the readings are too few.
     """
 
     samples: Samples = field(repr=False)
@@ -62,6 +67,7 @@ class Comparison:
     worst_samples: WorstSamples
     predictors: tuple[Predictor, ...]
     fitted_mounts: tuple[str, ...]
+    cause: LikelyCause | None = None
 
     @property
     def rms_mm(self) -> float:
@@ -95,7 +101,7 @@ class Comparison:
 
 
 @one_thread
-def compare(samples: Samples, model: Model) -> Comparison:
+def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Comparison:
     """Compare the readings of samples with those that a model predicts.
 
     The cups of mounts that the model does not know are fitted first, all else held; `Comparison.fitted_mounts` states
@@ -106,17 +112,22 @@ def compare(samples: Samples, model: Model) -> Comparison:
     samples : Samples
         At least one.
     model : Model
+    find_cause : bool
+        Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
+        20,000 samples.
 
     Raises
     ------
     InputError
-        No samples in a record, a machine that differs, or a sample that the model's machine cannot reach.
+        No samples in a record, a machine that differs, or a sample that the model's machine cannot reach; an effect of
+        the user's own that fails, with file and line.
     """
     _require_samples(samples)
     known, fitted = fit_mounts(samples, model)
-    predicted_mm = predict(samples, known).reading_mm
+    predicted = predict(samples, known)
+    cause = likely_cause(samples, known, predicted.residual_mm) if find_cause else None
     noise_mm = noise_of(samples).sigma_mm
-    return compare_readings(samples, predicted_mm, Pushes.of(samples, known), noise_mm, fitted)
+    return compare_readings(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, cause)
 
 
 def compare_readings(
@@ -125,6 +136,7 @@ def compare_readings(
     pushes: Pushes | None = None,
     noise_mm: float = 0.0,
     fitted_mounts: Sequence[str] = (),
+    cause: LikelyCause | None = None,
 ) -> Comparison:
     """Compare the readings of samples with readings predicted by any means.
 
@@ -141,6 +153,8 @@ def compare_readings(
         Standard deviation of one reading; 0 where it is not known.
     fitted_mounts : sequence of str
         Sentences on set-ups fitted before.
+    cause : LikelyCause, optional
+        Of the residual.
 
     Raises
     ------
@@ -151,6 +165,9 @@ def compare_readings(
     _check_prediction(samples, predicted_mm)
     residual_mm = samples.reading_mm - predicted_mm
     circles = compare_circles(samples, predicted_mm)
+    predictors = rank_predictors(samples, residual_mm, pushes, noise_mm)
+    if cause is not None:
+        predictors = marked(predictors, samples, residual_mm, pushes, noise_mm, cause)
     return Comparison(
         samples=samples,
         predicted_mm=predicted_mm,
@@ -158,9 +175,10 @@ def compare_readings(
         circles=tuple(circles),
         radial=radial_errors(circles),
         worst=tuple(worst_arcs(circles, WORST_COUNT)),
-        worst_samples=worst_samples(samples, residual_mm),
-        predictors=tuple(rank_predictors(samples, residual_mm, pushes, noise_mm)),
+        worst_samples=worst_samples(samples, residual_mm, cause, noise_mm),
+        predictors=tuple(predictors),
         fitted_mounts=tuple(fitted_mounts),
+        cause=cause,
     )
 
 

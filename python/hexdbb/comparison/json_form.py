@@ -114,7 +114,7 @@ class RadialJson(JsonPart):
     rms_um: NotNegative | None
     """Root mean square over every sample; null where no circle is full."""
     peak_to_valley_um: NotNegative | None
-    """Of the worst circle at one feed, both directions."""
+    """Largest minus smallest on the worst circle at one feed, both directions."""
     worst_circle: int | None
     """Its id."""
 
@@ -125,6 +125,18 @@ class RadialJson(JsonPart):
             None if value is None else UM_PER_MM * value for value in (each.rms_mm, each.peak_to_valley_mm)
         )
         return cls(each.record_name, each.compensation, rms_um, peak_um, each.worst_circle)
+
+
+@dataclass(frozen=True)
+class LikelyCauseJson(JsonPart):
+    """The likely cause of the residual."""
+
+    sentence: str
+    """It, and how much it explains."""
+    choices: tuple[str, ...]
+    """The effect, or two together, as hexdbb add takes them; empty where it is the model's own values."""
+    subjects: tuple[str, ...]
+    """Elements that it acts at; empty where it belongs to the whole machine or the gauge."""
 
 
 @dataclass(frozen=True)
@@ -149,13 +161,17 @@ class WorstSamplesJson(JsonPart):
     """That of the others; null where there are none."""
     common: tuple[Circumstance, ...]
     """Circumstances over-represented among them, most first; not necessarily causes."""
+    bystanders: tuple[str, ...]
+    """Elements left out of common, because what they have in common among the worst only goes with the likely cause."""
     sentences: tuple[str, ...]
     """The same in words."""
 
     @classmethod
     def of(cls, found: WorstSamples) -> WorstSamplesJson:
         """Convert the worst samples."""
-        return cls(found.samples, found.rms_um, found.rms_elsewhere_um, found.common, tuple(found.sentences))
+        return cls(
+            found.samples, found.rms_um, found.rms_elsewhere_um, found.common, found.bystanders, tuple(found.sentences)
+        )
 
 
 @dataclass(frozen=True)
@@ -207,13 +223,15 @@ class PredictorJson(JsonPart):
     """Its unit; empty where it is a class."""
     share: Share
     """Explained share of the mean square residual: fitted to one half of the laps, tested on the other."""
+    bystander: bool
+    """Whether it only goes with the likely cause, at another element, and predicts nothing of what that leaves."""
     sentence: str
     """The variable with its period or place and the size of the push, in words."""
 
     @classmethod
     def of(cls, each: Predictor) -> PredictorJson:
         """Convert one predictor."""
-        return cls(each.variable, each.unit, float(each.share), sentence(each))
+        return cls(each.variable, each.unit, float(each.share), each.is_bystander, sentence(each))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -222,6 +240,8 @@ class ComparisonJson(JsonResult):
 
     SCHEMA = "hexdbb.compare/1"
 
+    cause: LikelyCauseJson | None
+    """Likely cause of the residual; null where it is noise, was not looked for, or the readings are too few."""
     rms_um: NotNegative
     """Root mean square residual of all samples."""
     peak_to_valley_um: NotNegative
@@ -239,7 +259,8 @@ class ComparisonJson(JsonResult):
     both_directions: tuple[BothDirectionsJson, ...]
     """One entry for each circle and feed that was driven in both directions."""
     state: tuple[PredictorJson, ...]
-    """Predictors of the residual, most worth (share less the cost of the number of values) first; shares overlap."""
+    """Predictors of the residual, most worth (share less the cost of the number of values) first, bystanders last;
+    shares overlap."""
     fitted_mounts: tuple[str, ...]
     """One sentence for each set-up that the model did not know, so that its cup was fitted first."""
 
@@ -248,7 +269,9 @@ class ComparisonJson(JsonResult):
         """Convert a comparison."""
         circles = comparison.circles
         both = (BothDirectionsJson.of(circle) for circle in circles)
+        cause = comparison.cause
         return cls(
+            cause=None if cause is None else LikelyCauseJson(cause.sentence, cause.choices, cause.subjects),
             rms_um=UM_PER_MM * comparison.rms_mm,
             peak_to_valley_um=UM_PER_MM * comparison.peak_to_valley_mm,
             radial=tuple(RadialJson.of(each) for each in comparison.radial),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING
 
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES
 from hexdbb.comparison.quantities import UM_PER_MM
+from hexdbb.discovery.words import capital
 from hexdbb.files.frames import html_table
 from hexdbb.predictors import sentence
 
@@ -32,8 +34,9 @@ def comparison_html(comparison: Comparison) -> str:
         for part in circle.directions
     ]
     shares = [(sentence(each), f"{100.0 * each.share:.0f} %") for each in comparison.predictors[:MOST_SHOWN]]
+    cause = "" if comparison.cause is None else f"<p><b>{escape(capital(comparison.cause.sentence))}</b></p>"
     return (
-        f"<p>residual (measured - predicted): {rms_um:.2f} µm RMS, {peak_um:.1f} µm peak to valley</p>"
+        f"{cause}<p>residual (measured - predicted): {rms_um:.2f} µm RMS, {peak_um:.1f} µm peak to valley</p>"
         + html_table(("record", "circle", "direction", "feed, mm/min", "RMS, µm", "p-v, µm"), circles)
         + html_table(("predictor of the residual", "explained variance"), shares)
     )

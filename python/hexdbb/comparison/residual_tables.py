@@ -74,12 +74,16 @@ def _harmonics_table(comparison: Comparison) -> Table:
 
 
 def _predictors(comparison: Comparison) -> Iterator[str]:
-    shown = main_predictors(comparison.predictors, MOST_PREDICTORS)
-    if not shown:
+    shown = main_predictors([each for each in comparison.predictors if not each.is_bystander], MOST_PREDICTORS)
+    beside = main_predictors([each for each in comparison.predictors if each.is_bystander], MOST_PREDICTORS)
+    if not shown and not beside:
         yield "No predictor of the residual: no variable fitted to half of the laps explains any of the other half."
         return
     yield "Predictors of the residual (explained variance, cross-validated):"
     yield from (f"  {each.share:6.1%}  {sentence(each)}" for each in shown)
+    if beside:
+        bystanders = ", ".join(f"{each.variable} ({each.share:.0%})" for each in beside)
+        yield f"Going with the likely cause, and explaining nothing beside it: {bystanders}"
 
 
 def _table(title: str) -> Table:

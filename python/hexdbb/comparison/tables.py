@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 from rich import box
 from rich.console import Group, RenderableType
 from rich.table import Table
+from rich.text import Text
 
 from hexdbb.comparison import iso230
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
 from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantity
 from hexdbb.comparison.residual_tables import residual_text
+from hexdbb.discovery.words import capital
 
 if TYPE_CHECKING:
     from hexdbb.comparison.comparison import Comparison
@@ -22,6 +24,7 @@ def comparison_text(comparison: Comparison) -> RenderableType:
     """Return a comparison laid out for a terminal, all lengths in micrometres."""
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     parts: list[RenderableType] = [
+        *cause_lines(comparison),
         *comparison.fitted_mounts,
         *_radial_lines(comparison),
         f"Residual (measured - predicted): {rms_um:.2f} µm RMS, {peak_um:.1f} µm peak to valley",
@@ -39,6 +42,12 @@ def comparison_text(comparison: Comparison) -> RenderableType:
         *residual_text(comparison),
     ]
     return Group(*parts)
+
+
+def cause_lines(comparison: Comparison) -> Iterator[Text]:
+    """Yield the likely cause of the residual in one sentence, where there is one."""
+    if comparison.cause is not None:
+        yield Text(capital(comparison.cause.sentence), style="bold")
 
 
 def _radial_lines(comparison: Comparison) -> Iterator[str]:

@@ -5,8 +5,9 @@ worst arcs, those at least half as bad as the worst of all and at most a tenth o
 samples: a circumstance that most of the worst have and few of all marks where the residual is large. It need not be the
 cause: on a circle all slider positions go together, so a range of one slider goes with those of the others and with the
 angle. Hence each further circumstance must be over-represented among the samples that have the ones before it too;
-otherwise it only repeats them and is left out. Ranges (angle, position, time) are the shortest that hold `MOST` of the
-worst.
+otherwise it only repeats them and is left out. Where the likely cause of the residual is known, so is what goes with it
+at other elements, and is left out too (`bystanders.py`). Ranges (angle, position, time) are the shortest that hold
+`MOST` of the worst.
 """
 
 from __future__ import annotations
@@ -17,9 +18,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.comparison.bystanders import goes_along, is_elsewhere
 from hexdbb.comparison.circles import DIRECTION_NAMES, SECONDS_PER_MINUTE
 from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.comparison.quantities import UM_PER_MM
+from hexdbb.discovery import LikelyCause
 from hexdbb.files.results import JsonPart, Share
 from hexdbb.predictors import record_names
 from hexdbb.predictors.variable import SLIDERS, TRAVEL_DIRECTION
@@ -80,12 +83,15 @@ class WorstSamples:
     rms_um, rms_elsewhere_um : float
         Residual of the worst samples, and of the others (None where there are none).
     common : tuple of Circumstance
+    bystanders : tuple of str
+        Elements left out of `common`: what they have in common among the worst only goes with the likely cause.
     """
 
     samples: int
     rms_um: float
     rms_elsewhere_um: float | None
     common: tuple[Circumstance, ...]
+    bystanders: tuple[str, ...] = ()
 
     @property
     def sentences(self) -> list[str]:
@@ -93,12 +99,17 @@ class WorstSamples:
         others = _shown(self.rms_elsewhere_um)
         first = f"{self.samples} with a residual of {self.rms_um:.2f} µm RMS, the others {others}"
         if not self.common:
-            return [f"{first}; no circumstance is over-represented among them"]
+            beside = (
+                f" beside what goes with the likely cause ({', '.join(self.bystanders)})" if self.bystanders else ""
+            )
+            return [f"{first}; no circumstance is over-represented among them{beside}"]
         heading = f"{first}; over-represented among them (not always the cause):"
         return [heading, *(each.sentence for each in self.common)]
 
 
-def worst_samples(samples: Samples, residual_mm: FloatArray) -> WorstSamples:
+def worst_samples(
+    samples: Samples, residual_mm: FloatArray, cause: LikelyCause | None = None, noise_mm: float = 0.0
+) -> WorstSamples:
     """Find the samples with the largest residuals and the circumstances over-represented among them.
 
     Parameters
@@ -106,11 +117,22 @@ def worst_samples(samples: Samples, residual_mm: FloatArray) -> WorstSamples:
     samples : Samples
     residual_mm : (n,) array
         Measured minus predicted reading of each sample.
+    cause : LikelyCause, optional
+        Of the residual.
+    noise_mm : float
+        Standard deviation of one reading; 0 where it is not known.
     """
     residual_um = UM_PER_MM * residual_mm
     worst = _worst(samples, residual_um)
-    rated = [(_rated(what, has, worst, residual_um), has) for what, has in _circumstances(samples, worst)]
-    rated = [each for each in rated if _over(each[0].in_worst, each[0].in_all)]
+    rated, bystanders = [], []
+    for subject, what, has in _circumstances(samples, worst):
+        each = _rated(what, has, worst, residual_um)
+        if not _over(each.in_worst, each.in_all):
+            continue
+        if cause and is_elsewhere(subject, cause) and goes_along(has, residual_mm, cause, noise_mm):
+            bystanders.append(subject)
+        else:
+            rated.append((each, has))
     rated.sort(key=lambda each: round(each[0].in_all / each[0].in_worst / ALIKE))
     common: list[Circumstance] = []
     so_far = np.ones(len(worst), bool)
@@ -120,7 +142,8 @@ def worst_samples(samples: Samples, residual_mm: FloatArray) -> WorstSamples:
             so_far &= has
     rms_um, elsewhere_um = _rms(residual_um[worst]), _rms(residual_um[~worst])
     assert rms_um is not None  # one arc at least
-    return WorstSamples(int(worst.sum()), rms_um, elsewhere_um, tuple(common[:MOST_NAMED]))
+    named = tuple(dict.fromkeys(bystanders))
+    return WorstSamples(int(worst.sum()), rms_um, elsewhere_um, tuple(common[:MOST_NAMED]), named)
 
 
 def _over(in_worst: float, in_all: float) -> bool:
@@ -140,23 +163,26 @@ def _worst(samples: Samples, residual_um: FloatArray) -> Mask:
     return np.isin(arc_of, order[: max(min(as_bad, most), 1)])
 
 
-def _circumstances(samples: Samples, worst: Mask) -> Iterator[tuple[str, Mask]]:
+def _circumstances(samples: Samples, worst: Mask) -> Iterator[tuple[str, str, Mask]]:
+    """Yield what samples may have in common: the element it belongs to, if any, words, and which samples have it."""
     for direction, name in DIRECTION_NAMES.items():
-        yield name, samples["direction"] == direction
+        yield "", name, samples["direction"] == direction
     for feed_mm_s in np.unique(samples["feed_mm_s"]):
-        yield f"feed {SECONDS_PER_MINUTE * feed_mm_s:g} mm/min", samples["feed_mm_s"] == feed_mm_s
-    yield from _circles(samples)
-    yield _angle_range(_angle_deg(samples), worst)
-    yield _range("time {:.0f} to {:.0f} s", samples["time_s"], worst)
+        yield "", f"feed {SECONDS_PER_MINUTE * feed_mm_s:g} mm/min", samples["feed_mm_s"] == feed_mm_s
+    for words, has in _circles(samples):
+        yield "", words, has
+    yield "", *_angle_range(_angle_deg(samples), worst)
+    yield "", *_range("time {:.0f} to {:.0f} s", samples["time_s"], worst)
     if np.isfinite(samples["temperature_c"]).all():
-        yield _range("temperature {:.1f} to {:.1f} °C", samples["temperature_c"], worst)
+        yield "", *_range("temperature {:.1f} to {:.1f} °C", samples["temperature_c"], worst)
     sliders_mm, travel = samples["sliders_mm"], samples[TRAVEL_DIRECTION]
     near = samples["since_reversal_s"] <= NEAR_REVERSAL_S
     for k in SLIDERS:
-        yield _range(f"slider {k} between {{:.0f}} and {{:.0f}} mm", sliders_mm[:, k - 1], worst)
-        yield f"within {NEAR_REVERSAL_S:g} s after a reversal of slider {k}", near[:, k - 1]
-        yield f"slider {k} moving up", travel[:, k - 1] > 0.0
-        yield f"slider {k} moving down", travel[:, k - 1] < 0.0
+        subject = f"slider {k}"
+        yield subject, *_range(f"{subject} between {{:.0f}} and {{:.0f}} mm", sliders_mm[:, k - 1], worst)
+        yield subject, f"within {NEAR_REVERSAL_S:g} s after a reversal of {subject}", near[:, k - 1]
+        yield subject, f"{subject} moving up", travel[:, k - 1] > 0.0
+        yield subject, f"{subject} moving down", travel[:, k - 1] < 0.0
 
 
 def _circles(samples: Samples) -> Iterator[tuple[str, Mask]]:

@@ -2,6 +2,9 @@
 
 from hexdbb.discovery.auto import AutoStep, closing_sentence, discover_all, is_needed, without_needless
 from hexdbb.discovery.discover import Progress, absent_effects, discover
+from hexdbb.discovery.draft import Draft, draft_effect, require_draftable
+from hexdbb.discovery.form import CauseForm, form_of
+from hexdbb.discovery.likely import LikelyCause, likely_cause
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Candidate, Cause, Discovery, GroupError, NextTest, Structure
 
@@ -9,8 +12,11 @@ __all__ = [
     "AutoStep",
     "Candidate",
     "Cause",
+    "CauseForm",
     "Discovery",
+    "Draft",
     "GroupError",
+    "LikelyCause",
     "NextTest",
     "Progress",
     "Structure",
@@ -18,7 +24,11 @@ __all__ = [
     "closing_sentence",
     "discover",
     "discover_all",
+    "draft_effect",
+    "form_of",
     "is_needed",
+    "likely_cause",
+    "require_draftable",
     "require_usable_effects",
     "without_needless",
 ]

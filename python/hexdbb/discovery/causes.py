@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,13 +11,16 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis import Sufficiency, evaluate_fit
 from hexdbb.discovery import words
+from hexdbb.discovery.candidates import MAX_CHECKED, choice_of, shown_candidates
+from hexdbb.discovery.learning import can_learn, with_learned
 from hexdbb.discovery.next_test import next_test
-from hexdbb.discovery.result import GROUPINGS, Candidate, Cause, GroupError, Grouping, NextTest, Verdict
+from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
+from hexdbb.discovery.sentences import likely_sentence, verdict_sentence
 from hexdbb.effects.words import effect_clause
 from hexdbb.errors import RunError
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
-from hexdbb.evidence.trial import HeldOut, Trial
+from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
@@ -27,13 +30,6 @@ from hexdbb.units import shown_factor, shown_unit
 Floats = NDArray[np.float64]
 Judge = Callable[[Model, Floats], Sufficiency]
 
-MAX_CANDIDATES = 6
-"""Candidates shown: those of the verdict and the best others, what fits on a screen."""
-MAX_CHECKED = 4
-"""Candidates whose prediction of what was left out is computed for the table: each costs a pass over all groups."""
-
-SMALLEST_DEVIATION = 0.01
-"""Deviation of form from which it is told: below, a machine's effect is as the formula has it."""
 MORE = "something else is missing besides"
 
 
@@ -46,13 +42,14 @@ class Told:
     causes: tuple[Cause, ...]
     candidates: tuple[Candidate, ...]
     model: Model
-    residual_mm: Floats
     remaining: Sufficiency | None
     next_test: NextTest | None = None
     remarks: tuple[str, ...] = ()
+    likely: str = ""
+    learned: Model | None = None
 
 
-def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Told:
+def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_table: bool = True) -> Told:
     """Describe a verdict.
 
     Parameters
@@ -65,13 +62,15 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
         Judges what a fitted model leaves.
     matters_um : float
         Unexplained RMS from which it matters.
+    with_table : bool
+        Whether other hypotheses are held out too, for the table.
     """
     if judged.grade == "none":
         return _told_forms(search) if search.root.trial.present else _told_nothing(search, judged.sufficiency)
-    candidates = _candidates(search, judged.node)
+    candidates = shown_candidates(search, judged.node, MAX_CHECKED if with_table else 0)
     if not judged.found or judged.checked is None:
         sentence = "something is missing that nothing tried explains"
-        return Told("unknown", sentence, (), candidates, search.engine.base, search.engine.residual_mm, None)
+        return Told("unknown", sentence, (), candidates, search.engine.base, None)
     shares = {each.hypothesis: _share(search, judged.node, each.hypothesis) for each in judged.found}
     refining = [each.hypothesis for each in judged.found if search.refined(each.hypothesis)]
     found = [each for each in judged.found if each.hypothesis not in refining]
@@ -80,26 +79,30 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float) -> Tol
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
     grade = found[0].grade if judged.checked.share >= search.criteria.explained_min else "unknown"
-    model, result = _fitted(search, judged.node.trial, [each.hypothesis for each in found])
-    causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], model, result) for each in found)
-    residual_mm = search.engine.residual_mm if result is None else result.residual_mm
-    remaining = None if result is None else judge(model, residual_mm)
+    hypotheses = [each.hypothesis for each in found]
+    model, result = _fitted(search, judged.node.trial, hypotheses)
+    names = [each.name for each in hypotheses if isinstance(each, Learned)]
+    learned = with_learned(search.engine.samples, model, names, search.engine.noise)
+    told_with = _Models(model, result, None if learned is None else learned[0])
+    causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], told_with) for each in found)
+    remaining = None if result is None else judge(model, result.residual_mm)
     return Told(
         verdict=grade,
-        sentence=_sentence(grade, causes, judged.checked.share, judged.checked.heldout),
+        sentence=verdict_sentence(grade, causes, judged.checked.share, judged.checked.heldout),
         causes=causes,
         candidates=candidates,
         model=model,
-        residual_mm=residual_mm,
         remaining=remaining,
         next_test=_next_test(search, found[0], causes[0], model) if grade == "ambiguous" else None,
         remarks=_remarks(search, judged.node.trial, causes, grade, remaining),
+        likely=likely_sentence(causes, judged.checked.share, judged.checked.heldout),
+        learned=told_with.learned,
     )
 
 
 def _told_nothing(search: Search, enough: Sufficiency) -> Told:
     sentence = f"nothing that matters is missing: {enough.sentence}"
-    return Told("none", sentence, (), (), search.engine.base, search.engine.residual_mm, None)
+    return Told("none", sentence, (), (), search.engine.base, None)
 
 
 def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
@@ -112,13 +115,13 @@ def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
         That describe the forms, where some were found.
     """
     engine, present = search.engine, search.root.trial.present
-    deviating = [(name, form) for name, form in present if form.deviation >= SMALLEST_DEVIATION]
+    deviating = [(name, form) for name, form in present if form.deviation >= words.SMALLEST_DEVIATION]
     whose = [f"{name} ({words.percent(form.deviation)} off)" for name, form in deviating]
     whose += [name for name in dict.fromkeys(map(search.refined, refining)) if name not in dict(deviating)]
     functions = [each.name for each in refining] or [form.functions[0] for _, form in deviating if form.functions]
     sentence = f"no other cause is missing: what is left is the form of {words.joined(whose or ['what was found'])}"
     refine = f"the form is refined by: hexdbb add {functions[0]}" if functions else ""
-    return Told("none", sentence, (), (), engine.base, engine.residual_mm, None, None, (refine,) if refine else ())
+    return Told("none", sentence, (), (), engine.base, None, None, (refine,) if refine else ())
 
 
 def left_um(search: Search, trial: Trial) -> float:
@@ -141,20 +144,13 @@ def _remarks(
         else [
             f"the machine's form differs from that of {each.choice} by {words.percent(each.form_deviation)} of its size"
             for each in causes
-            if each.form_deviation >= SMALLEST_DEVIATION
+            if each.form_deviation >= words.SMALLEST_DEVIATION
         ]
     )
     beside_um = left_um(search, trial)
     if grade == "effect" and remaining is not None and remaining.matters and beside_um >= remaining.matters_um:
         said.append(f"{MORE}: {beside_um:.2f} µm are left that neither the causes nor their forms explain")
     return tuple(said)
-
-
-def choice_of(hypothesis: Hypothesis) -> str:
-    """Return a hypothesis as `hexdbb add` takes it."""
-    if isinstance(hypothesis, Learned) or hypothesis.is_whole:
-        return hypothesis.name
-    return str(Choice(hypothesis.effect, hypothesis.elements))
 
 
 def _share(search: Search, node: Node, hypothesis: Hypothesis) -> float:
@@ -184,19 +180,28 @@ def _fitted(search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]) -> t
     return evaluate_fit(engine.samples, start, start.free, engine.noise, hypothesis=True)
 
 
-def _cause(
-    search: Search, node: Node, found: Found, share: float, model: Model, result: _core.FitResult | None
-) -> Cause:
+@dataclass(frozen=True)
+class _Models:
+    """The model with the known causes, its fit, and the same with the learned ones that it can hold."""
+
+    known: Model
+    result: _core.FitResult | None
+    learned: Model | None
+
+
+def _cause(search: Search, node: Node, found: Found, share: float, models: _Models) -> Cause:
     hypothesis = found.hypothesis
     values: tuple[Size, ...] = ()
     if isinstance(hypothesis, Learned):
-        effect, clause = hypothesis.name, words.learned_clause(hypothesis)
+        term = None if models.learned is None else models.learned.term(hypothesis.name)
+        effect = hypothesis.name
+        clause = words.place_clause(hypothesis) if term is None else words.function_clause(term)
         elements: tuple[str, ...] = ()
     else:
-        assert result is not None
+        assert models.result is not None
         effect, elements = hypothesis.effect, hypothesis.elements
-        values = _values(model, result, effect, elements)
-        clause = effect_clause(model.info(effect), values)
+        values = _values(models.known, models.result, effect, elements)
+        clause = effect_clause(models.known.info(effect), values)
     return Cause(
         choice=choice_of(hypothesis),
         effect=effect,
@@ -206,11 +211,22 @@ def _cause(
         margin=float(min(found.margin, node.score - search.root.score)),
         form_deviation=found.deviation,
         refinements=found.refinements,
+        function=_function(search, hypothesis),
         alike=tuple(dict.fromkeys(found.alike)),
         rivals=_rivals(search, node, found),
         values=values,
         clause=clause,
     )
+
+
+def _function(search: Search, cause: Hypothesis) -> str | None:
+    """Return the learned function that was tried alone and is a cause without its formula, the best one."""
+    if isinstance(cause, Learned):
+        return cause.name if can_learn(cause.name) else None
+    alone = [each for each in search.nodes if len(each.members) == 1 and isinstance(each.hypotheses[0], Learned)]
+    alone.sort(key=lambda each: -each.score)
+    names = [each.hypotheses[0].name for each in alone if search.same_kind(cause, each.hypotheses[0])]
+    return next((each for each in names if can_learn(each)), None)
 
 
 def _rivals(search: Search, node: Node, found: Found) -> tuple[str, ...]:
@@ -239,44 +255,6 @@ def _values(model: Model, result: _core.FitResult, effect: str, elements: Sequen
     return tuple(rows)
 
 
-def _candidates(search: Search, node: Node) -> tuple[Candidate, ...]:
-    """Return the sets tried that are worth showing: that of the verdict, then single hypotheses by their evidence."""
-    single = [each for each in search.nodes if len(each.members) == 1 and each is not node]
-    single.sort(key=lambda each: -each.score)
-    shown: dict[tuple[str, ...], Node] = {} if node is search.root else {node.trial.names: node}
-    for each in single:
-        shown.setdefault(each.trial.names, each)
-    nodes = list(shown.values())[:MAX_CANDIDATES]
-    return tuple(_candidate(search, each, rank < MAX_CHECKED) for rank, each in enumerate(nodes))
-
-
-def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:
-    noise_um = float(np.mean(search.engine.row_noise_mm)) * 1e3
-    one_um = search.engine.noise.sigma_mm * 1e3
-    left, before = node.trial.left, search.root.trial.left
-    checked = search.checked(node) if is_checked else None
-    held = {} if checked is None else checked.heldout
-    heldout: dict[Grouping, GroupError] = {
-        name: _group(held[name], noise_um, one_um) for name in GROUPINGS if name in held
-    }
-    return Candidate(
-        names=tuple(choice_of(each) for each in node.hypotheses),
-        log_evidence=node.score - search.root.score,
-        rms_after_um=float(np.sqrt(max(one_um**2 + (left - 1.0) * noise_um**2, 0.0))),
-        share=(before - left) / max(before - 1.0, 1e-9),
-        heldout=heldout,
-        refused=(*node.trial.refused, *(checked.reasons if checked is not None else ())),
-    )
-
-
-def _group(held: HeldOut, rows_um: float, one_um: float) -> GroupError:
-    """Return errors of single readings; rows are means of some, whose noise is smaller."""
-    before, after = (
-        float(np.sqrt(max(one_um**2 + (each**2 - 1.0) * rows_um**2, 0.0))) for each in (held.before, held.after)
-    )
-    return GroupError(before, after, held.share)
-
-
 def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> NextTest | None:
     """Find the circle that tells the first cause from the first rival whose effects are all known."""
     for set_of, name in zip(found.rivals, cause.rivals, strict=False):
@@ -286,25 +264,3 @@ def _next_test(search: Search, found: Found, cause: Cause, model: Model) -> Next
         other, _ = _fitted(search, node.trial, node.hypotheses)
         return next_test(search.engine.samples, search.engine.noise, (model, other), (cause.choice, name))
     return None
-
-
-def _sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
-    unseen = words.unseen_words(heldout, share)
-    explained = f"{words.percent(share)} of what the model missed" + (f", {unseen}" if unseen else "")
-    if grade == "unknown":
-        return _unknown_sentence(causes, explained)
-    named = [each.clause for each in causes if each.verdict != "unknown"]
-    clause = words.capital("; ".join(named))
-    it = "it explains" if len(causes) == 1 else "together they explain" if len(named) == len(causes) else ""
-    if grade == "ambiguous":
-        others = words.joined(causes[0].rivals)
-        return f"{clause}, or these readings do not tell it from {others}; {it or 'all together explain'} {explained}"
-    beside = [each.choice for each in causes if each.verdict == "unknown"]
-    if beside:
-        return f"{clause}; with {words.joined(beside)} beside it, which has no known name, explains {explained}"
-    return f"{clause}; {it} {explained}"
-
-
-def _unknown_sentence(causes: Sequence[Cause], explained: str) -> str:
-    leads = words.joined([each.clause for each in causes])
-    return f"something is missing that no known effect explains: {leads}, which explains {explained}"

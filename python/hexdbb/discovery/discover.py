@@ -15,7 +15,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, assess_sufficiency, judging_noise
 from hexdbb.discovery.causes import Told, told
 from hexdbb.discovery.own_effects import require_usable_effects
-from hexdbb.discovery.result import Discovery, Structure
+from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.unexplained import unexplained_structure
 from hexdbb.discovery.words import NOTHING
 from hexdbb.errors import InputError
@@ -24,7 +24,7 @@ from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, predict
 from hexdbb.threads import one_thread
 
 Progress = Callable[[str], None]
@@ -44,6 +44,7 @@ def discover(
     *,
     matters_um: float | None = None,
     criteria: Criteria = DEFAULT,
+    with_tables: bool = True,
 ) -> Discovery:
     """Look for what is missing from a model.
 
@@ -60,6 +61,8 @@ def discover(
         Unexplained RMS below which nothing is missing that matters (`hexdbb.diagnosis.sufficiency`).
     criteria : Criteria
         Constants that decide.
+    with_tables : bool
+        Whether other hypotheses are held out, and predictors of what remains ranked, to be shown beside the verdict.
 
     Raises
     ------
@@ -88,7 +91,12 @@ def discover(
     progress("screening all hypotheses, fitting the best")
     search = Search(engine, names, criteria)
     verdict = judge(search, enough.matters_um)
-    return _outcome(told(search, verdict, judged, enough.matters_um), engine, enough, judging)
+    outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
+    if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
+        residual_mm = predict(samples, outcome.model).residual_mm
+        structure = unexplained_structure(samples, outcome.model, residual_mm, judging.noise)
+        outcome = replace(outcome, structure=structure)
+    return _with_remark(outcome, engine, judging)
 
 
 def absent_effects(model: Model) -> list[str]:
@@ -101,31 +109,32 @@ def absent_effects(model: Model) -> list[str]:
 def _nothing(engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Discovery:
     rms_um = enough.lack_of_fit.rms_um
     sentence = f"nothing that matters is missing: {enough.sentence}" if enough.is_significant else NOTHING
-    found = Discovery("none", sentence, enough, (), (), engine.base, None, rms_um, rms_um)
+    found = Discovery(
+        "none", sentence, enough, (), (), engine.samples, engine.noise, engine.base, engine.base, None, rms_um, rms_um
+    )
     return _with_remark(found, engine, judging)
 
 
-def _outcome(found: Told, engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Discovery:
-    remaining, residual_mm = found.remaining, found.residual_mm
-    left = enough if remaining is None else remaining
-    structure: tuple[Structure, ...] = ()
-    if found.verdict != "none" and left.matters:
-        structure = unexplained_structure(engine.samples, found.model, residual_mm, judging.noise)
-    outcome = Discovery(
+def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
+    left = enough if found.remaining is None else found.remaining
+    return Discovery(
         verdict=found.verdict,
         sentence=found.sentence,
         sufficiency=enough,
         causes=found.causes,
         candidates=found.candidates,
+        samples=engine.samples,
+        noise=engine.noise,
+        base=engine.base,
         model=found.model,
-        remaining=remaining,
+        remaining=found.remaining,
         rms_before_um=enough.lack_of_fit.rms_um,
         rms_after_um=left.lack_of_fit.rms_um,
         next_test=found.next_test,
-        structure=structure,
         remarks=found.remarks,
+        likely=found.likely,
+        learned=found.learned,
     )
-    return _with_remark(outcome, engine, judging)
 
 
 def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Discovery:

@@ -62,10 +62,12 @@ class CauseJson(JsonPart):
     """How far the machine's form is from the effect's, as a part of its size."""
     refinements: tuple[str, ...]
     """Learned functions at its place that describe the deviation."""
+    function: str | None
+    """The learned function that is this cause without its formula, as hexdbb add takes it; null where none is."""
     alike: tuple[str, ...]
     """The same effect at other elements, which explains the readings as well."""
     rivals: tuple[str, ...]
-    """Of another kind, that explain the readings as well."""
+    """Hypotheses of another kind that explain the readings as well."""
     parameters: tuple[SizeJson, ...]
     """Its values."""
     clause: str
@@ -103,11 +105,11 @@ class StructureJson(JsonPart):
     variable: str
     """Name of the variable."""
     share: float
-    """Of the unexplained mean square, cross-validated."""
+    """Explained part of the unexplained mean square, cross-validated."""
     period: float | None
     """Where it repeats."""
     unit: str
-    """Of period and place."""
+    """Unit of period and place."""
     place: tuple[float, float] | None
     """From where to where, where it is confined to one place, or between which samples something shifts."""
     size_um: NotNegative | None

@@ -88,7 +88,7 @@ def _circles(like: Record) -> Iterator[tuple[Circle, float]]:
 
 
 def _imagined(like: Record, circle: Circle, feed_mm_min: float) -> Record | None:
-    """Give the record of a lap each way, readings zero; None where the circle is out of reach."""
+    """Return the record of a lap each way, readings zero; None where the circle is out of reach."""
     count = 2 * SAMPLES_PER_LAP
     turn = np.arange(SAMPLES_PER_LAP) / SAMPLES_PER_LAP
     angle = 2.0 * np.pi * np.concatenate([turn, -turn])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any, Literal
 
-from hexdbb.diagnosis import Diagnosis, LackOfFit, Sufficiency
+from hexdbb.diagnosis import Diagnosis, LackOfFit, Noise, Sufficiency
 from hexdbb.discovery.json_form import (
     CandidateJson,
     CauseJson,
@@ -19,6 +19,7 @@ from hexdbb.discovery.json_form import (
 from hexdbb.ledger.json_form import SizeJson, added_json
 from hexdbb.model import Model, Size
 from hexdbb.plan import Circle
+from hexdbb.samples import Samples
 
 Grouping = Literal["circle", "feed", "direction", "lap"]
 GROUPINGS: tuple[Grouping, ...] = ("circle", "feed", "direction", "lap")
@@ -100,6 +101,8 @@ class Cause:
         How far the machine's form is from the effect's, as a part of its size.
     refinements : tuple of str
         Learned functions at its place that describe the deviation.
+    function : str or None
+        The learned function that is this cause without its formula, as `hexdbb add` takes it; None where none is.
     alike : tuple of str
         The same effect at other elements, which explains the readings as well.
     rivals : tuple of str
@@ -117,6 +120,7 @@ class Cause:
     margin: float
     form_deviation: float
     refinements: tuple[str, ...]
+    function: str | None
     alike: tuple[str, ...]
     rivals: tuple[str, ...]
     values: tuple[Size, ...]
@@ -192,8 +196,12 @@ class Discovery:
         What is missing, the largest first; none where the verdict is `none`, or where nothing tried explains it.
     candidates : tuple of Candidate
         Hypotheses fitted: those of the verdict first, then by evidence.
-    model : Model
-        With the known causes, fitted.
+    samples : Samples
+        What was looked at.
+    noise : Noise
+        Of one reading, by which the model was judged.
+    base, model : Model
+        As it is, its values fitted; with the known causes, fitted.
     remaining : Sufficiency or None
         Of that model: what remains; None where no known cause was found.
     rms_before_um, rms_after_um : float
@@ -204,6 +212,10 @@ class Discovery:
         Predictors of the residual that remains.
     remarks : tuple of str
         Sentences.
+    likely : str
+        The likely cause in one sentence; empty where nothing is missing.
+    learned : Model or None
+        With the learned causes too, fitted; None where no cause is learned, or none that a model can hold.
     """
 
     verdict: Verdict
@@ -211,6 +223,9 @@ class Discovery:
     sufficiency: Sufficiency
     causes: tuple[Cause, ...]
     candidates: tuple[Candidate, ...]
+    samples: Samples
+    noise: Noise
+    base: Model
     model: Model
     remaining: Sufficiency | None
     rms_before_um: float
@@ -218,6 +233,8 @@ class Discovery:
     next_test: NextTest | None = None
     structure: tuple[Structure, ...] = ()
     remarks: tuple[str, ...] = ()
+    likely: str = ""
+    learned: Model | None = None
 
     @property
     def best(self) -> Cause | None:
@@ -226,7 +243,7 @@ class Discovery:
 
     @property
     def lack_of_fit(self) -> LackOfFit:
-        """Of the model as it is."""
+        """Lack of fit of the model as it is."""
         return self.sufficiency.lack_of_fit
 
     @property

@@ -1,47 +1,54 @@
-"""A discovery in words that a fitter understands."""
+"""Words that the sentences of a discovery share; learned functions are described by `hexdbb.learned`."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.trial import HeldOut
-from hexdbb.learned import ALL, Learned
+from hexdbb.learned import ALL, Learned, describe
+from hexdbb.learned.shown import ALL_OF, PLACES, sentence
+from hexdbb.model import Term
 
-GROUPS = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
-PLACES = {
-    "slider": "slider",
-    "leg": "leg",
-    "lateral": "guideway",
-    "vertical": "guideway",
-    "platform_joint": "platform joint of leg",
-    "ball": "the ball",
-    "cup": "the cup",
-    "reading": "the gauge's reading",
-}
-ACROSS = {"lateral": " across", "vertical": " up and down"}
+GROUPS: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 NOTHING = "nothing is missing: what is left is noise"
+NUMBERED = "@"
+"""In the names of variables whose instants or period the readings chose: these say more than the function's form."""
+SMALLEST_DEVIATION = 0.01
+"""Deviation of form from which it is stated: below, a machine's effect is as the formula has it."""
 
 
-def place_words(hypothesis: Learned) -> str:
-    """Return where a learned hypothesis acts: ``leg 5``, ``all legs``, ``guideway 1 across``."""
-    name = PLACES[hypothesis.place]
-    if hypothesis.place in ("slider", "leg") and hypothesis.element == ALL:
-        return f"all {name}s"
-    element = f" {hypothesis.element}" if hypothesis.element else ""
-    return f"{name}{element}{ACROSS.get(hypothesis.place, '')}"
+def function_clause(term: Term) -> str:
+    """Return a learned effect of a fitted model as a clause: where it pushes, on what it depends, its form.
+
+    Of the axes of a ball or cup those along which nothing is distinguishable from zero are left out.
+    """
+    effect = term.learned
+    assert effect is not None
+    space = effect.space
+    if NUMBERED in space.hypothesis.variable.name:
+        return place_clause(space.hypothesis)
+    curves = effect.curves(term.values)
+    clear = [k for k, curve in enumerate(curves) if describe(curve, space.period).kind != "nothing"]
+    return ", ".join(sentence(space.hypothesis, curves[k], space.period, k) for k in clear or [0])
 
 
-def learned_clause(hypothesis: Learned) -> str:
-    """Return a learned hypothesis as a clause: ``it acts at leg 5 and follows its turning rate``."""
-    variable = hypothesis.variable
+def place_clause(hypothesis: Learned) -> str:
+    """Return where a learned hypothesis acts and what it follows: instants, a period, or the variable's name."""
+    places = ALL_OF if hypothesis.element == ALL and hypothesis.place in ALL_OF else PLACES
+    place, variable = places[hypothesis.place].format(hypothesis.element), hypothesis.variable
+    if variable.instants:
+        return f"{place}: shifts at {joined([f'{each:.0f} s' for each in variable.instants])}"
+    if variable.period:
+        return f"{place}: repeats every {variable.period:.4g} {variable.unit}"
     if not variable.column and not variable.times:
-        return f"it acts at {place_words(hypothesis)} and is constant"
-    return f"it acts at {place_words(hypothesis)} and follows the {variable.name.replace('_', ' ')}"
+        return f"{place}: a constant"
+    return f"{place}: follows the {variable.name.replace('_', ' ')}"
 
 
 def unseen_words(heldout: Mapping[str, HeldOut], share: float) -> str:
     """Return on what it holds: ``on circles, feeds and directions not used to find it``; empty where on nothing."""
-    held = [GROUPS[name] for name, each in heldout.items() if each.share >= 0.5 * share]
+    held = [words for name, words in GROUPS.items() if name in heldout and heldout[name].share >= 0.5 * share]
     return f"on {joined(held)} not used to find it" if held else ""
 
 
@@ -50,9 +57,9 @@ def joined(words: Sequence[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else ""
 
 
-def capital(sentence: str) -> str:
+def capital(text: str) -> str:
     """Return a sentence with a capital letter."""
-    return sentence[:1].upper() + sentence[1:]
+    return text[:1].upper() + text[1:]
 
 
 def percent(share: float) -> str:

@@ -29,7 +29,7 @@ CLAUSES = {
     "sample_delay": "the gauge is read {delay} later than the encoders",
     "ball_eccentricity": "the bar's ball sits otherwise in set-up {element}: by {x}, {y} and {z}",
 }
-"""Of one element; `who` is the element, the other names are values with uncertainty and unit."""
+"""Clause on one element; `who` is the element, the other names are values with uncertainty and unit."""
 MAX_CLAUSES = 2
 """Elements told one by one; of further ones the number: a sentence remains one."""
 

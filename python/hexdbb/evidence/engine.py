@@ -31,7 +31,7 @@ class Fitted:
     model: Model
     linear: Linear
     covariance: Floats
-    """Of the free values, in prior standard deviations."""
+    """Covariance of the free values, in prior standard deviations."""
     free: Ints
     """Places of the free values in the model's."""
 

@@ -26,6 +26,20 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
         raise InputError(f"{path}: exists already (expected a new name, or leave to overwrite it)")
 
 
+def require_folder(folder: Path) -> None:
+    """Check that a folder is there, or can be made: the one it stands in exists.
+
+    Raises
+    ------
+    InputError
+        It stands in none, or is a file.
+    """
+    if not folder.parent.is_dir():
+        raise InputError(f"{folder}: no such directory {folder.parent} (expected one that exists)")
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"{folder}: is a file (expected the name of a folder)")
+
+
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary path to write to; it replaces `path` when the block ends without an error.

@@ -34,9 +34,10 @@ class Detectable:
     """Detectable sizes of one effect."""
 
     size: float | None
-    """Of the element and parameter detected most easily, in `unit`; None where none is detectable at any size."""
+    """Smallest detectable size of the element and parameter detected most easily, in `unit`; None where none is
+    detectable at any size."""
     hardest: float | None
-    """Of the one detected least easily, in `unit`; None where one is never detectable."""
+    """The same of the one detected least easily, in `unit`; None where one is never detectable."""
     unit: str
     """Unit of files and JSON."""
     kept: float

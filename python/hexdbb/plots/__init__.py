@@ -1,4 +1,4 @@
-"""Pictures of a comparison: polar plots with a stated magnification, residual against angle, ISO 230-4 table.
+"""Pictures of comparisons, diagnoses and discoveries: polar plots, residuals against angle, the forms of causes.
 
 ::
 
@@ -6,8 +6,21 @@
         save_figure(page.draw(), Path("demo-compare" + page.suffix))
 """
 
+from hexdbb.plots.analysis_pages import diagnosis_pages, discovery_pages
 from hexdbb.plots.learned import learned_figure
 from hexdbb.plots.magnification import Scale, choose_scale
-from hexdbb.plots.pages import Page, comparison_pages, save_figure
+from hexdbb.plots.pages import Page, comparison_pages, save_figure, save_pages
+from hexdbb.plots.residual_circles import residual_figure
 
-__all__ = ["Page", "Scale", "choose_scale", "comparison_pages", "learned_figure", "save_figure"]
+__all__ = [
+    "Page",
+    "Scale",
+    "choose_scale",
+    "comparison_pages",
+    "diagnosis_pages",
+    "discovery_pages",
+    "learned_figure",
+    "residual_figure",
+    "save_figure",
+    "save_pages",
+]

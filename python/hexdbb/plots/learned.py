@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hexdbb.errors import InputError
-from hexdbb.learned.shown import sentence
+from hexdbb.learned import Curve
+from hexdbb.learned.shown import place_words, sentence
 from hexdbb.learned.words import UM_PER_MM, shown_places
 from hexdbb.model import Model
+from hexdbb.plots.colours import BAND_COLOUR, FORMULA_COLOUR, FUNCTION_COLOUR
 
 TITLE_CHARACTERS = 95
 """Characters of 9 points across the figure."""
-LINE_COLOUR = "#004B76"
-BAND_COLOUR = "#56B4E9"
+SUPTITLE_CHARACTERS = 85
+"""Characters of 10 points across the figure."""
 SAMPLES_COLOUR = "0.75"
 BAND_SIGMAS = 2.0
 """Half the band's width in standard deviations: 95 % of the probability."""
 
 
-def learned_figure(model: Model, name: str) -> Figure:
+def learned_figure(model: Model, name: str, formula: Sequence[Curve] = (), title: str = "") -> Figure:
     """Draw a learned effect of a model.
 
     Parameters
@@ -30,6 +34,10 @@ def learned_figure(model: Model, name: str) -> Figure:
         Fitted.
     name : str
         As in `learned:leg:5:turning_rate`.
+    formula : sequence of Curve, optional
+        What a known effect has in its place, one a component, drawn beside it.
+    title : str
+        Above all; the effect's name where not given.
 
     Raises
     ------
@@ -40,25 +48,57 @@ def learned_figure(model: Model, name: str) -> Figure:
     if term is None or term.learned is None:
         known = ", ".join(each.effect for each in model.learned) or "none"
         raise InputError(f"{name}: no learned effect of {model.name} (expected one of: {known})")
-    curves = term.learned.curves(term.values)
+    curves, space = term.learned.curves(term.values), term.learned.space
     figure = Figure(figsize=(7.5, 1.0 + 3.6 * len(curves)), layout="constrained")
     panels = figure.subplots(2 * len(curves), 1, squeeze=False, height_ratios=[4.0, 1.0] * len(curves))[:, 0]
     for component, curve in enumerate(curves):
         above, below = panels[2 * component], panels[2 * component + 1]
-        unit, at = shown_places(curve)
-        value_um, band_um = UM_PER_MM * curve.value_mm, BAND_SIGMAS * UM_PER_MM * np.nan_to_num(curve.sigma_mm)
-        single = {"marker": "o"} if len(at) == 1 else {}
-        above.fill_between(at, value_um - band_um, value_um + band_um, color=BAND_COLOUR, alpha=0.4, linewidth=0.0)
-        above.plot(at, value_um, color=LINE_COLOUR, linewidth=1.5, **single)
-        above.axhline(0.0, color="0.35", linewidth=0.8)
-        above.set_ylabel("push, µm", fontsize=9)
-        title = sentence(term.learned.space.hypothesis, curve, term.learned.space.period, component)
-        above.set_title(textwrap.fill(title, TITLE_CHARACTERS), fontsize=9)
-        above.grid(color="0.88", linewidth=0.6)
-        widths = np.gradient(at) if len(at) > 1 else np.ones(1)
-        below.fill_between(at, np.nan_to_num(curve.samples) / widths, color=SAMPLES_COLOUR, step="mid")
-        below.set(yticks=[], xlim=above.get_xlim(), ylim=(0.0, None))
-        below.set_ylabel("samples", fontsize=8)
-        below.set_xlabel(f"{curve.variable}, {unit}" if unit else curve.variable, fontsize=9)
-    figure.suptitle(f"{name}, band ± {BAND_SIGMAS:g} standard deviations", fontsize=10)
+        _draw_function(above, curve, formula[component] if formula else None)
+        place = place_words(space.hypothesis, component)
+        said = place if formula else sentence(space.hypothesis, curve, space.period, component)
+        above.set_title(_wrapped(said, TITLE_CHARACTERS), fontsize=9)
+        if space.hypothesis.variable.is_log:
+            above.set_xscale("log")
+            below.set_xscale("log")
+        _draw_samples(below, curve, above, space.hypothesis.variable.is_log)
+    figure.suptitle(
+        _wrapped(title or f"{name}, band ± {BAND_SIGMAS:g} standard deviations", SUPTITLE_CHARACTERS), fontsize=10
+    )
     return figure
+
+
+def _wrapped(text: str, characters: int) -> str:
+    """Break a text into lines, none between a number and its unit."""
+    return textwrap.fill(text.replace(" µm", "\u00a0µm").replace("± ", "±\u00a0"), characters)
+
+
+def _draw_function(axes: Axes, curve: Curve, formula: Curve | None) -> None:
+    _, at = shown_places(curve)
+    value_um, band_um = UM_PER_MM * curve.value_mm, BAND_SIGMAS * UM_PER_MM * np.nan_to_num(curve.sigma_mm)
+    marker = "o" if len(at) == 1 else None
+    axes.fill_between(at, value_um - band_um, value_um + band_um, color=BAND_COLOUR, alpha=0.3, linewidth=0.0)
+    label = f"as the readings have it, ± {BAND_SIGMAS:g} standard deviations"
+    axes.plot(at, value_um, color=FUNCTION_COLOUR, linewidth=1.5, label=label, marker=marker)
+    if formula is not None:
+        axes.plot(
+            at,
+            UM_PER_MM * formula.value_mm,
+            color=FORMULA_COLOUR,
+            linestyle="--",
+            label="by its formula",
+            marker=marker,
+        )
+        axes.legend(fontsize=8, frameon=False)
+    axes.axhline(0.0, color="0.35", linewidth=0.8)
+    axes.set_ylabel("push, µm", fontsize=9)
+    axes.grid(color="0.88", linewidth=0.6)
+
+
+def _draw_samples(axes: Axes, curve: Curve, above: Axes, is_log: bool) -> None:
+    """Draw how densely the samples lie along the variable."""
+    unit, at = shown_places(curve)
+    widths = np.gradient(np.log(at) if is_log else at) if len(at) > 1 else np.ones(1)
+    axes.fill_between(at, np.nan_to_num(curve.samples) / widths, color=SAMPLES_COLOUR, step="mid")
+    axes.set(yticks=[], xlim=above.get_xlim(), ylim=(0.0, None))
+    axes.set_ylabel("samples", fontsize=8)
+    axes.set_xlabel(f"{curve.variable}, {unit}" if unit else curve.variable, fontsize=9)

@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison, iso230
-from hexdbb.files.atomic_file import replacing
+from hexdbb.files.atomic_file import replacing, require_folder
 from hexdbb.plan import Circle
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
@@ -47,14 +47,15 @@ def comparison_pages(comparison: Comparison) -> list[Page]:
     for circle in comparison.circles:
         grouped.setdefault((circle.record_name, circle.circle.id), []).append(circle)
     residual = _residual_pages(comparison)
+    meant = () if comparison.cause is None else comparison.cause.subjects
     if len(grouped) == 1:
-        return [Page("", partial(circle_page, comparison.circles)), *residual]
+        return [Page("", partial(circle_page, comparison.circles, meant)), *residual]
     names = list(dict.fromkeys(record for record, _ in grouped))
     pages = [Page("", partial(overview_page, comparison))]
     for (record, identity), circles in grouped.items():
         # The number keeps records apart whose names differ only in their directory or suffix.
         prefix = f"-{names.index(record) + 1}-{Path(record).stem}" if len(names) > 1 else ""
-        pages.append(Page(f"{prefix}-circle{identity}", partial(circle_page, circles)))
+        pages.append(Page(f"{prefix}-circle{identity}", partial(circle_page, circles, meant)))
     return [*pages, *residual]
 
 
@@ -68,8 +69,11 @@ def _residual_pages(comparison: Comparison) -> list[Page]:
     return pages
 
 
-def circle_page(circles: Sequence[CircleComparison]) -> Figure:
-    """Draw one circle: for each feed a polar plot, the residual against angle and the quantities."""
+def circle_page(circles: Sequence[CircleComparison], meant: Sequence[str] = ()) -> Figure:
+    """Draw one circle: for each feed a polar plot, the residual against angle and the quantities.
+
+    Reversals of the sliders `meant` (``slider 4``) are marked in bold.
+    """
     figure = Figure(figsize=(11.5, 5.9 * len(circles) + 0.8), layout="constrained")
     rows = figure.subfigures(len(circles), 1, squeeze=False)[:, 0]
     for circle, row in zip(circles, rows, strict=True):
@@ -80,7 +84,7 @@ def circle_page(circles: Sequence[CircleComparison]) -> Figure:
         draw_polar(polar, circle, scale, fine=True)
         polar.set_xlabel(f"{scale.label}\n{_offset_note(circle)}", fontsize=8)
         residual, table = right.subplots(2, 1, height_ratios=[1.0, 1.25])
-        draw_residual(residual, circle)
+        draw_residual(residual, circle, meant)
         draw_quantities(table, circle)
     figure.suptitle(f"{circles[0].record_name}, {describe_circle(circles[0].circle)}", fontsize=11)
     _add_legend(
@@ -92,19 +96,19 @@ def circle_page(circles: Sequence[CircleComparison]) -> Figure:
 
 
 def overview_page(comparison: Comparison) -> Figure:
-    """Draw every circle at every feed small, all at one magnification."""
-    circles = comparison.circles
+    """Draw every circle at every feed small, the largest residual first, each at its own magnification."""
+    circles = sorted(comparison.circles, key=lambda circle: -circle.rms_mm)
     rows = -(-len(circles) // OVERVIEW_COLUMNS)
-    scale = choose_scale(max(circle.circle.radius_mm for circle in circles), largest_drawn_mm(circles))
-    figure = Figure(figsize=(11.5, 3.25 * rows + 1.2), layout="constrained")
+    figure = Figure(figsize=(11.5, 3.4 * rows + 1.2), layout="constrained")
     grid = figure.subplots(rows, OVERVIEW_COLUMNS, squeeze=False, subplot_kw={"projection": "polar"})
     several_records = len({circle.record_name for circle in circles}) > 1
     for axes, circle in zip(grid.flat, circles, strict=False):
+        scale = choose_scale(circle.circle.radius_mm, largest_drawn_mm([circle]))
         draw_polar(axes, circle, scale, fine=False)
         record = f"{circle.record_name}\n" if several_records else ""
         axes.set_title(
             f"{record}circle {circle.circle.id}, {circle.feed_mm_min:g} mm/min\n"
-            f"{_both_directions(circle)}residual RMS {UM_PER_MM * circle.rms_mm:.2f} µm",
+            f"{_both_directions(circle)}residual RMS {UM_PER_MM * circle.rms_mm:.2f} µm\n{scale.label}",
             fontsize=8,
         )
     for axes in grid.flat[len(circles) :]:
@@ -113,7 +117,7 @@ def overview_page(comparison: Comparison) -> Figure:
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     figure.suptitle(
         f"{name}, measured and predicted: residual RMS {rms_um:.2f} µm, peak to valley {peak_um:.2f} µm\n"
-        f"{scale.label}; centre offset of each set-up removed (least squares)",
+        "largest residual first; centre offset of each set-up removed (least squares)",
         fontsize=11,
     )
     _add_legend(figure, f"G(b): bi-directional circular deviation, {iso230.EDITION}, measured / predicted")
@@ -150,6 +154,21 @@ def save_figure(figure: Figure, stem: Path, suffixes: Sequence[str] = tuple(FORM
             temporary.write_bytes(drawn.getvalue())
         written.append(path)
     return written
+
+
+def save_pages(pages: Sequence[Page], folder: Path) -> list[Path]:
+    """Write pages into a folder, which is made where there is none; each page's suffix is its file's name.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be made there.
+    RunError
+        A file cannot be written.
+    """
+    require_folder(folder)
+    folder.mkdir(exist_ok=True)
+    return [path for page in pages for path in save_figure(page.draw(), folder / page.suffix)]
 
 
 def _offset_note(circle: CircleComparison) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,7 +11,9 @@ from matplotlib.transforms import Bbox
 from hexdbb.comparison import QUANTITIES, UM_PER_MM, CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
 from hexdbb.comparison.iso230 import FloatArray, Path
-from hexdbb.plots.polar import MEASURED_COLOURS, PREDICTED_COLOURS, curve
+from hexdbb.plots.colours import MEASURED_COLOURS, PREDICTED_COLOURS
+from hexdbb.plots.marks import mark_reversals
+from hexdbb.plots.polar import curve
 
 SMOOTHED_OVER_DEG = 3
 """Arc over which the dark residual line is averaged; a divisor of 360."""
@@ -21,10 +23,11 @@ SMOOTHED_WIDTHS = {1: 2.4, -1: 1.0}
 """Broad below narrow, so that both directions are seen where they coincide."""
 
 
-def draw_residual(axes: Axes, circle: CircleComparison) -> None:
+def draw_residual(axes: Axes, circle: CircleComparison, meant: Sequence[str] = ()) -> None:
     """Draw measured minus predicted reading (µm) against commanded polar angle, per direction.
 
-    In light the mean of the laps at every angle, in dark its mean over arcs of `SMOOTHED_OVER_DEG`.
+    In light the mean of the laps at every angle, in dark its mean over arcs of `SMOOTHED_OVER_DEG`. Reversals of
+    sliders are marked, those `meant` (``slider 4``) in bold.
     """
     axes.axhline(0.0, color="0.35", linewidth=0.8, zorder=1)
     for part in circle.directions:
@@ -33,7 +36,7 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
         angle, residual_um = curve(residual)
         axes.plot(np.degrees(angle), residual_um, color=MEASURED_COLOURS[part.direction], linewidth=0.5, alpha=0.6)
         axes.plot(
-            *_smoothed(residual),
+            *smoothed(residual),
             color=PREDICTED_COLOURS[part.direction],
             linewidth=SMOOTHED_WIDTHS[part.direction],
             zorder=4,
@@ -46,9 +49,10 @@ def draw_residual(axes: Axes, circle: CircleComparison) -> None:
     axes.tick_params(labelsize=8)
     axes.grid(color="0.88", linewidth=0.6)
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=8, frameon=False)
+    mark_reversals(axes, circle.reversals, meant)
 
 
-def _smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
+def smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
     """Return middle angle (deg) and mean (µm) of each arc with a sample; nan where the line breaks (`BREAK_DEG`)."""
     count = 360 // SMOOTHED_OVER_DEG
     arc = np.minimum((np.degrees(residual.angle_rad) // SMOOTHED_OVER_DEG).astype(np.int64), count - 1)

@@ -19,14 +19,9 @@ from matplotlib.projections.polar import PolarAxes
 from hexdbb.comparison import UM_PER_MM, CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES
 from hexdbb.comparison.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
+from hexdbb.plots.colours import GRID_COLOUR, MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS
 from hexdbb.plots.magnification import Scale
 
-MEASURED_COLOURS = {1: "#56B4E9", -1: "#E69F00"}
-"""Okabe and Ito's colour-blind safe palette: light blue counter-clockwise, orange clockwise."""
-PREDICTED_COLOURS = {1: "#004B76", -1: "#8C3A00"}
-"""The same two hues, dark enough to be seen on the measured path they should cover."""
-NOMINAL_COLOUR = "0.35"
-GRID_COLOUR = "0.85"
 GRID_LABEL_ANGLE_DEG = 67.5
 
 

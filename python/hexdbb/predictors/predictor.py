@@ -57,6 +57,8 @@ class Predictor:
     sampled_hz : float or None
         Samples a second, for a period in time: faster ones alias.
     profiles : tuple of Profile
+    is_bystander : bool
+        Whether it only goes with the likely cause of the residual, at another element.
     """
 
     subject: str
@@ -71,6 +73,7 @@ class Predictor:
     sampled_hz: float | None = None
     profiles: tuple[Profile, ...] = ()
     classes: tuple[tuple[float, str], ...] = ()
+    is_bystander: bool = False
 
     @property
     def worth(self) -> float:

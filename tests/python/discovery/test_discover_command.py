@@ -67,6 +67,34 @@ def test_what_is_missing_in_json_and_in_words(folder: Path) -> None:
     assert (folder / "model.toml").read_bytes() == before
 
 
+def test_draft_and_pictures_are_written_beside_the_verdict(folder: Path) -> None:
+    line = f"discover run.parquet -m model.toml --draft cause.py --plot {folder / 'pictures'}"
+    done = run(folder, line)
+    assert done.exit_code == 0, done.output
+    assert done.stdout.startswith("Slider 4 has ")
+    assert "cause.py: draft of learned:slider:4:" in done.stderr
+    assert "the best learned function; the main cause is backlash:4" in done.stderr
+    assert {each.name for each in (folder / "pictures").iterdir()} == {
+        f"{name}{suffix}" for name in ("cause-backlash-4", "residual") for suffix in (".png", ".svg")
+    }
+    again = printed(run(folder, "discover run.parquet -m model.toml --effects cause.py --json"))
+    assert any(name.startswith("learned_slider_4_") for each in again["candidates"] for name in each["names"])
+    assert "cause.py: exists already" in refusal(run(folder, line))
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--draft cause.txt", "cause.txt: cannot hold an effect (expected the name of a Python file, NAME.py)"),
+        ("--plot model.toml", "model.toml: is a file (expected the name of a folder)"),
+    ],
+)
+def test_what_cannot_be_written_is_refused_before_anything_is_computed(folder: Path, options: str, words: str) -> None:
+    before = sorted(folder.iterdir())
+    assert refusal(run(folder, f"discover run.parquet -m model.toml {options}")).endswith(words)
+    assert sorted(folder.iterdir()) == before
+
+
 def test_auto_adds_until_nothing_is_missing(folder: Path) -> None:
     found = printed(run(folder, "discover run.parquet -m model.toml --effects mine.py --auto --json"))
     jsonschema.validate(found, json_schema("discover"), jsonschema.Draft202012Validator)

@@ -1,0 +1,62 @@
+"""The answer of a discovery in one sentence that a fitter understands: which cause, and how much it explains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from hexdbb.discovery.result import Cause, Verdict
+from hexdbb.discovery.words import capital, joined, percent, unseen_words
+from hexdbb.evidence.trial import HeldOut
+from hexdbb.learned.places import is_learned
+
+UNKNOWN = "something is missing that no known effect explains"
+
+
+def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
+    """Return a verdict in one sentence.
+
+    Parameters
+    ----------
+    grade : str
+        `effect`, `ambiguous` or `unknown`.
+    causes : sequence of Cause
+        At least one, the largest first.
+    share : float
+        What they explain together of what the model missed.
+    heldout : mapping of str to HeldOut
+        How they predict what was left out.
+    """
+    explained = explained_words(len(causes), share, heldout)
+    if grade == "unknown":
+        return f"{UNKNOWN}: {_list([each.clause for each in causes])}; {explained}"
+    named = [each.clause for each in causes if each.verdict != "unknown"]
+    clause = capital("; ".join(named))
+    if grade == "ambiguous":
+        clause = f"{clause}, or these readings do not tell it from {joined(causes[0].rivals)}"
+    beside = [each.clause for each in causes if each.verdict == "unknown"]
+    if beside:
+        clause = f"{clause}; beside it something that no known effect explains: {_list(beside)}"
+    return f"{clause}; {explained}"
+
+
+def likely_sentence(causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
+    """Return the likely cause in one sentence, for who has asked where a model fails and not yet why."""
+    clauses = []
+    for each in causes:
+        others = f" (or {joined(each.rivals)}, which explains these readings as well)" if each.rivals else ""
+        known = "no known effect, " if is_learned(each.choice) else ""
+        clauses.append(f"{known}{each.clause}{others}")
+    likely = "likely cause" if len(causes) == 1 else "likely causes"
+    return f"{likely}: {_list(clauses)}; {explained_words(len(causes), share, heldout)}"
+
+
+def explained_words(count: int, share: float, heldout: Mapping[str, HeldOut]) -> str:
+    """Return how much some causes explain, and on which readings not used to find them."""
+    unseen = unseen_words(heldout, share)
+    subject = "it explains" if count == 1 else "together they explain"
+    return f"{subject} {percent(share)} of what the model missed" + (f", {unseen}" if unseen else "")
+
+
+def _list(clauses: Sequence[str]) -> str:
+    """Return clauses with colons and commas of their own as a list."""
+    return "; and ".join(clauses)
