@@ -12,7 +12,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import Sufficiency, evaluate_fit
 from hexdbb.discovery import words
 from hexdbb.discovery.candidates import MAX_CHECKED, choice_of, shown_candidates
-from hexdbb.discovery.learning import can_learn, with_learned
+from hexdbb.discovery.learning import with_learned
 from hexdbb.discovery.next_test import next_test
 from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
 from hexdbb.discovery.sentences import likely_sentence, verdict_sentence
@@ -222,11 +222,11 @@ def _cause(search: Search, node: Node, found: Found, share: float, models: _Mode
 def _function(search: Search, cause: Hypothesis) -> str | None:
     """Return the learned function that was tried alone and is a cause without its formula, the best one."""
     if isinstance(cause, Learned):
-        return cause.name if can_learn(cause.name) else None
+        return cause.name
     alone = [each for each in search.nodes if len(each.members) == 1 and isinstance(each.hypotheses[0], Learned)]
     alone.sort(key=lambda each: -each.score)
     names = [each.hypotheses[0].name for each in alone if search.same_kind(cause, each.hypotheses[0])]
-    return next((each for each in names if can_learn(each)), None)
+    return next(iter(names), None)
 
 
 def _rivals(search: Search, node: Node, found: Found) -> tuple[str, ...]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from hexdbb.discovery.learning import can_learn, with_learned
+from hexdbb.discovery.learning import with_learned
 from hexdbb.discovery.result import Discovery
 from hexdbb.discovery.words import NOTHING
 from hexdbb.effects import draft
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
+from hexdbb.learned.places import is_learned
 from hexdbb.model import Model
 
 
@@ -59,11 +60,11 @@ def draft_effect(found: Discovery) -> Draft:
     Raises
     ------
     RunError
-        Where nothing is missing, or no learned function was tried that a model can hold.
+        Where nothing is missing, or no learned function was tried.
     """
     main = found.causes[0].choice if found.causes else ""
     for name in dict.fromkeys((main, *(each for one in found.candidates for each in one.names))):
-        model = _model(found, name) if can_learn(name) else None
+        model = _model(found, name) if is_learned(name) else None
         if model is not None:
             return Draft(name, _sentence(name, main), draft(model, name))
     why = NOTHING if found.verdict == "none" and not found.sufficiency.matters else "no learned function was tried"

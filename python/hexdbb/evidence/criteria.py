@@ -37,7 +37,7 @@ class Criteria:
         Directions of a learned prior of which the readings tell less than this part of a value's worth are left out of
         full fits.
     most_seen : int
-        Directions in a full fit, the best seen: a fit's time grows with their square, and with 30 a dent's place is lost.
+        Directions in a full fit, the best seen: its time grows with their square; with 30 the place of a dent is lost.
     step_mm : float
         Prior standard deviation of steps found already, while the next is sought: beyond any step.
     shortest_mm : float
