@@ -31,6 +31,40 @@ CompensationData machine_with(const std::vector<std::string>& effects) {
   return compensation_of(model, "benchmark", "", {2.0, 0.01}, 20.0);
 }
 
+/// Return what a function learned from readings becomes: `count` knots, some um of a smooth function.
+CompensationTable learned_table(const std::string& port, const std::string& variable, std::vector<TablePush> pushes,
+                                double low, double high, int count) {
+  CompensationTable out{.effect = "learned", .port = port, .variable = variable, .pushes = std::move(pushes)};
+  for (int at = 0; at < count; ++at) {
+    const double part = double(at) / (count - 1);
+    out.knots.push_back(low + (high - low) * part);
+    out.values_mm.push_back(0.01 * std::sin(7.0 * part) + 0.003 * std::cos(23.0 * part));
+  }
+  return out;
+}
+
+/// Return the knots of a function with a step where its variable changes sign: closer about 0.
+CompensationTable with_step(CompensationTable table) {
+  for (int at = -10; at <= 10; ++at) table.knots.push_back(1e-3 * (at + 0.1));
+  std::sort(table.knots.begin(), table.knots.end());
+  table.values_mm.clear();
+  for (const double knot : table.knots) table.values_mm.push_back(0.01 * std::tanh(knot / 3e-3));
+  return table;
+}
+
+const CompensationTable kVertical =
+    learned_table("slider_joint", "sliders_mm", {{0, 2, 1.0}, {1, 5, 1.0}}, 30.0, 840.0, 289);
+const CompensationTable kScrewPhase = learned_table("slider", "sliders_mm", {{3, 3, 1.0}}, 30.0, 840.0, 289);
+const CompensationTable kForce = learned_table("leg", "leg_force", {{2, 2, 1.0}}, -1.0, 0.5, 161);
+const CompensationTable kTurning =
+    with_step(learned_table("leg", "slider_joint_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
+const CompensationTable kSwing = with_step(learned_table("leg", "swing_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
+
+CompensationData with_tables(CompensationData data, const std::vector<CompensationTable>& tables) {
+  data.tables = tables;
+  return data;
+}
+
 struct Path {
   std::vector<Pose> pose;
   std::vector<Direction> direction;
@@ -63,8 +97,9 @@ double part(std::vector<double>& times, double fraction) {
 }
 
 /// Throughput as the benchmark's own time; median and p99.9 of single calls as counters.
-void sliders(benchmark::State& state, const std::vector<std::string>& effects) {
-  Compensator compensator(machine_with(effects));
+void sliders(benchmark::State& state, const std::vector<std::string>& effects,
+             const std::vector<CompensationTable>& tables) {
+  Compensator compensator(with_tables(machine_with(effects), tables));
   const Path path = circle();
   std::vector<double> times, empty;
   for (int call = 0; call < 10000; ++call) {
@@ -113,12 +148,22 @@ const std::vector<std::string> kUsual = {"backlash", "pitch_cyclic", "gravity_sa
 const std::vector<std::string> kAll = {"backlash",     "pitch_cyclic", "gravity_sag", "lead_error",   "straightness",
                                        "joint_offset", "servo_lag",    "leg_thermal", "screw_thermal"};
 
-BENCHMARK_CAPTURE(sliders, geometry, geometry_and({}))->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash, geometry_and({"backlash"}))->UseManualTime();
-BENCHMARK_CAPTURE(sliders, pitch, geometry_and({"pitch_cyclic"}))->UseManualTime();
-BENCHMARK_CAPTURE(sliders, sag, geometry_and({"gravity_sag"}))->UseManualTime();
-BENCHMARK_CAPTURE(sliders, usual, geometry_and(kUsual))->UseManualTime();
-BENCHMARK_CAPTURE(sliders, all, geometry_and(kAll))->UseManualTime();
+const std::vector<CompensationTable> kNone;
+
+BENCHMARK_CAPTURE(sliders, geometry, geometry_and({}), kNone)->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash, geometry_and({"backlash"}), kNone)->UseManualTime();
+BENCHMARK_CAPTURE(sliders, pitch, geometry_and({"pitch_cyclic"}), kNone)->UseManualTime();
+BENCHMARK_CAPTURE(sliders, sag, geometry_and({"gravity_sag"}), kNone)->UseManualTime();
+BENCHMARK_CAPTURE(sliders, usual, geometry_and(kUsual), kNone)->UseManualTime();
+BENCHMARK_CAPTURE(sliders, all, geometry_and(kAll), kNone)->UseManualTime();
+BENCHMARK_CAPTURE(sliders, usual_and_vertical, geometry_and(kUsual), {kVertical})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash_and_vertical, geometry_and({"backlash"}), {kVertical})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash_and_slider, geometry_and({"backlash"}), {kScrewPhase})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash_and_turning, geometry_and({"backlash"}), {kTurning})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash_and_force, geometry_and({"backlash"}), {kForce})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash_and_swing, geometry_and({"backlash"}), {kSwing})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, usual_and_turning, geometry_and(kUsual), {kTurning})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, usual_and_force, geometry_and(kUsual), {kForce})->UseManualTime();
 BENCHMARK_CAPTURE(pose, geometry, geometry_and({}));
 BENCHMARK_CAPTURE(pose, usual, geometry_and(kUsual));
 BENCHMARK_CAPTURE(pose, all, geometry_and(kAll));

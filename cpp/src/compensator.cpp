@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "hexdbb/compensation.hpp"
+#include "joint_state.hpp"
 #include "kernel_types.hpp"
 #include "slider_dependence.hpp"
 
@@ -30,31 +31,41 @@ bool needs(const Effect& effect, const std::string& column) {
   return std::find(all.begin(), all.end(), column) != all.end();
 }
 
+/// Return whether a table depends on the platform's pose beyond the sliders.
+bool needs_platform(const TableSet& tables) {
+  using Variable = TableVariable;
+  return (tables.legs(Variable::kPlatformJointAngle) | tables.legs(Variable::kPlatformJointRate) |
+          tables.legs(Variable::kSwingAngle) | tables.legs(Variable::kSwingRate)) != 0u;
+}
+
 double largest(const Vector6& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-Compensator::Compensator(const Machine& machine) : model_(machine), polynomials_(machine) { prepare(); }
+Compensator::Compensator(const Machine& machine) : model_(machine), polynomials_(machine), now_(one_row()) {
+  prepare();
+}
 
 Compensator::Compensator(const CompensationData& data, const std::string& source)
     : model_(compensation_model(data, source)),
       polynomials_(data.machine),
+      tables_(data.tables),
       limits_(data.limits),
-      reference_temperature_c_(data.reference_temperature_c) {
-  prepare();
+      reference_temperature_c_(data.reference_temperature_c),
+      now_(one_row()) {
   try {
     for (const Term& term : model_.terms) term.effect->require(now_);
   } catch (const std::invalid_argument& error) {
     throw CompensationError(CompensationFault::kUnknownEffect,
                             source + ": " + error.what() + " (expected effects that a controller can correct)");
   }
+  prepare();
 }
 
 void Compensator::prepare() {
   direction_per_mm_ = 2.0 / limits_.reversal_travel_mm;
-  now_ = one_row();
   nominal_triangle_ = PlatformTriangle(shared_joints(assemble(model_.nominal, Vector6::Zero(), Ports())));
-  has_effects_ = !model_.terms.empty();
+  has_effects_ = !model_.terms.empty() || !tables_.empty();
   const std::vector<Term> all = std::move(model_.terms);
   model_.terms.clear();
   for (const Term& term : all) {
@@ -62,11 +73,16 @@ void Compensator::prepare() {
     needs_leg_force_ = needs_leg_force_ || needs(*term.effect, "leg_force");
     if (needs(*term.effect, "temperature_c") || !polynomials_.fold(term)) model_.terms.push_back(term);
   }
+  contraction_ += kLever * tables_.steepest();
+  bend_ = kLever * tables_.sharpest();
+  needs_leg_force_ = needs_leg_force_ || tables_.legs(TableVariable::kLegForce) != 0u;
+  needs_pose_ = needs_leg_force_ || needs_platform(tables_);
   reset();
 }
 
 void Compensator::reset() noexcept {
   travel_direction_.setZero();
+  joint_direction_.setZero();
   followed_mm_.setConstant(kUnknown);
   checked_mm_.setConstant(kUnknown);
   last_correction_mm_.setZero();
@@ -87,6 +103,7 @@ bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) 
     followed_mm_ = checked_mm_;
   }
   checked_mm_.setConstant(kUnknown);
+  if (tables_.legs(TableVariable::kSliderJointDirection) != 0u) follow_joints(nominal_mm, velocity_mm_s);
   if (std::isnan(followed_mm_[0])) {  // a slider that moves at the first call is assumed to have moved so before
     for (int k = 0; k < kLegs; ++k)
       travel_direction_[k] = velocity_mm_s[k] == 0.0 ? 0.0 : std::copysign(1.0, velocity_mm_s[k]);
@@ -102,6 +119,24 @@ bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) 
   return true;
 }
 
+/// Update the senses in which the legs turn at their slider joints, as follow() does for the sliders.
+void Compensator::follow_joints(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept {
+  const double length_mm = machine().leg_length_mm;
+  const Vector6 travel = std::isnan(followed_mm_[0]) ? Vector6::Zero() : Vector6(nominal_mm - followed_mm_);
+  for (int k = 0; k < kLegs; ++k) {
+    const int a = k - k % 2, b = a + 1;
+    // A step of the sliders turns the leg as their velocity does in one second.
+    const double turned_mm =
+        length_mm * LegPair(length_mm, nominal_mm[a], nominal_mm[b], travel[a], travel[b]).rate_rad_s(k % 2);
+    const double rate_rad_s =
+        LegPair(length_mm, nominal_mm[a], nominal_mm[b], velocity_mm_s[a], velocity_mm_s[b]).rate_rad_s(k % 2);
+    const double towards = rate_rad_s == 0.0 ? turned_mm : std::copysign(turned_mm, rate_rad_s);
+    joint_direction_[k] = std::isnan(followed_mm_[0])
+                              ? (rate_rad_s == 0.0 ? 0.0 : std::copysign(1.0, rate_rad_s))
+                              : std::clamp(joint_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
+  }
+}
+
 void Compensator::set_state(const Direction& direction, const Vector6& travel_direction,
                             const Vector6& leg_force) noexcept {
   const double warming_k = direction.temperature_c - reference_temperature_c_;
@@ -114,6 +149,22 @@ void Compensator::set_state(const Direction& direction, const Vector6& travel_di
   state.leg_force.row(0) = leg_force.transpose();
   state.temperature_c[0] = direction.temperature_c;
   state.warming_k[0] = warming_k;
+}
+
+/// Set the state of the tables; `nominal_pose` is that of the nominal machine with its sliders at `nominal_mm`, needed
+/// only where needs_pose_ is set.
+void Compensator::set_tables(const Direction& direction, const Vector6& travel_direction, const Vector6& leg_force,
+                             const Pose& nominal_pose, const Vector6& nominal_mm) noexcept {
+  if (tables_.empty()) return;
+  TableState& state = table_state_;
+  state[TableVariable::kVelocity] = direction.velocity_mm_s;
+  state[TableVariable::kTravelDirection] = travel_direction;
+  state[TableVariable::kLegForce] = leg_force;
+  state[TableVariable::kTemperature].setConstant(direction.temperature_c);
+  state[TableVariable::kWarming].setConstant(direction.temperature_c - reference_temperature_c_);
+  state[TableVariable::kSliderJointDirection] = joint_direction_;
+  fill_joints(model_.nominal, nominal_pose, nominal_mm, direction.velocity_mm_s, tables_, state);
+  tables_.settle(state);
 }
 
 /// Compute the static equilibrium of the nominal machine: forces in the legs under a newton of load at the reference
@@ -138,6 +189,7 @@ const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
         push_.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
     for (const Term& term : model_.terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
   }
+  if (!tables_.empty()) tables_.add(sliders_mm, push_);
   if (part_ != 1.0) push_.value *= part_;
   return push_;
 }
@@ -159,6 +211,7 @@ bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTarge
     left_mm = contraction_ * largest_step;
     if (out.iterations > 1) {
       left_mm *= std::min(kCurvature_mm * largest_before, 1.0);
+      left_mm += bend_ * largest_step;
       const auto one = step_before.array();
       const auto two = step.array();
       out.sliders_mm.array() += (two.abs() < 0.5 * one.abs()).select(two.square() / (one - two), 0.0);
@@ -191,7 +244,9 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   out.slider = nominal.leg;
   if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
   const bool is_followed = follow(nominal.sliders_mm, direction);
-  set_state(direction, travel_direction_, needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero());
+  const Vector6 force = needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero();
+  set_state(direction, travel_direction_, force);
+  set_tables(direction, travel_direction_, force, pose, nominal.sliders_mm);
   if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
@@ -215,12 +270,17 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
     if (direction.velocity_mm_s[k] != 0.0) travel_direction[k] = std::copysign(1.0, direction.velocity_mm_s[k]);
   }
   Vector6 force = Vector6::Zero();
-  if (needs_leg_force_) {
+  Pose nominal_pose = last_pose_;
+  if (needs_pose_) {
     const Mechanism nominal = assemble(model_.nominal, sliders_mm, none_);
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
-    if (standing.status == Status::kOk) force = leg_force(standing.pose, sliders_mm);
+    if (standing.status == Status::kOk) {
+      nominal_pose = standing.pose;
+      if (needs_leg_force_) force = leg_force(standing.pose, sliders_mm);
+    }
   }
   set_state(direction, travel_direction, force);
+  set_tables(direction, travel_direction, force, nominal_pose, sliders_mm);
   const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(sliders_mm));
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);
