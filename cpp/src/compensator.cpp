@@ -4,6 +4,7 @@
 #include "hexdbb/compensation.hpp"
 #include "joint_state.hpp"
 #include "kernel_types.hpp"
+#include "multiversion.hpp"
 #include "slider_dependence.hpp"
 
 namespace hexdbb {
@@ -86,6 +87,8 @@ void Compensator::reset() noexcept {
   followed_mm_.setConstant(kUnknown);
   checked_mm_.setConstant(kUnknown);
   last_correction_mm_.setZero();
+  correction_step_mm_.setZero();
+  has_last_ = false;
   angles_ = nominal_angles_ = RssrAngles();
   last_pose_ = home_pose(model_.nominal);
 }
@@ -121,19 +124,16 @@ bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) 
 
 /// Update the senses in which the legs turn at their slider joints, as follow() does for the sliders.
 void Compensator::follow_joints(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept {
-  const double length_mm = machine().leg_length_mm;
-  const Vector6 travel = std::isnan(followed_mm_[0]) ? Vector6::Zero() : Vector6(nominal_mm - followed_mm_);
+  const bool is_first = std::isnan(followed_mm_[0]);
+  const Vector6 travel_mm = is_first ? Vector6(Vector6::Zero()) : Vector6(nominal_mm - followed_mm_);
   for (int k = 0; k < kLegs; ++k) {
-    const int a = k - k % 2, b = a + 1;
-    // A step of the sliders turns the leg as their velocity does in one second.
-    const double turned_mm =
-        length_mm * LegPair(length_mm, nominal_mm[a], nominal_mm[b], travel[a], travel[b]).rate_rad_s(k % 2);
-    const double rate_rad_s =
-        LegPair(length_mm, nominal_mm[a], nominal_mm[b], velocity_mm_s[a], velocity_mm_s[b]).rate_rad_s(k % 2);
-    const double towards = rate_rad_s == 0.0 ? turned_mm : std::copysign(turned_mm, rate_rad_s);
-    joint_direction_[k] = std::isnan(followed_mm_[0])
-                              ? (rate_rad_s == 0.0 ? 0.0 : std::copysign(1.0, rate_rad_s))
-                              : std::clamp(joint_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
+    const LegPair moved(model_.nominal, guideway_of(k), nominal_mm, travel_mm);  // within one unit of time
+    const LegPair moving(model_.nominal, guideway_of(k), nominal_mm, velocity_mm_s);
+    const double turned_mm = moved.length_mm * moved.rate_rad_s(k % 2), rate = moving.rate_rad_s(k % 2);
+    const double sense = rate == 0.0 ? 0.0 : std::copysign(1.0, rate);
+    const double towards = rate == 0.0 ? turned_mm : std::copysign(turned_mm, rate);
+    const double play = std::clamp(joint_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
+    joint_direction_[k] = is_first ? sense : play;
   }
 }
 
@@ -157,23 +157,30 @@ void Compensator::set_tables(const Direction& direction, const Vector6& travel_d
                              const Pose& nominal_pose, const Vector6& nominal_mm) noexcept {
   if (tables_.empty()) return;
   TableState& state = table_state_;
-  state[TableVariable::kVelocity] = direction.velocity_mm_s;
-  state[TableVariable::kTravelDirection] = travel_direction;
-  state[TableVariable::kLegForce] = leg_force;
+  const auto set = [&](TableVariable variable, const Vector6& value) {
+    if (tables_.legs(variable) != 0u) state[variable] = value;
+  };
+  set(TableVariable::kVelocity, direction.velocity_mm_s);
+  set(TableVariable::kTravelDirection, travel_direction);
+  set(TableVariable::kLegForce, leg_force);
+  set(TableVariable::kSliderJointDirection, joint_direction_);
   state[TableVariable::kTemperature].setConstant(direction.temperature_c);
   state[TableVariable::kWarming].setConstant(direction.temperature_c - reference_temperature_c_);
-  state[TableVariable::kSliderJointDirection] = joint_direction_;
   fill_joints(model_.nominal, nominal_pose, nominal_mm, direction.velocity_mm_s, tables_, state);
   tables_.settle(state);
 }
 
 /// Compute the static equilibrium of the nominal machine: forces in the legs under a newton of load at the reference
 /// point, tension positive.
+HEXDBB_MULTIVERSION
 Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept {
   const NominalGeometry& nominal = model_.nominal;
-  const Mechanism mechanism = assemble(nominal, nominal_mm, none_);
+  Matrix36 slider_joint;
+  for (int k = 0; k < kLegs; ++k) {
+    slider_joint.col(k) = nominal.vertex.col(k) + nominal_mm[k] * nominal.direction.col(k);
+  }
   const rssr::LegForces<double> carried =
-      rssr::leg_forces(rssr::joints_of(mechanism.slider_joint, nominal_triangle_), rssr::frame_of(nominal_triangle_),
+      rssr::leg_forces(rssr::joints_of(slider_joint, nominal_triangle_), rssr::frame_of(nominal_triangle_),
                        rssr::placed(pose), rssr::vec(Vector3::Zero()), rssr::vec(Vector3::UnitZ()));
   const bool is_held = carried.determinant * carried.determinant > 1e-18 * carried.scale;
   Vector6 out;
@@ -194,11 +201,11 @@ const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
   return push_;
 }
 
-/// Solve the fixed point from the last correction. A slider's coordinate depends almost only on itself: two steps
+/// Solve the fixed point, starting where the last two corrections lead in a straight line. A slider's coordinate depends almost only on itself: two steps
 /// determine the ratio r at which they shrink, and the sum of all that follow is step r / (1 - r) (Aitken). The
 /// remaining error is of second order in the steps.
 bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept {
-  Vector6 at = nominal_mm + last_correction_mm_, step_before;
+  Vector6 at = nominal_mm + last_correction_mm_ + correction_step_mm_, step_before;
   double left_mm = 0.0, largest_before = 0.0;
   for (out.iterations = 1;; ++out.iterations) {
     const InverseResult result = inverse(model_.nominal, pose, push_at(at));
@@ -252,6 +259,8 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
   out.slider = -1;
   if (is_followed) {
+    correction_step_mm_ = has_last_ ? Vector6(out.correction_mm - last_correction_mm_) : Vector6(Vector6::Zero());
+    has_last_ = true;
     last_targets_mm_ = out.sliders_mm;
     last_correction_mm_ = out.correction_mm;
   }

@@ -13,18 +13,20 @@
 
 namespace hexdbb {
 
-/// The two legs of a guideway; radius 0 where they do not meet.
+/// The two legs of a guideway, numbered 0 and 1.
 struct LegPair {
   LegPair() = default;
-  LegPair(double length_mm, double first_mm, double second_mm, double first_mm_s, double second_mm_s) noexcept;
+  LegPair(const NominalGeometry& nominal, int guideway, const Vector6& sliders_mm,
+          const Vector6& velocity_mm_s) noexcept;
 
-  /// Angle between leg 0 or 1 and the guideway, and its rate.
+  /// Angle between a leg and the guideway, and its rate; NaN where the legs do not meet.
   double angle_rad(int leg) const noexcept;
-  double rate_rad_s(int leg) const noexcept { return leg == 0 ? -half_mm_s * per_radius : half_mm_s * per_radius; }
+  double rate_rad_s(int leg) const noexcept;
 
-  double half_mm = 0.0, half_mm_s = 0.0, half_per_length = 0.0;
-  double radius_mm = 0.0, per_radius = 0.0;
-  double along_mm_s = 0.0;  // of the ball joint
+  double length_mm = 0.0;
+  double half_mm = 0.0, half_mm_s = 0.0;  // h and its rate
+  double radius_squared = 0.0;            // rho^2; not positive where the legs do not meet
+  double along_mm_s = 0.0;                // of the ball joint
 };
 
 /// Fill in the joints' columns of a state that tables need, of the legs that they name. Where locked sliders do not

@@ -114,6 +114,8 @@ class Compensator {
   Vector6 joint_direction_ = Vector6::Zero();   // -1 .. 1
   Vector6 followed_mm_, checked_mm_;            // nominal coordinates; NaN where there are none
   Vector6 last_targets_mm_ = Vector6::Zero(), last_correction_mm_ = Vector6::Zero();
+  Vector6 correction_step_mm_ = Vector6::Zero();  // from the last correction but one to the last
+  bool has_last_ = false;                         // any of them
   double part_ = 1.0, wanted_part_ = 1.0;
   RssrAngles angles_, nominal_angles_;
   Pose last_pose_;
