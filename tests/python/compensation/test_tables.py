@@ -1,0 +1,237 @@
+"""Learned functions in a controller: the compensator's corrections against the model's own prediction.
+
+The truth is the model: the engine evaluates the learned effect tabulated for the very samples driven, with the state
+that the engine derives from them; it shares no table, no search for knots and no formula of joints with the compensator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.compensation import make_compensation, path_targets, read_compensation, write_compensation
+from hexdbb.compensation.tables import halved, learned_tables
+from hexdbb.kinematics import engine_machine, inverse
+from hexdbb.learned import Hypothesis, Space
+from hexdbb.machine import shipped_machine
+from hexdbb.model import LearnedEffect, Model, Term, new_model, new_term
+from hexdbb.samples.swing import derived_columns
+
+Floats = NDArray[np.float64]
+
+MACHINE = shipped_machine()
+STEP_S = 0.004
+RPY = np.array([0.05, -0.03, 0.1])
+WARMING_K = 3.0
+SIZE_MM = 0.01
+AWAY_MM, AWAY_MM_S = 0.5, 5.0
+"""Travel since a reversal and speed of a slider from which on its direction of travel is compared: nearer, play is being
+crossed, and a record finds the reversal on smoothed positions."""
+ENDS = slice(20, -20)
+"""Without the ends of a record, where velocities are one-sided."""
+
+
+class Table:
+    """Columns of samples by name."""
+
+    def __init__(self, columns: Mapping[str, NDArray[Any]]) -> None:
+        self.columns = columns
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        return len(self.columns["sliders_mm"])
+
+
+def path() -> Floats:
+    """A lap and a half of 90 mm at 3000 mm/min; shape (n, 3)."""
+    angle = np.arange(0.0, 3.0 * np.pi, 50.0 / 90.0 * STEP_S)
+    return np.column_stack([90.0 * np.cos(angle), 90.0 * np.sin(angle), np.full(len(angle), 285.0)])
+
+
+def table_of(sliders_mm: Floats) -> tuple[Table, _core.Samples]:
+    """Return samples of drives at these coordinates, with every column that follows from them."""
+    count = len(sliders_mm)
+    zeros = np.zeros(count, np.int32)
+    state = {"time_s": STEP_S * np.arange(count), "sweep": zeros, "warming_k": np.full(count, WARMING_K)}
+    state["angle_rad"] = state["time_s"]
+    set_up = _core.SetUp(cup_mm=np.zeros(3), ball_offset_mm=np.zeros(3), bar_length_mm=100.0)
+    block = _core.Samples(sliders_mm=sliders_mm, set_up=zeros, mount=zeros, set_ups=[set_up], state=state)
+    block.derive(engine_machine(MACHINE))
+    columns = {**block.state, "sliders_mm": sliders_mm}
+    columns |= derived_columns(MACHINE, columns)
+    columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
+    return Table(columns), block
+
+
+@pytest.fixture(scope="module")
+def nominal() -> Table:
+    return table_of(inverse(MACHINE, path(), RPY)[0])[0]
+
+
+def model_of(name: str, nominal: Table, beside: tuple[str, ...] = ("leg_length",)) -> Model:
+    """A model with a learned effect of some `SIZE_MM`, and effects of the catalogue beside it."""
+    space = Space.of(Hypothesis.parse(name), nominal, MACHINE.sliders.screw_lead_mm)
+    effect = LearnedEffect(space, 1.0, SIZE_MM)
+    draw = np.random.default_rng(sum(map(ord, name)))
+    values = SIZE_MM * draw.standard_normal(effect.size)
+    known = new_model(MACHINE, list(beside))
+    sizes = 0.5 * np.array([each.prior_sigma for each in known.parameters()])
+    known = known.with_values(sizes)
+    term = new_term(name, effect.size)
+    learned = Term(name, term.free, values, term.sigma, term.identifiable, effect)
+    return Model(MACHINE, (*known.terms, learned))
+
+
+def errors_mm(model: Model, targets_mm: Floats, commanded: Table | None = None) -> tuple[Floats, Table]:
+    """Return the largest error of the platform's position and orientation on the model's machine, (n,), and samples.
+
+    What the learned effect depends on is that of the drives, but for the sliders' positions that of `commanded` where
+    it is given: a controller knows the commanded motion, without that of the correction itself.
+    """
+    table, block = table_of(targets_mm)
+    columns = {**(commanded or table).columns, "sliders_mm": targets_mm, "warming_k": np.full(len(table), WARMING_K)}
+    driven = Table(columns)
+    engine = model.engine(lambda own, _: own.tabulated(driven))
+    poses, status = _core.forward_table(engine, block)
+    assert not status.any()
+    reach_mm = 100.0  # from the reference point to a ball joint
+    wanted = _core.rotation_from_rpy(*RPY).ravel()
+    of_position = np.abs(poses[:, :3] - path()).max(axis=1)
+    return np.maximum(of_position, reach_mm * np.abs(poses[:, 3:] - wanted).max(axis=1)), driven
+
+
+def targets_of(model: Model) -> Floats:
+    data = make_compensation(model, max_correction_mm=2.0, reference_temperature_c=20.0)
+    assert not data.left_out, data.left_out
+    times_s = STEP_S * np.arange(len(path()))
+    return path_targets(data, path(), RPY, time_s=times_s, temperature_c=20.0 + WARMING_K).sliders_mm
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "learned:leg:5:turning_rate",
+        "learned:vertical:1:position",
+        "learned:lateral:2:fine_position",
+        "learned:slider:4:screw_phase",
+        "learned:slider:all:position",
+        "learned:slider:2:velocity",
+        "learned:slider:6:leg_force",
+        "learned:leg:3:joint_angle",
+        "learned:leg:1:platform_turning_rate",
+        "learned:leg:2:platform_joint_angle",
+        "learned:leg:all:swing_rate",
+        "learned:leg:4:swing_angle",
+        "learned:slider:1:warming",
+        "learned:platform_joint:4:joint_angle",
+        "learned:platform_joint:2:constant",
+    ],
+)
+def test_the_machine_as_learned_takes_the_commanded_poses(name: str, nominal: Table) -> None:
+    model = model_of(name, nominal)
+    uncorrected, _ = errors_mm(model, nominal["sliders_mm"])
+    remaining, _ = errors_mm(model, targets_of(model), nominal)
+    assert uncorrected[ENDS].max() > 3e-3
+    assert remaining[ENDS].max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("name", "left"),
+    [
+        ("learned:vertical:1:position", 1e-3),
+        ("learned:leg:3:joint_angle", 0.01),
+        ("learned:leg:5:turning_rate", 0.03),
+        ("learned:leg:1:platform_turning_rate", 0.1),
+    ],
+)
+def test_little_is_left_where_the_correction_s_own_motion_counts(name: str, left: float, nominal: Table) -> None:
+    model = model_of(name, nominal)
+    uncorrected, _ = errors_mm(model, nominal["sliders_mm"])
+    remaining, _ = errors_mm(model, targets_of(model))
+    rms = [float(np.sqrt(np.mean(error[ENDS] ** 2))) for error in (remaining, uncorrected)]
+    assert rms[0] < left * rms[1]
+
+
+@pytest.mark.parametrize("name", ["learned:slider:3:direction_position", "learned:leg:6:direction"])
+def test_a_direction_of_travel_is_corrected_away_from_reversals(name: str, nominal: Table) -> None:
+    model = model_of(name, nominal)
+    remaining, driven = errors_mm(model, targets_of(model))
+    away = (driven["since_reversal_mm"] > AWAY_MM) & (np.abs(driven["velocity_mm_s"]) > AWAY_MM_S)
+    chosen = np.flatnonzero(away.all(axis=1))[20:-20]
+    assert len(chosen) > 1000
+    assert remaining[chosen].max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("learned:slider:1:acceleration", "depends on acceleration_mm_s2, which is not known to a controller"),
+        ("learned:leg:2:time", "depends on time"),
+        ("learned:slider:3:time_position", "depends on time"),
+        ("learned:ball:time", "pushes the ball, not the machine"),
+        ("learned:reading:angle", "pushes the reading, not the machine"),
+    ],
+)
+def test_what_a_controller_cannot_know_is_left_out_with_the_reason(name: str, reason: str, nominal: Table) -> None:
+    data = make_compensation(model_of(name, nominal))
+    assert data.left_out == [(name, reason)]
+    assert data.tables == []
+    assert data.text().startswith('schema = "hexdbb.compensation/1"\n')
+
+
+def test_growth_needs_a_reference_temperature(nominal: Table) -> None:
+    data = make_compensation(model_of("learned:leg:1:warming", nominal))
+    assert [why for _, why in data.left_out] == [
+        "needs the temperature of the record's first sample, which was not stated"
+    ]
+
+
+def test_file_there_and_back(tmp_path: Any, nominal: Table) -> None:
+    data = make_compensation(model_of("learned:platform_joint:4:joint_angle", nominal))
+    write_compensation(data, tmp_path / "a.hexcomp")
+    again = read_compensation(tmp_path / "a.hexcomp", MACHINE)
+    assert again.text() == data.text()
+    assert again.text().startswith('schema = "hexdbb.compensation/2"\n')
+    assert again.effects == ["leg_length", "learned:platform_joint:4:joint_angle"]
+    assert [table.pushes for table in again.tables] == [[(3, 9 + axis, 1.0)] for axis in range(3)]
+    for one, other in zip(again.tables, data.tables, strict=True):
+        assert (one.knots, one.values_mm) == (other.knots, other.values_mm)
+    assert "hexdbb_compensation_tables" in again.header()
+
+
+def test_a_name_that_is_no_key_of_toml_is_written_in_quotes(nominal: Table) -> None:
+    text = make_compensation(model_of("learned:ball:time", nominal)).text()
+    assert '"learned:ball:time" = "pushes the ball, not the machine"\n' in text
+
+
+def test_a_file_without_a_table_is_of_version_1_and_unchanged() -> None:
+    text = make_compensation(new_model(MACHINE, ["leg_length"])).text()
+    assert text.startswith('schema = "hexdbb.compensation/1"\n')
+    assert "[table" not in text
+    assert text.endswith('\n[left_out]\n\n[check]\ncrc32 = "%s"\n' % text[-10:-2])
+
+
+def test_knots_are_halved_until_lines_are_close() -> None:
+    knots = halved(np.linspace(0.0, 1.0, 5), lambda at: 0.01 * np.sin(20.0 * at)[:, None])
+    at = np.linspace(0.0, 1.0, 4001)
+    error = np.interp(at, knots, 0.01 * np.sin(20.0 * knots)) - 0.01 * np.sin(20.0 * at)
+    assert np.abs(error).max() <= 1.05e-5
+    np.testing.assert_allclose(np.diff(knots), knots[1], rtol=1e-9)
+    assert len(halved(np.linspace(0.0, 1.0, 5), lambda at: at[:, None])) == 5
+
+
+def test_a_table_holds_the_whole_function(nominal: Table) -> None:
+    model = model_of("learned:leg:5:turning_rate", nominal)
+    (table,) = learned_tables(model.terms[-1])
+    effect = model.terms[-1].learned
+    assert effect is not None
+    at = np.linspace(table.knots[0], table.knots[-1], 1001)
+    expected = effect.space.functions(at) @ effect.coefficients(model.terms[-1].values)
+    np.testing.assert_allclose(np.interp(at, table.knots, table.values_mm), expected, atol=2e-5)
