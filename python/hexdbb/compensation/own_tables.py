@@ -170,9 +170,7 @@ def _require_own_leg(asked: _Asked, state: Columns, grid: Columns, variable: str
     """Require that every place depends on its own slider or leg alone: the others elsewhere change nothing."""
     every = asked.at(state)
     for leg in range(6):
-        elsewhere = {
-            name: column if column.ndim == 1 else np.roll(column, 1, axis=0) for name, column in state.items()
-        }
+        elsewhere = {name: column if column.ndim == 1 else np.roll(column, 1, axis=0) for name, column in state.items()}
         for name, column in state.items():
             if column.ndim == 2:
                 elsewhere[name][:, leg] = column[:, leg]
@@ -191,7 +189,7 @@ def _require_smooth(variable: str, at: Floats, value_mm: Floats) -> None:
 
 
 def _few(at: Floats, value_mm: Floats) -> NDArray[np.intp]:
-    """Return the places to keep so that lines between them miss no other by `TOLERANCE_MM` (Douglas and Peucker 1973)."""
+    """Return places between which lines miss no other by `TOLERANCE_MM` (Douglas and Peucker 1973)."""
     if len(at) < 3:
         return np.arange(len(at))
     kept, spans = {0, len(at) - 1}, [(0, len(at) - 1)]

@@ -47,9 +47,7 @@ def learned_tables(term: Term) -> list[_core.CompensationTable]:
     ]
 
 
-def within_port(
-    port: str, pushes: Sequence[tuple[int, Sequence[tuple[int, float]]]]
-) -> list[tuple[int, int, float]]:
+def within_port(port: str, pushes: Sequence[tuple[int, Sequence[tuple[int, float]]]]) -> list[tuple[int, int, float]]:
     """Return element, column counted within the port, and weight of every push."""
     first = _core.PORTS[port][0]
     return [(element, column - first, weight) for element, columns in pushes for column, weight in columns]
