@@ -54,16 +54,14 @@ CompensationTable with_step(CompensationTable table) {
 
 const CompensationTable kVertical =
     learned_table("slider_joint", "sliders_mm", {{0, 2, 1.0}, {1, 5, 1.0}}, 30.0, 840.0, 289);
-const CompensationTable kScrewPhase = learned_table("slider", "sliders_mm", {{3, 3, 1.0}}, 30.0, 840.0, 289);
-const CompensationTable kForce = learned_table("leg", "leg_force", {{2, 2, 1.0}}, -1.0, 0.5, 161);
+const CompensationTable kPosition = learned_table("slider", "sliders_mm", {{3, 3, 1.0}}, 30.0, 840.0, 289);
+const CompensationTable kVelocity = with_step(learned_table("slider", "velocity_mm_s", {{3, 3, 1.0}}, -60, 60, 161));
 const CompensationTable kTurning =
     with_step(learned_table("leg", "slider_joint_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
+const CompensationTable kJointAngle = learned_table("leg", "slider_joint_angle_rad", {{4, 4, 1.0}}, 0.5, 2.5, 161);
 const CompensationTable kSwing = with_step(learned_table("leg", "swing_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
-
-CompensationData with_tables(CompensationData data, const std::vector<CompensationTable>& tables) {
-  data.tables = tables;
-  return data;
-}
+const CompensationTable kPlatformAngle = learned_table("leg", "platform_joint_angle_rad", {{4, 4, 1.0}}, 0.5, 2.5, 161);
+const CompensationTable kForce = learned_table("leg", "leg_force", {{2, 2, 1.0}}, -1.0, 0.5, 161);
 
 struct Path {
   std::vector<Pose> pose;
@@ -97,9 +95,8 @@ double part(std::vector<double>& times, double fraction) {
 }
 
 /// Throughput as the benchmark's own time; median and p99.9 of single calls as counters.
-void sliders(benchmark::State& state, const std::vector<std::string>& effects,
-             const std::vector<CompensationTable>& tables) {
-  Compensator compensator(with_tables(machine_with(effects), tables));
+void sliders(benchmark::State& state, const std::vector<std::string>& effects) {
+  Compensator compensator(machine_with(effects));
   const Path path = circle();
   std::vector<double> times, empty;
   for (int call = 0; call < 10000; ++call) {
@@ -122,6 +119,32 @@ void sliders(benchmark::State& state, const std::vector<std::string>& effects,
   state.counters["median_ns"] = part(times, 0.5);
   state.counters["p999_ns"] = part(times, 0.999);
   state.counters["iterations_needed"] = iterations;
+}
+
+/// The same pose with and without one table, call by call in turn: what the table adds, whatever else the processor does.
+void table(benchmark::State& state, const std::vector<std::string>& effects, const CompensationTable& added) {
+  CompensationData data = machine_with(effects);
+  Compensator without(data);
+  data.tables = {added};
+  Compensator with(data);
+  const Path path = circle();
+  std::vector<double> times_without, times_with;
+  std::size_t at = 0;
+  const auto timed = [&](Compensator& compensator, std::vector<double>& times) {
+    const double begin = now_ns();
+    const SliderTargets targets = compensator.sliders(path.pose[at], path.direction[at]);
+    times.push_back(now_ns() - begin);
+    if (targets.status != Status::kOk) state.SkipWithError(status_name(targets.status));
+  };
+  for (auto _ : state) {
+    const bool is_even = at % 2 == 0;
+    timed(is_even ? without : with, is_even ? times_without : times_with);
+    timed(is_even ? with : without, is_even ? times_with : times_without);
+    state.SetIterationTime(1e-9 * times_with.back());
+    at = (at + 1) % path.pose.size();
+  }
+  state.counters["without_ns"] = part(times_without, 0.5);
+  state.counters["with_ns"] = part(times_with, 0.5);
 }
 
 void pose(benchmark::State& state, const std::vector<std::string>& effects) {
@@ -148,22 +171,22 @@ const std::vector<std::string> kUsual = {"backlash", "pitch_cyclic", "gravity_sa
 const std::vector<std::string> kAll = {"backlash",     "pitch_cyclic", "gravity_sag", "lead_error",   "straightness",
                                        "joint_offset", "servo_lag",    "leg_thermal", "screw_thermal"};
 
-const std::vector<CompensationTable> kNone;
-
-BENCHMARK_CAPTURE(sliders, geometry, geometry_and({}), kNone)->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash, geometry_and({"backlash"}), kNone)->UseManualTime();
-BENCHMARK_CAPTURE(sliders, pitch, geometry_and({"pitch_cyclic"}), kNone)->UseManualTime();
-BENCHMARK_CAPTURE(sliders, sag, geometry_and({"gravity_sag"}), kNone)->UseManualTime();
-BENCHMARK_CAPTURE(sliders, usual, geometry_and(kUsual), kNone)->UseManualTime();
-BENCHMARK_CAPTURE(sliders, all, geometry_and(kAll), kNone)->UseManualTime();
-BENCHMARK_CAPTURE(sliders, usual_and_vertical, geometry_and(kUsual), {kVertical})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash_and_vertical, geometry_and({"backlash"}), {kVertical})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash_and_slider, geometry_and({"backlash"}), {kScrewPhase})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash_and_turning, geometry_and({"backlash"}), {kTurning})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash_and_force, geometry_and({"backlash"}), {kForce})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, backlash_and_swing, geometry_and({"backlash"}), {kSwing})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, usual_and_turning, geometry_and(kUsual), {kTurning})->UseManualTime();
-BENCHMARK_CAPTURE(sliders, usual_and_force, geometry_and(kUsual), {kForce})->UseManualTime();
+BENCHMARK_CAPTURE(sliders, geometry, geometry_and({}))->UseManualTime();
+BENCHMARK_CAPTURE(sliders, backlash, geometry_and({"backlash"}))->UseManualTime();
+BENCHMARK_CAPTURE(sliders, pitch, geometry_and({"pitch_cyclic"}))->UseManualTime();
+BENCHMARK_CAPTURE(sliders, sag, geometry_and({"gravity_sag"}))->UseManualTime();
+BENCHMARK_CAPTURE(sliders, usual, geometry_and(kUsual))->UseManualTime();
+BENCHMARK_CAPTURE(sliders, all, geometry_and(kAll))->UseManualTime();
+BENCHMARK_CAPTURE(table, vertical, geometry_and({"backlash"}), kVertical)->UseManualTime();
+BENCHMARK_CAPTURE(table, position, geometry_and({"backlash"}), kPosition)->UseManualTime();
+BENCHMARK_CAPTURE(table, velocity, geometry_and({"backlash"}), kVelocity)->UseManualTime();
+BENCHMARK_CAPTURE(table, turning, geometry_and({"backlash"}), kTurning)->UseManualTime();
+BENCHMARK_CAPTURE(table, joint_angle, geometry_and({"backlash"}), kJointAngle)->UseManualTime();
+BENCHMARK_CAPTURE(table, swing, geometry_and({"backlash"}), kSwing)->UseManualTime();
+BENCHMARK_CAPTURE(table, platform_angle, geometry_and({"backlash"}), kPlatformAngle)->UseManualTime();
+BENCHMARK_CAPTURE(table, force, geometry_and({"backlash"}), kForce)->UseManualTime();
+BENCHMARK_CAPTURE(table, usual_turning, geometry_and(kUsual), kTurning)->UseManualTime();
+BENCHMARK_CAPTURE(table, usual_vertical, geometry_and(kUsual), kVertical)->UseManualTime();
 BENCHMARK_CAPTURE(pose, geometry, geometry_and({}));
 BENCHMARK_CAPTURE(pose, usual, geometry_and(kUsual));
 BENCHMARK_CAPTURE(pose, all, geometry_and(kAll));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -132,11 +133,12 @@ class PlatformMotion {
   Vector3 swing_rate_rad_s_;
 };
 
-/// Call fill(leg, number) for every leg of a mask, the number to be set.
-template <class Fill>
-void for_legs(unsigned legs, Vector6& column, Fill fill) {
-  for (int leg = 0; leg < kLegs; ++leg) {
-    if ((legs >> leg) & 1u) column[leg] = fill(leg);
+/// Set column[leg] to value(leg) for every leg of a mask.
+template <class Value>
+void for_legs(unsigned legs, Vector6& column, Value value) {
+  for (unsigned rest = legs; rest != 0u; rest &= rest - 1u) {
+    const int leg = std::countr_zero(rest);
+    column[leg] = value(leg);
   }
 }
 

@@ -265,13 +265,15 @@ INSTANTIATE_TEST_SUITE_P(
 /// Texts that nobody wrote: bytes of the tables changed, dropped, doubled and exchanged, with a correct checksum. The
 /// reader accepts what is still a file, or names what is wrong in one line; it never fails in another way.
 TEST(CompensationFile, NoisyTablesAreReadOrRefusedInOneLine) {
-  const std::string text = compensation_text(with_tables());
+  CompensationData written = data_of(wrong_machine({"leg_length"}, 22));
+  written.tables = all_tables();
+  const std::string text = compensation_text(written);
   const std::size_t begin = text.find("[table.1]"), length = text.find("[left_out]") - begin;
   const std::string alphabet = "0123456789.,-+eE[]= \"\\\n#naif_";
   std::mt19937_64 random(11);
   const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   int accepted = 0;
-  for (int trial = 0; trial < 4000; ++trial) {
+  for (int trial = 0; trial < 2000; ++trial) {
     std::string noisy = text;
     for (std::size_t change = 0; change <= below(4); ++change) {
       const std::size_t at = begin + below(length), span = 1 + below(8);
@@ -304,7 +306,7 @@ TEST(CompensationFile, NoisyTablesAreReadOrRefusedInOneLine) {
     }
   }
   EXPECT_GT(accepted, 100);
-  EXPECT_LT(accepted, 3900);
+  EXPECT_LT(accepted, 1900);
 }
 
 TEST(CompensationFile, AnEffectThatNoControllerKnowsIsRefusedBeforeItIsEvaluated) {
