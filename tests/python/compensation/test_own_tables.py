@@ -53,6 +53,17 @@ def test_few_knots_are_kept() -> None:
     np.testing.assert_allclose(np.interp(at, table.knots, table.values_mm), expected, atol=1.1e-5)
 
 
+def test_a_guideway_shares_its_value() -> None:
+    def dent(samples: Any) -> Any:
+        dip = np.exp(-0.5 * ((samples["sliders_mm"] - 250.0) / 10.0) ** 2)
+        return dip[..., np.newaxis] * np.array([0.0, 0.0, -1.0])
+
+    tables = tables_of(declared(dent, port="slider_joint", elements=3), [0.03, 0.0, -0.01])
+    assert [table.pushes for table in tables] == [[(k, 3 * k + 2, 1.0)] for k in (0, 1, 4, 5)]
+    assert min(tables[0].values_mm) == pytest.approx(-0.03, abs=1e-5)
+    assert max(tables[3].values_mm) == pytest.approx(0.01, abs=1e-5)
+
+
 def test_a_shape_stands_at_its_value() -> None:
     def dent(state: Any, centre: float) -> Any:
         return np.exp(-(((state.sliders_mm - centre) / 20.0) ** 2))

@@ -7,17 +7,22 @@ compensator.
 
 from __future__ import annotations
 
+import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from tests.python.compensation.driven import MACHINE, Table, errors_mm, nominal_table, targets_of
 
-from hexdbb.compensation import make_compensation, read_compensation, write_compensation
+import hexdbb
+from hexdbb.cli.compensate import command
+from hexdbb.compensation import make_compensation, path_targets, read_compensation, write_compensation
 from hexdbb.compensation.tables import halved, learned_tables
 from hexdbb.learned import Hypothesis, Space
-from hexdbb.model import LearnedEffect, Model, Term, new_model, new_term
+from hexdbb.model import LearnedEffect, Model, Term, new_model, new_term, save_model
 
 SIZE_MM = 0.01
 AWAY_MM, AWAY_MM_S = 0.5, 5.0
@@ -167,3 +172,33 @@ def test_a_table_holds_the_whole_function(nominal: Table) -> None:
     at = np.linspace(table.knots[0], table.knots[-1], 1001)
     expected = effect.space.functions(at) @ effect.coefficients(model.terms[-1].values)
     np.testing.assert_allclose(np.interp(at, table.knots, table.values_mm), expected, atol=2e-5)
+
+
+def test_the_command_names_the_tables_and_follows_a_path(tmp_path: Path, nominal: Table) -> None:
+    model = model_of("learned:leg:5:joint_angle", nominal)
+    model = replace(model, terms=(*model.terms, model_of("learned:leg:2:time", nominal).terms[-1]))
+    save_model(model, tmp_path / "model.toml")
+    run = CliRunner(catch_exceptions=False)
+    shown = run.invoke(command, [str(tmp_path / "model.toml"), "-o", str(tmp_path / "a.hexcomp")])
+    assert shown.exit_code == 0
+    lines = shown.output.splitlines()
+    assert "corrected    leg_length, learned:leg:5:joint_angle" in lines
+    assert "left out     learned:leg:2:time: depends on time" in lines
+    (line,) = [each for each in lines if each.startswith("table ")]
+    assert re.fullmatch(
+        r"table        learned:leg:5:joint_angle: leg by slider_joint_angle_rad, \d+ knots, up to [\d.]+ µm", line
+    )
+    (tmp_path / "path.csv").write_text("x_mm,y_mm,z_mm,roll_deg,pitch_deg,yaw_deg\n0,0,285,0,0,0\n1,2,285,0,0,0\n")
+    options = ["--poses", str(tmp_path / "path.csv"), "-o", str(tmp_path / "s.csv"), "--json"]
+    done = run.invoke(command, [str(tmp_path / "a.hexcomp"), *options])
+    (table,) = json.loads(done.output)["tables"]
+    assert (table["port"], table["variable"], table["times"]) == ("leg", "slider_joint_angle_rad", "")
+    written = np.loadtxt(tmp_path / "s.csv", delimiter=",", skiprows=1)
+    expected = path_targets(make_compensation(model), [[0.0, 0.0, 285.0], [1.0, 2.0, 285.0]], np.zeros(3))
+    np.testing.assert_allclose(written, expected.sliders_mm, atol=1e-6)
+
+
+def test_the_package_s_own_function_writes_them(tmp_path: Path, nominal: Table) -> None:
+    data = hexdbb.compensate(model_of("learned:vertical:1:position", nominal), tmp_path / "a.hexcomp")
+    assert data.effects == ["leg_length", "learned:vertical:1:position"]
+    assert read_compensation(tmp_path / "a.hexcomp").tables[0].pushes == data.tables[0].pushes
