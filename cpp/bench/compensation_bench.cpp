@@ -31,6 +31,38 @@ CompensationData machine_with(const std::vector<std::string>& effects) {
   return compensation_of(model, "benchmark", "", {2.0, 0.01}, 20.0);
 }
 
+/// Return what a function learned from readings becomes: `count` knots, some um of a smooth function.
+CompensationTable learned_table(const std::string& port, const std::string& variable, std::vector<TablePush> pushes,
+                                double low, double high, int count) {
+  CompensationTable out{.effect = "learned", .port = port, .variable = variable, .pushes = std::move(pushes)};
+  for (int at = 0; at < count; ++at) {
+    const double part = double(at) / (count - 1);
+    out.knots.push_back(low + (high - low) * part);
+    out.values_mm.push_back(0.01 * std::sin(7.0 * part) + 0.003 * std::cos(23.0 * part));
+  }
+  return out;
+}
+
+/// Return the knots of a function with a step where its variable changes sign: closer about 0.
+CompensationTable with_step(CompensationTable table) {
+  for (int at = -10; at <= 10; ++at) table.knots.push_back(1e-3 * (at + 0.1));
+  std::sort(table.knots.begin(), table.knots.end());
+  table.values_mm.clear();
+  for (const double knot : table.knots) table.values_mm.push_back(0.01 * std::tanh(knot / 3e-3));
+  return table;
+}
+
+const CompensationTable kVertical =
+    learned_table("slider_joint", "sliders_mm", {{0, 2, 1.0}, {1, 5, 1.0}}, 30.0, 840.0, 289);
+const CompensationTable kPosition = learned_table("slider", "sliders_mm", {{3, 3, 1.0}}, 30.0, 840.0, 289);
+const CompensationTable kVelocity = with_step(learned_table("slider", "velocity_mm_s", {{3, 3, 1.0}}, -60, 60, 161));
+const CompensationTable kTurning =
+    with_step(learned_table("leg", "slider_joint_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
+const CompensationTable kJointAngle = learned_table("leg", "slider_joint_angle_rad", {{4, 4, 1.0}}, 0.5, 2.5, 161);
+const CompensationTable kSwing = with_step(learned_table("leg", "swing_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
+const CompensationTable kPlatformAngle = learned_table("leg", "platform_joint_angle_rad", {{4, 4, 1.0}}, 0.5, 2.5, 161);
+const CompensationTable kForce = learned_table("leg", "leg_force", {{2, 2, 1.0}}, -1.0, 0.5, 161);
+
 struct Path {
   std::vector<Pose> pose;
   std::vector<Direction> direction;
@@ -89,6 +121,32 @@ void sliders(benchmark::State& state, const std::vector<std::string>& effects) {
   state.counters["iterations_needed"] = iterations;
 }
 
+/// The same pose with and without one table, call by call in turn: what the table adds, whatever else the processor does.
+void table(benchmark::State& state, const std::vector<std::string>& effects, const CompensationTable& added) {
+  CompensationData data = machine_with(effects);
+  Compensator without(data);
+  data.tables = {added};
+  Compensator with(data);
+  const Path path = circle();
+  std::vector<double> times_without, times_with;
+  std::size_t at = 0;
+  const auto timed = [&](Compensator& compensator, std::vector<double>& times) {
+    const double begin = now_ns();
+    const SliderTargets targets = compensator.sliders(path.pose[at], path.direction[at]);
+    times.push_back(now_ns() - begin);
+    if (targets.status != Status::kOk) state.SkipWithError(status_name(targets.status));
+  };
+  for (auto _ : state) {
+    const bool is_even = at % 2 == 0;
+    timed(is_even ? without : with, is_even ? times_without : times_with);
+    timed(is_even ? with : without, is_even ? times_with : times_without);
+    state.SetIterationTime(1e-9 * times_with.back());
+    at = (at + 1) % path.pose.size();
+  }
+  state.counters["without_ns"] = part(times_without, 0.5);
+  state.counters["with_ns"] = part(times_with, 0.5);
+}
+
 void pose(benchmark::State& state, const std::vector<std::string>& effects) {
   Compensator compensator(machine_with(effects));
   const Path path = circle();
@@ -119,6 +177,16 @@ BENCHMARK_CAPTURE(sliders, pitch, geometry_and({"pitch_cyclic"}))->UseManualTime
 BENCHMARK_CAPTURE(sliders, sag, geometry_and({"gravity_sag"}))->UseManualTime();
 BENCHMARK_CAPTURE(sliders, usual, geometry_and(kUsual))->UseManualTime();
 BENCHMARK_CAPTURE(sliders, all, geometry_and(kAll))->UseManualTime();
+BENCHMARK_CAPTURE(table, vertical, geometry_and({"backlash"}), kVertical)->UseManualTime();
+BENCHMARK_CAPTURE(table, position, geometry_and({"backlash"}), kPosition)->UseManualTime();
+BENCHMARK_CAPTURE(table, velocity, geometry_and({"backlash"}), kVelocity)->UseManualTime();
+BENCHMARK_CAPTURE(table, turning, geometry_and({"backlash"}), kTurning)->UseManualTime();
+BENCHMARK_CAPTURE(table, joint_angle, geometry_and({"backlash"}), kJointAngle)->UseManualTime();
+BENCHMARK_CAPTURE(table, swing, geometry_and({"backlash"}), kSwing)->UseManualTime();
+BENCHMARK_CAPTURE(table, platform_angle, geometry_and({"backlash"}), kPlatformAngle)->UseManualTime();
+BENCHMARK_CAPTURE(table, force, geometry_and({"backlash"}), kForce)->UseManualTime();
+BENCHMARK_CAPTURE(table, usual_turning, geometry_and(kUsual), kTurning)->UseManualTime();
+BENCHMARK_CAPTURE(table, usual_vertical, geometry_and(kUsual), kVertical)->UseManualTime();
 BENCHMARK_CAPTURE(pose, geometry, geometry_and({}));
 BENCHMARK_CAPTURE(pose, usual, geometry_and(kUsual));
 BENCHMARK_CAPTURE(pose, all, geometry_and(kAll));

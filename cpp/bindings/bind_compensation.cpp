@@ -62,11 +62,64 @@ py::tuple poses_of(Compensator& compensator, const Rows6& sliders_mm) {
   return py::make_tuple(pose, status);
 }
 
+using PushTuple = std::tuple<int, int, double>;  // element, column within the port, weight
+
+CompensationTable table_of(const std::string& effect, const std::string& port, const std::string& variable,
+                           const std::string& times, double period, const std::vector<PushTuple>& pushes,
+                           const std::vector<double>& knots, const std::vector<double>& values_mm) {
+  CompensationTable out{effect, port, variable, times, period, {}, knots, values_mm};
+  for (const auto& [element, column, weight] : pushes) out.pushes.push_back({element, column, weight});
+  return out;
+}
+
+void bind_table(py::module_& module) {
+  py::class_<CompensationTable>(module, "CompensationTable",
+                                "A function in compensation data; see compensation_tables.hpp.")
+      .def(py::init(&table_of), py::kw_only(), py::arg("effect"), py::arg("port"), py::arg("variable"),
+           py::arg("times"), py::arg("period"), py::arg("pushes"), py::arg("knots"), py::arg("values_mm"),
+           "Make a table.\n\n"
+           "Parameters\n----------\neffect : str\nport : str\nvariable, times : str\n"
+           "    Columns of the samples' state; empty where there is none.\nperiod : float\n"
+           "pushes : sequence of (element, column, weight)\n    Element and column of the port from 0.\n"
+           "knots, values_mm : sequence of float")
+      .def_readonly("effect", &CompensationTable::effect)
+      .def_readonly("port", &CompensationTable::port)
+      .def_readonly("variable", &CompensationTable::variable)
+      .def_readonly("times", &CompensationTable::times)
+      .def_readonly("period", &CompensationTable::period)
+      .def_property_readonly(
+          "pushes",
+          [](const CompensationTable& table) {
+            std::vector<PushTuple> out;
+            for (const TablePush& each : table.pushes) out.emplace_back(each.element, each.column, each.weight);
+            return out;
+          },
+          "Element and column of the port, both from 0, and weight.")
+      .def_readonly("knots", &CompensationTable::knots)
+      .def_readonly("values_mm", &CompensationTable::values_mm);
+  std::vector<std::string> variables;
+  for (const TableVariableInfo& each : kTableVariables) {
+    if (each.variable != TableVariable::kNone) variables.emplace_back(each.column);
+  }
+  module.attr("TABLE_VARIABLES") = py::tuple(py::cast(variables));
+}
+
+/// Return the names of the effects that data correct, those of tables last, each once.
+std::vector<std::string> corrected(const CompensationData& data) {
+  std::vector<std::string> out;
+  for (const CompensatedEffect& each : data.effects) out.push_back(each.name);
+  for (const CompensationTable& each : data.tables) {
+    if (std::find(out.begin(), out.end(), each.effect) == out.end()) out.push_back(each.effect);
+  }
+  return out;
+}
+
 }  // namespace
 
 void bind_compensation(py::module_& module) {
   py::register_exception<CompensationError>(module, "CompensationError", PyExc_ValueError);
 
+  bind_table(module);
   py::class_<CompensationData>(module, "CompensationData",
                                "Compensation data that a controller loads; see compensation_file.hpp.")
       .def_readonly("name", &CompensationData::name)
@@ -76,14 +129,8 @@ void bind_compensation(py::module_& module) {
       .def_property_readonly("max_correction_mm", [](const CompensationData& d) { return d.limits.max_correction_mm; })
       .def_property_readonly("reversal_travel_mm",
                              [](const CompensationData& d) { return d.limits.reversal_travel_mm; })
-      .def_property_readonly(
-          "effects",
-          [](const CompensationData& data) {
-            std::vector<std::string> names;
-            for (const CompensatedEffect& each : data.effects) names.push_back(each.name);
-            return names;
-          },
-          "Names of the effects that are corrected.")
+      .def_property_readonly("effects", &corrected, "Names of the effects that are corrected.")
+      .def_readonly("tables", &CompensationData::tables, "Functions of learned and users' effects.")
       .def_property_readonly(
           "left_out",
           [](const CompensationData& data) {
@@ -98,22 +145,23 @@ void bind_compensation(py::module_& module) {
   module.def(
       "compensation_of",
       [](const Model& model, const std::string& name, const std::string& model_sha256, double max_correction_mm,
-         double reversal_travel_mm, double reference_temperature_c, const std::vector<std::string>& unknown) {
+         double reversal_travel_mm, double reference_temperature_c, const std::vector<CompensationTable>& tables,
+         const std::vector<std::pair<std::string, std::string>>& left_out) {
         CompensationData data = compensation_of(model, name, model_sha256, {max_correction_mm, reversal_travel_mm},
-                                                reference_temperature_c);
-        for (const std::string& each : unknown) {
-          data.left_out.push_back({each, "is defined outside the engine"});
-        }
+                                                reference_temperature_c, tables);
+        for (const auto& [effect, reason] : left_out) data.left_out.push_back({effect, reason});
         return data;
       },
       py::arg("model"), py::kw_only(), py::arg("name"), py::arg("model_sha256"), py::arg("max_correction_mm"),
       py::arg("reversal_travel_mm"), py::arg("reference_temperature_c"),
-      py::arg("unknown") = std::vector<std::string>(),
+      py::arg("tables") = std::vector<CompensationTable>(),
+      py::arg("left_out") = std::vector<std::pair<std::string, std::string>>(),
       "Select the effects of a model that a controller can correct, and state why the others are left out.\n\n"
       "Parameters\n----------\nmodel : Model\nname : str\n    Of the machine.\n"
       "model_sha256 : str\n    Of the model file.\nmax_correction_mm, reversal_travel_mm : float\n"
       "reference_temperature_c : float\n    Temperature at which no growth is corrected; nan where not known.\n"
-      "unknown : sequence of str, optional\n    Effects of the model that the engine does not have.");
+      "tables : sequence of CompensationTable, optional\n    Of effects that the engine does not have.\n"
+      "left_out : sequence of (str, str), optional\n    Effects without a table, each with the reason.");
   module.def("read_compensation", &read_compensation, py::arg("path"),
              "Read a compensation file. CompensationError where it is refused, with the reason.");
   module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),

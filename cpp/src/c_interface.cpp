@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <new>
 
@@ -36,7 +37,8 @@ constexpr StatusText kTexts[] = {
     {HEXDBB_ALTERED, "altered", "the compensation file's checksum does not match its content"},
     {HEXDBB_LATER_VERSION, "later_version", "the compensation file is of a later version"},
     {HEXDBB_OTHER_MACHINE, "other_machine", "the compensation is of another machine"},
-    {HEXDBB_UNKNOWN_EFFECT, "unknown_effect", "an effect that this version does not know or cannot correct"},
+    {HEXDBB_UNKNOWN_EFFECT, "unknown_effect",
+     "an effect, port or variable that this version does not know or cannot correct"},
     {HEXDBB_BAD_ARGUMENT, "bad_argument", "a null pointer, an unknown struct_size or an impossible machine"},
     {HEXDBB_OUT_OF_MEMORY, "out_of_memory", "out of memory"},
 };
@@ -52,6 +54,35 @@ const StatusText& text_of(hexdbb_status status) {
 template <class Struct>
 bool is_known(const Struct* given) {
   return given != nullptr && given->struct_size == sizeof(Struct);
+}
+
+constexpr size_t kConstantsWithoutTables = offsetof(hexdbb_constants, table_count);
+
+/// Constants have grown once.
+bool is_known(const hexdbb_constants* given) {
+  return given != nullptr &&
+         (given->struct_size == sizeof(hexdbb_constants) || given->struct_size == kConstantsWithoutTables);
+}
+
+bool has_pointers(const hexdbb_table& t) {
+  return t.effect != nullptr && t.port != nullptr && t.variable != nullptr && t.times != nullptr &&
+         (t.push_count == 0 || (t.elements != nullptr && t.columns != nullptr && t.weights != nullptr)) &&
+         (t.knot_count == 0 || (t.knots != nullptr && t.values_mm != nullptr));
+}
+
+/// Return the tables of constants and their number.
+const hexdbb_table* tables_of(const hexdbb_constants& constants, uint32_t& count) {
+  const bool has_tables = constants.struct_size == sizeof(hexdbb_constants);
+  count = has_tables ? constants.table_count : 0;
+  return has_tables ? constants.tables : nullptr;
+}
+
+bool is_complete(const hexdbb_constants& constants) {
+  uint32_t count = 0;
+  const hexdbb_table* tables = tables_of(constants, count);
+  if (constants.values == nullptr && constants.value_count > 0) return false;
+  if (tables == nullptr) return count == 0;
+  return std::all_of(tables, tables + count, has_pointers);
 }
 
 Machine to_machine(const hexdbb_dimensions& d) {
@@ -97,6 +128,17 @@ hexdbb_status create(Data data, const char* source, const hexdbb_dimensions* mac
   }
 }
 
+hexdbb::CompensationTable to_table(const hexdbb_table& given) {
+  hexdbb::CompensationTable out{given.effect, given.port, given.variable, given.times, given.period, {}, {}, {}};
+  for (uint32_t at = 0; at < given.push_count; ++at) {
+    const auto from_zero = [](int32_t number) { return number > 0 ? number - 1 : -1; };
+    out.pushes.push_back({from_zero(given.elements[at]), from_zero(given.columns[at]), given.weights[at]});
+  }
+  out.knots.assign(given.knots, given.knots + given.knot_count);
+  out.values_mm.assign(given.values_mm, given.values_mm + given.knot_count);
+  return out;
+}
+
 /// Convert constants, in which the values of one effect are consecutive.
 hexdbb::CompensationData from_constants(const hexdbb_constants& constants) {
   hexdbb::CompensationData out;
@@ -108,6 +150,9 @@ hexdbb::CompensationData from_constants(const hexdbb_constants& constants) {
     if (out.effects.empty() || out.effects.back().name != value.effect) out.effects.push_back({value.effect, {}});
     out.effects.back().values.push_back({value.element, value.parameter, value.value});
   }
+  uint32_t count = 0;
+  const hexdbb_table* tables = tables_of(constants, count);
+  for (uint32_t at = 0; at < count; ++at) out.tables.push_back(to_table(tables[at]));
   return out;
 }
 
@@ -160,7 +205,7 @@ hexdbb_status hexdbb_create_from_memory(const char* text, size_t length, const h
 hexdbb_status hexdbb_create_from_constants(const hexdbb_constants* constants, const hexdbb_dimensions* machine,
                                            hexdbb_compensator** out, char* message, size_t message_size) noexcept {
   if (!is_known(constants) || !is_known(&constants->machine)) return HEXDBB_BAD_ARGUMENT;
-  if (constants->values == nullptr && constants->value_count > 0) return HEXDBB_BAD_ARGUMENT;
+  if (!is_complete(*constants)) return HEXDBB_BAD_ARGUMENT;
   return create([constants] { return from_constants(*constants); }, "compensation constants", machine, out, message,
                 message_size);
 }

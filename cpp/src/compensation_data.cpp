@@ -11,6 +11,8 @@ namespace {
 
 using Reason = std::string;  // empty: none
 
+constexpr const char* kNoReference = "needs the temperature of the record's first sample, which was not stated";
+
 /// Return whether a controller knows a column of the state at the present moment.
 bool is_known_to_controllers(const std::string& column) {
   static const std::vector<std::string> known = {"travel_direction", "since_reversal_mm", "velocity_mm_s", "leg_force",
@@ -20,6 +22,37 @@ bool is_known_to_controllers(const std::string& column) {
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Return why a function of a column of the state cannot be compensated.
+Reason why_not(const std::string& column, double reference_temperature_c) {
+  if (column == "time_s" || column == "elapsed") return "depends on time";
+  if (find_table_variable(column) == nullptr) return "depends on " + column + ", which is not known to a controller";
+  if (column == "warming_k" && std::isnan(reference_temperature_c)) return kNoReference;
+  return {};
+}
+
+/// Return why a table cannot be compensated.
+Reason why_not(const CompensationTable& table, double reference_temperature_c) {
+  if (find_compensated_port(table.port) == nullptr) return "pushes the " + table.port + ", not the machine";
+  const Reason reason = why_not(table.variable, reference_temperature_c);
+  return reason.empty() ? why_not(table.times, reference_temperature_c) : reason;
+}
+
+/// Sort tables into those that are compensated, effect by effect, and effects that are left out.
+void take_tables(const std::vector<CompensationTable>& tables, CompensationData& out) {
+  for (const CompensationTable& table : tables) {
+    const Reason reason = why_not(table, out.reference_temperature_c);
+    const auto is_same = [&](const LeftOut& each) { return each.effect == table.effect; };
+    const bool is_left_out = std::any_of(out.left_out.begin(), out.left_out.end(), is_same);
+    if (!reason.empty() && !is_left_out) out.left_out.push_back({table.effect, reason});
+    if (reason.empty() && !is_left_out) out.tables.push_back(table);
+  }
+  const auto is_gone = [&](const CompensationTable& table) {
+    return std::any_of(out.left_out.begin(), out.left_out.end(),
+                       [&](const LeftOut& each) { return each.effect == table.effect; });
+  };
+  out.tables.erase(std::remove_if(out.tables.begin(), out.tables.end(), is_gone), out.tables.end());
 }
 
 /// Return why an effect cannot be compensated.
@@ -35,7 +68,7 @@ Reason why_not(const EffectInfo& info, double reference_temperature_c) {
   const bool has_temperature = has(info.needs, "warming_k") || has(info.needs, "temperature_c");
   if (has(info.needs, "time_s") && !has_temperature) return "depends on time";
   if (has(info.needs, "warming_k") && std::isnan(reference_temperature_c)) {
-    return "needs the temperature of the record's first sample, which was not stated";
+    return kNoReference;
   }
   return {};
 }
@@ -103,7 +136,8 @@ bool is_possible(const Machine& machine) noexcept {
 }
 
 CompensationData compensation_of(const Model& model, const std::string& name, const std::string& model_sha256,
-                                 const CompensationLimits& limits, double reference_temperature_c) {
+                                 const CompensationLimits& limits, double reference_temperature_c,
+                                 const std::vector<CompensationTable>& tables) {
   CompensationData out;
   out.name = name;
   out.model_sha256 = model_sha256;
@@ -120,6 +154,7 @@ CompensationData compensation_of(const Model& model, const std::string& name, co
     out.effects.push_back(named_values(term));
     if (has(info.needs, "time_s")) out.left_out.push_back({info.name, "the part of it that depends on time alone"});
   }
+  take_tables(tables, out);
   return out;
 }
 
@@ -152,6 +187,7 @@ Model compensation_model(const CompensationData& data, const std::string& source
     if (info.is_set_up) refuse(CompensationFault::kUnknownEffect, where + ": belongs to the measurement");
     out.terms.back().values = ordered_values(info, given, where);
   }
+  require_tables(data.tables, source);
   return out;
 }
 

@@ -11,7 +11,13 @@
 namespace hexdbb::layout {
 
 inline const std::string kSchema = "hexdbb.compensation/";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
+
+/// Return the version that these data are written as.
+inline int version_of(const CompensationData& data) { return data.tables.empty() ? 1 : 2; }
+
+/// Return the section of a table, counted from 0 here and from 1 in the file.
+inline std::string table_section(std::size_t table) { return "table." + std::to_string(table + 1); }
 
 struct Dimension {
   const char* name;
@@ -41,6 +47,36 @@ inline std::string number(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);
+}
+
+/// Quote a string for TOML and C, control characters as spaces.
+inline std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char each : text) {
+    if (each == '"' || each == '\\') out += '\\';
+    out += static_cast<unsigned char>(each) < 0x20 || each == 0x7f ? ' ' : each;
+  }
+  return out + "\"";
+}
+
+/// Join what `text` makes of each of `count` numbers as "[1, 2]", the brackets given.
+template <class Text>
+std::string list(std::size_t count, Text text, const char* open, const char* close) {
+  std::string out = open;
+  for (std::size_t at = 0; at < count; ++at) out += (at == 0 ? "" : ", ") + text(at);
+  return out + close;
+}
+
+/// Call write(key, list as text) for each list of numbers of a table; elements and columns count from 1 in files.
+template <class Write>
+void for_each_list(const CompensationTable& table, const char* open, const char* close, Write write) {
+  const std::vector<TablePush>& pushes = table.pushes;
+  const auto text = [&](std::size_t count, auto each) { return list(count, each, open, close); };
+  write("elements", text(pushes.size(), [&](std::size_t at) { return std::to_string(pushes[at].element + 1); }));
+  write("columns", text(pushes.size(), [&](std::size_t at) { return std::to_string(pushes[at].column + 1); }));
+  write("weights", text(pushes.size(), [&](std::size_t at) { return number(pushes[at].weight); }));
+  write("knots", text(table.knots.size(), [&](std::size_t at) { return number(table.knots[at]); }));
+  write("values_mm", text(table.values_mm.size(), [&](std::size_t at) { return number(table.values_mm[at]); }));
 }
 
 /// Return the last section: the checksum of everything above it.

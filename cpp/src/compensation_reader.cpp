@@ -34,6 +34,7 @@ class Reader {
     }
     for (const layout::Limit& each : layout::kLimits) out.limits.*each.member = positive(take("limits", each.name));
     take("check", "crc32");
+    for (std::size_t at = 0; has_section(layout::table_section(at)); ++at) out.tables.push_back(take_table(at));
     for (const Entry& entry : entries_) take_effect(entry, out);
     return out;
   }
@@ -47,7 +48,7 @@ class Reader {
                                               entry.value + " (expected " + expected + ")");
   }
 
-  void check_version(const std::string& text) const {
+  void check_version(const std::string& text) {
     const std::string start = "schema = \"" + layout::kSchema;
     if (text.size() < start.size() && start.compare(0, text.size(), text) == 0) {
       refuse(CompensationFault::kTruncated, "truncated: it ends in its first line");
@@ -55,15 +56,14 @@ class Reader {
     if (text.compare(0, start.size(), start) != 0) {
       refuse(CompensationFault::kMalformed, "not a compensation file (expected " + start + "1\" first)");
     }
-    int version = 0;
     const char* end = text.data() + text.size();
-    const auto parsed = std::from_chars(text.data() + start.size(), end, version);
+    const auto parsed = std::from_chars(text.data() + start.size(), end, version_);
     if (parsed.ptr == end) refuse(CompensationFault::kTruncated, "truncated: it ends in its first line");
-    if (parsed.ec != std::errc() || *parsed.ptr != '"' || version < 1) {
+    if (parsed.ec != std::errc() || *parsed.ptr != '"' || version_ < 1) {
       refuse(CompensationFault::kMalformed, "schema: no version (expected " + start + "1\")");
     }
-    if (version > layout::kVersion) {
-      refuse(CompensationFault::kLaterVersion, "of a later version: " + layout::kSchema + std::to_string(version) +
+    if (version_ > layout::kVersion) {
+      refuse(CompensationFault::kLaterVersion, "of a later version: " + layout::kSchema + std::to_string(version_) +
                                                    " (expected at most " + std::to_string(layout::kVersion) + ")");
     }
   }
@@ -85,7 +85,7 @@ class Reader {
     std::string line, section;
     for (int number = 1; std::getline(lines, line); ++number) {
       if (line.empty() || line[0] == '#') continue;
-      const std::size_t equals = line.find(" = ");
+      const std::size_t equals = line.find(" = ", line.front() == '"' ? end_of_string(line) : 0);
       if (line.front() == '[' && line.back() == ']') {
         section = line.substr(1, line.size() - 2);
       } else if (equals == std::string::npos) {
@@ -118,10 +118,42 @@ class Reader {
     return out;
   }
 
+  bool has_section(const std::string& section) const {
+    return version_ > 1 &&
+           std::any_of(entries_.begin(), entries_.end(), [&](const Entry& each) { return each.section == section; });
+  }
+
+  CompensationTable take_table(std::size_t at) {
+    const std::string section = layout::table_section(at);
+    CompensationTable out;
+    out.effect = string(take(section, "effect"));
+    out.port = string(take(section, "port"));
+    out.variable = string(take(section, "variable"));
+    out.times = string(take(section, "times"));
+    out.period = number(take(section, "period"));
+    const Entry elements = take(section, "elements");
+    const std::vector<int> element = numbers<int>(elements);
+    const std::vector<int> column = numbers<int>(take(section, "columns"));
+    const std::vector<double> weight = numbers<double>(take(section, "weights"));
+    out.knots = numbers<double>(take(section, "knots"));
+    out.values_mm = numbers<double>(take(section, "values_mm"));
+    if (column.size() != element.size() || weight.size() != element.size()) {
+      malformed(elements, "as many elements as columns and weights");
+    }
+    // A number that is out of range stays so, also the smallest that an int can be.
+    const auto from_zero = [](int number) { return number > 0 ? number - 1 : -1; };
+    for (std::size_t push = 0; push < element.size(); ++push) {
+      out.pushes.push_back({from_zero(element[push]), from_zero(column[push]), weight[push]});
+    }
+    return out;
+  }
+
   void take_effect(const Entry& entry, CompensationData& out) const {
     constexpr const char* kPrefix = "effect.";
     if (entry.section == "left_out") {
-      out.left_out.push_back({entry.key, string(entry)});
+      const bool is_quoted = entry.key.compare(0, 1, "\"") == 0;
+      out.left_out.push_back(
+          {is_quoted ? string(Entry{"", "left_out", entry.key, entry.line}) : entry.key, string(entry)});
       return;
     }
     const std::size_t dot = entry.key.find('.');
@@ -137,6 +169,37 @@ class Reader {
     const auto parsed = std::from_chars(entry.value.data(), end, out);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(out)) malformed(entry, "a finite number");
     return out;
+  }
+
+  /// Parse "[1, 2]"; that numbers are finite is checked with the table.
+  template <class Number>
+  std::vector<Number> numbers(const Entry& entry) const {
+    const std::string& text = entry.value;
+    if (text.size() < 2 || text.front() != '[' || text.back() != ']') unreadable(entry);
+    const char *at = text.data() + 1, *const end = text.data() + text.size() - 1;
+    std::vector<Number> out;
+    while (at != end) {
+      if (!out.empty() && (end - at < 2 || *at++ != ',' || *at++ != ' ')) unreadable(entry);
+      Number value{};
+      const auto parsed = std::from_chars(at, end, value);
+      if (parsed.ec != std::errc()) unreadable(entry);
+      out.push_back(value);
+      at = parsed.ptr;
+    }
+    return out;
+  }
+
+  /// A list may be long: only its section and key are named.
+  [[noreturn]] void unreadable(const Entry& entry) const {
+    refuse(CompensationFault::kMalformed, "line " + std::to_string(entry.line) + ": " + entry.section + ": " +
+                                              entry.key + " (expected a list of numbers)");
+  }
+
+  /// Return the place of the quote that ends the string with which a line begins; the line's length where none does.
+  static std::size_t end_of_string(const std::string& line) {
+    std::size_t at = 1;
+    while (at < line.size() && line[at] != '"') at += line[at] == '\\' ? 2 : 1;
+    return std::min(at, line.size());
   }
 
   double positive(const Entry& entry) const {
@@ -157,6 +220,7 @@ class Reader {
   }
 
   std::string source_;
+  int version_ = 0;
   std::vector<Entry> entries_;
 };
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "compensation_layout.hpp"
@@ -5,16 +7,6 @@
 namespace hexdbb {
 
 namespace {
-
-/// Quote a string for TOML and C, control characters as spaces.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char each : text) {
-    if (each == '"' || each == '\\') out += '\\';
-    out += static_cast<unsigned char>(each) < 0x20 || each == 0x7f ? ' ' : each;
-  }
-  return out + "\"";
-}
 
 std::string line(const std::string& key, const std::string& value) { return key + " = " + value + "\n"; }
 
@@ -28,12 +20,28 @@ std::string unit_comment(const Machine& machine, const std::string& effect) {
   return out + "\n";
 }
 
+/// Return a key as it is where TOML allows it bare, otherwise in quotes.
+std::string key(const std::string& name) {
+  const bool is_bare = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char each) {
+    return std::isalnum(each) != 0 || each == '_' || each == '-';
+  });
+  return is_bare ? name : layout::quoted(name);
+}
+
+std::string table_lines(const CompensationTable& table) {
+  std::string out = line("effect", layout::quoted(table.effect)) + line("port", layout::quoted(table.port)) +
+                    line("variable", layout::quoted(table.variable)) + line("times", layout::quoted(table.times)) +
+                    line("period", layout::number(table.period));
+  layout::for_each_list(table, "[", "]", [&](const char* name, const std::string& text) { out += line(name, text); });
+  return out;
+}
+
 std::string without_check(const CompensationData& data) {
-  std::string out = line("schema", quoted(layout::kSchema + std::to_string(layout::kVersion)));
+  std::string out = line("schema", layout::quoted(layout::kSchema + std::to_string(layout::version_of(data))));
   out +=
       "# Compensation for a motion controller, written by hexdbb compensate. Do not edit: the last line sums it up.\n";
-  out += line("machine", quoted(data.name));
-  out += line("model_sha256", quoted(data.model_sha256));
+  out += line("machine", layout::quoted(data.name));
+  out += line("model_sha256", layout::quoted(data.model_sha256));
   if (std::isfinite(data.reference_temperature_c)) {
     out += line("reference_temperature_c", layout::number(data.reference_temperature_c));
   }
@@ -49,8 +57,11 @@ std::string without_check(const CompensationData& data) {
       out += line(value.element + "." + value.parameter, layout::number(value.value));
     }
   }
+  for (std::size_t at = 0; at < data.tables.size(); ++at) {
+    out += "\n[" + layout::table_section(at) + "]\n" + table_lines(data.tables[at]);
+  }
   out += "\n[left_out]\n";
-  for (const LeftOut& each : data.left_out) out += line(each.effect, quoted(each.reason));
+  for (const LeftOut& each : data.left_out) out += line(key(each.effect), layout::quoted(each.reason));
   return out + "\n";
 }
 
@@ -69,36 +80,6 @@ std::string compensation_text(const CompensationData& data) {
   compensation_model(data, "compensation data");  // throws where the file could not be read again
   const std::string above = without_check(data);
   return above + layout::check_section(above);
-}
-
-std::string compensation_header(const CompensationData& data) {
-  compensation_model(data, "compensation data");
-  std::string out =
-      "/* Compensation of " + quoted(data.name) + ", written by hexdbb compensate: mm, rad, s, N, K.\n" + " * Model " +
-      data.model_sha256 + ". Use: hexdbb_create_from_constants(&hexdbb_compensation, ...). */\n" +
-      "#ifndef HEXDBB_COMPENSATION_CONSTANTS_H\n#define HEXDBB_COMPENSATION_CONSTANTS_H\n\n" +
-      "#include <hexdbb/hexdbb.h>\n#include <math.h>\n\nstatic const hexdbb_value hexdbb_compensation_values[] = {\n";
-  std::size_t count = 0;
-  for (const CompensatedEffect& effect : data.effects) {
-    for (const CompensationValue& value : effect.values) {
-      out += "    {" + quoted(effect.name) + ", " + quoted(value.element) + ", " + quoted(value.parameter) + ", " +
-             layout::number(value.value) + "},\n";
-      ++count;
-    }
-  }
-  if (count == 0) out += "    {0, 0, 0, 0.0} /* none: the nominal machine */\n";
-  out += "};\n\nstatic const hexdbb_constants hexdbb_compensation = {\n    sizeof(hexdbb_constants),\n    " +
-         std::to_string(count) + ", /* values */\n    {sizeof(hexdbb_dimensions), 0,\n";
-  for (const layout::Dimension& each : layout::kDimensions) {
-    const bool is_last = &each == &layout::kDimensions.back();
-    out += "     " + layout::number(data.machine.*each.member) + (is_last ? "}," : ",") + " /* " + each.name + " */\n";
-  }
-  for (const layout::Limit& each : layout::kLimits) {
-    out += "    " + layout::number(data.limits.*each.member) + ", /* " + each.name + " */\n";
-  }
-  out += "    " + (std::isfinite(data.reference_temperature_c) ? layout::number(data.reference_temperature_c) : "NAN") +
-         ", /* reference_temperature_c */\n    hexdbb_compensation_values,\n};\n\n#endif\n";
-  return out;
 }
 
 }  // namespace hexdbb

@@ -30,31 +30,41 @@ bool needs(const Effect& effect, const std::string& column) {
   return std::find(all.begin(), all.end(), column) != all.end();
 }
 
+/// Return whether a table depends on the platform's pose beyond the sliders.
+bool needs_platform(const TableSet& tables) {
+  using Variable = TableVariable;
+  return (tables.legs(Variable::kPlatformJointAngle) | tables.legs(Variable::kPlatformJointRate) |
+          tables.legs(Variable::kSwingAngle) | tables.legs(Variable::kSwingRate)) != 0u;
+}
+
 double largest(const Vector6& v) { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-Compensator::Compensator(const Machine& machine) : model_(machine), polynomials_(machine) { prepare(); }
+Compensator::Compensator(const Machine& machine) : model_(machine), polynomials_(machine), now_(one_row()) {
+  prepare();
+}
 
 Compensator::Compensator(const CompensationData& data, const std::string& source)
     : model_(compensation_model(data, source)),
       polynomials_(data.machine),
+      tables_(data.tables),
       limits_(data.limits),
-      reference_temperature_c_(data.reference_temperature_c) {
-  prepare();
+      reference_temperature_c_(data.reference_temperature_c),
+      now_(one_row()) {
   try {
     for (const Term& term : model_.terms) term.effect->require(now_);
   } catch (const std::invalid_argument& error) {
     throw CompensationError(CompensationFault::kUnknownEffect,
                             source + ": " + error.what() + " (expected effects that a controller can correct)");
   }
+  prepare();
 }
 
 void Compensator::prepare() {
   direction_per_mm_ = 2.0 / limits_.reversal_travel_mm;
-  now_ = one_row();
   nominal_triangle_ = PlatformTriangle(shared_joints(assemble(model_.nominal, Vector6::Zero(), Ports())));
-  has_effects_ = !model_.terms.empty();
+  has_effects_ = !model_.terms.empty() || !tables_.empty();
   const std::vector<Term> all = std::move(model_.terms);
   model_.terms.clear();
   for (const Term& term : all) {
@@ -62,72 +72,23 @@ void Compensator::prepare() {
     needs_leg_force_ = needs_leg_force_ || needs(*term.effect, "leg_force");
     if (needs(*term.effect, "temperature_c") || !polynomials_.fold(term)) model_.terms.push_back(term);
   }
+  contraction_ += kLever * tables_.steepest();
+  bend_ = kLever * tables_.sharpest();
+  needs_leg_force_ = needs_leg_force_ || tables_.legs(TableVariable::kLegForce) != 0u;
+  needs_pose_ = needs_leg_force_ || needs_platform(tables_);
   reset();
 }
 
 void Compensator::reset() noexcept {
   travel_direction_.setZero();
+  joint_direction_.setZero();
   followed_mm_.setConstant(kUnknown);
   checked_mm_.setConstant(kUnknown);
   last_correction_mm_.setZero();
+  correction_step_mm_.setZero();
+  has_last_ = false;
   angles_ = nominal_angles_ = RssrAngles();
   last_pose_ = home_pose(model_.nominal);
-}
-
-/// Update the directions of travel by the play operator of the commanded travel (see the header). Return false, and
-/// change nothing, for a pose that is only checked.
-bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) noexcept {
-  const Vector6& velocity_mm_s = direction.velocity_mm_s;
-  if (velocity_mm_s.isZero(0.0) && largest(nominal_mm - followed_mm_) > kFollow_mm) {
-    const bool is_near_checked = largest(nominal_mm - checked_mm_) <= kFollow_mm;
-    if (!is_near_checked) {
-      checked_mm_ = nominal_mm;
-      return false;
-    }
-    followed_mm_ = checked_mm_;
-  }
-  checked_mm_.setConstant(kUnknown);
-  if (std::isnan(followed_mm_[0])) {  // a slider that moves at the first call is assumed to have moved so before
-    for (int k = 0; k < kLegs; ++k)
-      travel_direction_[k] = velocity_mm_s[k] == 0.0 ? 0.0 : std::copysign(1.0, velocity_mm_s[k]);
-  } else {
-    for (int k = 0; k < kLegs; ++k) {
-      const double travel = nominal_mm[k] - followed_mm_[k];
-      const double towards = velocity_mm_s[k] == 0.0 ? travel : std::copysign(travel, velocity_mm_s[k]);
-      travel_direction_[k] = std::clamp(travel_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
-    }
-  }
-  travel_direction_ = direction.travel_direction.array().isNaN().select(travel_direction_, direction.travel_direction);
-  followed_mm_ = nominal_mm;
-  return true;
-}
-
-void Compensator::set_state(const Direction& direction, const Vector6& travel_direction,
-                            const Vector6& leg_force) noexcept {
-  const double warming_k = direction.temperature_c - reference_temperature_c_;
-  polynomials_.settle(
-      {direction.velocity_mm_s, travel_direction, leg_force, std::isfinite(warming_k) ? warming_k : 0.0});
-  if (model_.terms.empty()) return;
-  State& state = now_.state;
-  state.velocity_mm_s.row(0) = direction.velocity_mm_s.transpose();
-  state.travel_direction.row(0) = travel_direction.transpose();
-  state.leg_force.row(0) = leg_force.transpose();
-  state.temperature_c[0] = direction.temperature_c;
-  state.warming_k[0] = warming_k;
-}
-
-/// Compute the static equilibrium of the nominal machine: forces in the legs under a newton of load at the reference
-/// point, tension positive.
-Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept {
-  const NominalGeometry& nominal = model_.nominal;
-  const Mechanism mechanism = assemble(nominal, nominal_mm, none_);
-  const rssr::LegForces<double> carried =
-      rssr::leg_forces(rssr::joints_of(mechanism.slider_joint, nominal_triangle_), rssr::frame_of(nominal_triangle_),
-                       rssr::placed(pose), rssr::vec(Vector3::Zero()), rssr::vec(Vector3::UnitZ()));
-  const bool is_held = carried.determinant * carried.determinant > 1e-18 * carried.scale;
-  Vector6 out;
-  for (int k = 0; k < kLegs; ++k) out[k] = is_held ? -carried.share[k] * nominal.machine.leg_length_mm : 0.0;
-  return out;
 }
 
 const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
@@ -138,15 +99,16 @@ const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
         push_.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
     for (const Term& term : model_.terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
   }
+  if (!tables_.empty()) tables_.add(sliders_mm, push_);
   if (part_ != 1.0) push_.value *= part_;
   return push_;
 }
 
-/// Solve the fixed point from the last correction. A slider's coordinate depends almost only on itself: two steps
+/// Solve the fixed point, starting where the last two corrections lead in a straight line. A slider's coordinate depends almost only on itself: two steps
 /// determine the ratio r at which they shrink, and the sum of all that follow is step r / (1 - r) (Aitken). The
 /// remaining error is of second order in the steps.
 bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept {
-  Vector6 at = nominal_mm + last_correction_mm_, step_before;
+  Vector6 at = nominal_mm + last_correction_mm_ + correction_step_mm_, step_before;
   double left_mm = 0.0, largest_before = 0.0;
   for (out.iterations = 1;; ++out.iterations) {
     const InverseResult result = inverse(model_.nominal, pose, push_at(at));
@@ -159,6 +121,7 @@ bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTarge
     left_mm = contraction_ * largest_step;
     if (out.iterations > 1) {
       left_mm *= std::min(kCurvature_mm * largest_before, 1.0);
+      left_mm += bend_ * largest_step;
       const auto one = step_before.array();
       const auto two = step.array();
       out.sliders_mm.array() += (two.abs() < 0.5 * one.abs()).select(two.square() / (one - two), 0.0);
@@ -191,12 +154,16 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   out.slider = nominal.leg;
   if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
   const bool is_followed = follow(nominal.sliders_mm, direction);
-  set_state(direction, travel_direction_, needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero());
+  const Vector6 force = needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero();
+  set_state(direction, travel_direction_, force);
+  set_tables(direction, travel_direction_, force, pose, nominal.sliders_mm);
   if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
   out.slider = -1;
   if (is_followed) {
+    correction_step_mm_ = has_last_ ? Vector6(out.correction_mm - last_correction_mm_) : Vector6(Vector6::Zero());
+    has_last_ = true;
     last_targets_mm_ = out.sliders_mm;
     last_correction_mm_ = out.correction_mm;
   }
@@ -215,12 +182,17 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
     if (direction.velocity_mm_s[k] != 0.0) travel_direction[k] = std::copysign(1.0, direction.velocity_mm_s[k]);
   }
   Vector6 force = Vector6::Zero();
-  if (needs_leg_force_) {
+  Pose nominal_pose = last_pose_;
+  if (needs_pose_) {
     const Mechanism nominal = assemble(model_.nominal, sliders_mm, none_);
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
-    if (standing.status == Status::kOk) force = leg_force(standing.pose, sliders_mm);
+    if (standing.status == Status::kOk) {
+      nominal_pose = standing.pose;
+      if (needs_leg_force_) force = leg_force(standing.pose, sliders_mm);
+    }
   }
   set_state(direction, travel_direction, force);
+  set_tables(direction, travel_direction, force, nominal_pose, sliders_mm);
   const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(sliders_mm));
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);

@@ -15,6 +15,7 @@ __all__: list[str] = [
     "CORRECTION_LIMIT",
     "CompensationData",
     "CompensationError",
+    "CompensationTable",
     "Compensator",
     "EffectInfo",
     "FitResult",
@@ -28,6 +29,7 @@ __all__: list[str] = [
     "Samples",
     "SetUp",
     "StateColumn",
+    "TABLE_VARIABLES",
     "compensation_of",
     "effect_info",
     "effect_names",
@@ -502,6 +504,62 @@ class FitResult:
 class CompensationError(ValueError):
     pass
 
+class CompensationTable:
+    """
+    A function in compensation data; see compensation_tables.hpp.
+    """
+    def __init__(
+        self,
+        *,
+        effect: str,
+        port: str,
+        variable: str,
+        times: str,
+        period: typing.SupportsFloat | typing.SupportsIndex,
+        pushes: collections.abc.Sequence[
+            tuple[
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsInt | typing.SupportsIndex,
+                typing.SupportsFloat | typing.SupportsIndex,
+            ]
+        ],
+        knots: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+        values_mm: collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex],
+    ) -> None:
+        """
+        Make a table.
+
+        Parameters
+        ----------
+        effect : str
+        port : str
+        variable, times : str
+            Columns of the samples' state; empty where there is none.
+        period : float
+        pushes : sequence of (element, column, weight)
+            Element and column of the port from 0.
+        knots, values_mm : sequence of float
+        """
+    @property
+    def effect(self) -> str: ...
+    @property
+    def knots(self) -> list[float]: ...
+    @property
+    def period(self) -> float: ...
+    @property
+    def port(self) -> str: ...
+    @property
+    def pushes(self) -> list[tuple[int, int, float]]:
+        """
+        Element and column of the port, both from 0, and weight.
+        """
+    @property
+    def times(self) -> str: ...
+    @property
+    def values_mm(self) -> list[float]: ...
+    @property
+    def variable(self) -> str: ...
+
 class CompensationData:
     """
     Compensation data that a controller loads; see compensation_file.hpp.
@@ -536,6 +594,11 @@ class CompensationData:
     def reference_temperature_c(self) -> float: ...
     @property
     def reversal_travel_mm(self) -> float: ...
+    @property
+    def tables(self) -> list[CompensationTable]:
+        """
+        Functions of learned and users' effects.
+        """
 
 class Compensator:
     """
@@ -589,7 +652,8 @@ def compensation_of(
     max_correction_mm: typing.SupportsFloat | typing.SupportsIndex,
     reversal_travel_mm: typing.SupportsFloat | typing.SupportsIndex,
     reference_temperature_c: typing.SupportsFloat | typing.SupportsIndex,
-    unknown: collections.abc.Sequence[str] = [],
+    tables: collections.abc.Sequence[CompensationTable] = [],
+    left_out: collections.abc.Sequence[tuple[str, str]] = [],
 ) -> CompensationData:
     """
     Select the effects of a model that a controller can correct, and state why the others are left out.
@@ -604,8 +668,10 @@ def compensation_of(
     max_correction_mm, reversal_travel_mm : float
     reference_temperature_c : float
         Temperature at which no growth is corrected; nan where not known.
-    unknown : sequence of str, optional
-        Effects of the model that the engine does not have.
+    tables : sequence of CompensationTable, optional
+        Of effects that the engine does not have.
+    left_out : sequence of (str, str), optional
+        Effects without a table, each with the reason.
     """
 
 def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
@@ -903,3 +969,18 @@ PORTS: dict = {
     "cup": (51, 3),
     "reading": (54, 1),
 }
+TABLE_VARIABLES: tuple = (
+    "sliders_mm",
+    "velocity_mm_s",
+    "travel_direction",
+    "leg_force",
+    "temperature_c",
+    "warming_k",
+    "slider_joint_angle_rad",
+    "slider_joint_rate_rad_s",
+    "slider_joint_direction",
+    "platform_joint_angle_rad",
+    "platform_joint_rate_rad_s",
+    "swing_angle_rad",
+    "swing_rate_rad_s",
+)

@@ -26,6 +26,45 @@ CompensationData data_of(const Model& model, double reference_temperature_c) {
   return compensation_of(model, "SP-120", std::string(64, 'a'), {2.0, 0.01}, reference_temperature_c);
 }
 
+CompensationTable table_of(const std::string& port, const std::string& variable, const std::vector<TablePush>& pushes,
+                           double low, double high, int count) {
+  CompensationTable out;
+  out.effect = "learned:" + port + ":" + variable;
+  out.port = port;
+  out.variable = variable;
+  out.pushes = pushes;
+  for (int at = 0; at < count; ++at) {
+    const double part = count > 1 ? double(at) / (count - 1) : 0.0;
+    out.knots.push_back(low + (high - low) * (count % 2 == 0 ? part * part : part));
+    out.values_mm.push_back(0.008 * std::sin(5.0 * part) + 0.002 * std::cos(17.0 * part));
+  }
+  return out;
+}
+
+std::vector<CompensationTable> all_tables() {
+  std::vector<CompensationTable> out = {
+      table_of("slider_joint", "sliders_mm", {{0, 2, 1.0}, {1, 5, 1.0}}, 30.0, 840.0, 73),
+      table_of("slider_joint", "sliders_mm", {{2, 6, 0.5}, {2, 7, -0.8}}, 30.0, 840.0, 64),
+      table_of("platform_joint", "platform_joint_angle_rad", {{3, 10, 1.0}}, 0.5, 2.5, 31),
+      table_of("slider", "", {{4, 4, 1.0}}, 0.0, 0.0, 1),
+      table_of("slider", "velocity_mm_s", {{0, 0, 1.0}, {5, 5, 1.0}}, -100.0, 100.0, 42),
+      table_of("leg", "leg_force", {{1, 1, 1.0}}, -1.0, 1.0, 20),
+      table_of("leg", "warming_k", {{2, 2, 1.0}}, -10.0, 10.0, 20),
+      table_of("leg", "temperature_c", {{3, 3, 1.0}}, 10.0, 40.0, 20),
+      table_of("leg", "slider_joint_angle_rad", {{4, 4, 1.0}}, 0.5, 2.5, 61),
+      table_of("leg", "slider_joint_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 62),
+      table_of("leg", "slider_joint_direction", {{5, 5, 1.0}}, -1.0, 1.0, 2),
+      table_of("leg", "platform_joint_rate_rad_s", {{0, 0, 1.0}}, -0.2, 0.2, 40),
+      table_of("leg", "swing_angle_rad", {{1, 1, 1.0}}, -3.2, 3.2, 40),
+      table_of("leg", "swing_rate_rad_s", {{2, 2, 1.0}}, -0.2, 0.2, 41)};
+  out.push_back(table_of("slider", "sliders_mm", {{3, 3, 1.0}}, 0.0, 5.0, 49));
+  out.back().period = 5.0;
+  out.back().values_mm.back() = out.back().values_mm.front();
+  out.push_back(table_of("leg", "sliders_mm", {{5, 5, 1.0}}, 30.0, 840.0, 20));
+  out.back().times = "travel_direction";
+  return out;
+}
+
 std::vector<Pose> circle_path(double step_s, double laps, const Vector3& rpy_rad) {
   constexpr double kLap_s = 12.0, kRadius_mm = 90.0;
   std::vector<Pose> out;

@@ -21,6 +21,14 @@ Model wrong_machine(const std::vector<std::string>& effects, std::uint64_t seed)
 /// Return the compensation data of a model with wide limits.
 CompensationData data_of(const Model& model, double reference_temperature_c = 20.0);
 
+/// Return a table of this variable for the leg or slider of each push: `count` knots from `low` to `high`, unequal where
+/// the count is even, values of some um.
+CompensationTable table_of(const std::string& port, const std::string& variable, const std::vector<TablePush>& pushes,
+                           double low, double high, int count);
+
+/// Return tables of every port and of every variable that a controller knows.
+std::vector<CompensationTable> all_tables();
+
 /// Return poses along a tilted circle of 90 mm, one every `step_s`, over `laps` of 12 s each.
 std::vector<Pose> circle_path(double step_s, double laps, const Vector3& rpy_rad = {0.05, -0.03, 0.1});
 

@@ -40,6 +40,12 @@ LAYOUT(hexdbb_constants, value_count, 4);
 LAYOUT(hexdbb_constants, machine, 8);
 LAYOUT(hexdbb_constants, max_correction_mm, 88);
 LAYOUT(hexdbb_constants, values, 112);
+LAYOUT(hexdbb_constants, table_count, 112 + sizeof(char*)); /* the struct's size before there were tables */
+LAYOUT(hexdbb_constants, tables, 120 + sizeof(char*));
+LAYOUT(hexdbb_table, period, 4 * sizeof(char*));
+LAYOUT(hexdbb_table, push_count, 4 * sizeof(char*) + 8);
+LAYOUT(hexdbb_table, elements, 4 * sizeof(char*) + 16);
+SIZE(hexdbb_table, 9 * sizeof(char*) + 16);
 
 static int failures = 0;
 
@@ -60,7 +66,7 @@ static const hexdbb_value kValues[] = {
 
 static hexdbb_constants constants(void) {
   const hexdbb_dimensions machine = HEXDBB_DIMENSIONS_INIT;
-  const hexdbb_constants out = {sizeof(hexdbb_constants), 6, machine, 1.0, 0.01, NAN, kValues};
+  const hexdbb_constants out = {sizeof(hexdbb_constants), 6, machine, 1.0, 0.01, NAN, kValues, 0, 0, NULL};
   return out;
 }
 
@@ -106,6 +112,43 @@ static void compensation_from_constants(void) {
   EXPECT(strcmp(message, "compensation constants: of another machine: leg_length_mm is 400 (expected 401)") == 0);
 }
 
+static void tables_in_constants(void) {
+  static const int32_t kElements[] = {1, 1}, kColumns[] = {1, 2}, kWrong[] = {1, 7};
+  static const double kWeights[] = {1.0, 0.5}, kKnots[] = {0.0, 1000.0}, kSizes[] = {0.02, 0.02};
+  hexdbb_table table = {"learned", "slider",  "sliders_mm", "",       0.0,    2,
+                        2,         kElements, kColumns,     kWeights, kKnots, kSizes};
+  hexdbb_constants data = constants();
+  hexdbb_compensator* compensator = NULL;
+  hexdbb_target target = HEXDBB_TARGET_INIT;
+  char message[200];
+  data.value_count = 0;
+  data.table_count = 1;
+  data.tables = &table;
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_OK);
+  EXPECT(hexdbb_sliders_from_pose(compensator, &kPose, NULL, &target) == HEXDBB_OK);
+  EXPECT(fabs(target.correction_mm[0] + 0.02) < 1e-9 && fabs(target.correction_mm[1] + 0.01) < 1e-9);
+  EXPECT(target.correction_mm[2] == 0.0);
+  hexdbb_destroy(compensator);
+  /* a program of before: what follows its struct is not read */
+  data.struct_size = (uint32_t)offsetof(hexdbb_constants, table_count);
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_OK);
+  EXPECT(hexdbb_sliders_from_pose(compensator, &kPose, NULL, &target) == HEXDBB_OK);
+  EXPECT(target.largest_correction_mm == 0.0);
+  hexdbb_destroy(compensator);
+  data.struct_size = (uint32_t)sizeof data;
+  table.columns = kWrong;
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_MALFORMED);
+  EXPECT(strcmp(message, "compensation constants: table.1: column 7 (expected 1 to 6)") == 0);
+  table.columns = kColumns;
+  table.port = "knee";
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_UNKNOWN_EFFECT);
+  table.port = NULL;
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_BAD_ARGUMENT);
+  data.tables = NULL;
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_BAD_ARGUMENT);
+  EXPECT(compensator == NULL);
+}
+
 static void refusals(void) {
   const hexdbb_dimensions machine = HEXDBB_DIMENSIONS_INIT;
   hexdbb_constants data = constants();
@@ -149,6 +192,7 @@ static void names(void) {
 int main(void) {
   nominal_kinematics_there_and_back();
   compensation_from_constants();
+  tables_in_constants();
   refusals();
   names();
   return failures == 0 ? 0 : 1;

@@ -113,7 +113,9 @@ TEST_F(NoAllocation, AHundredThousandCallsOfTheCompensator) {
   names.insert(names.end(), kCorrectable.begin(), kCorrectable.end());
   names.push_back("leg_thermal");
   names.push_back("screw_thermal");
-  Compensator compensator(data_of(wrong_machine(names, 92)));
+  CompensationData data = data_of(wrong_machine(names, 92));
+  data.tables = all_tables();
+  Compensator compensator(data);
   const std::vector<Pose> path = circle_path(0.012, 1.0);
   Direction direction;
   direction.temperature_c = 23.0;

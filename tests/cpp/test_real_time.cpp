@@ -45,7 +45,9 @@ TEST(RealTime, NoSystemCallInAHundredThousand) {
   names.insert(names.end(), kCorrectable.begin(), kCorrectable.end());
   names.push_back("leg_thermal");
   const Model truth = wrong_machine(names, 31);
-  Compensator compensator(data_of(truth));
+  CompensationData data = data_of(truth);
+  data.tables = all_tables();
+  Compensator compensator(data);
   const std::vector<Pose> path = circle_path(0.004, 1.0);
   std::vector<Direction> directions(path.size());
   for (std::size_t at = 0; at < path.size(); ++at) {

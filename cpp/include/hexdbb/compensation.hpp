@@ -12,7 +12,10 @@
 // Direction of travel: sigma of a slider is a play operator of its commanded travel. It goes from -1 to +1 over
 // `reversal_travel_mm`, so that the correction for lost motion is continuous, bounded in rate by the slider's own
 // speed, and constant while the slider rests. The play counts as crossed: the drive is commanded to cross it over that
-// travel.
+// travel. The sense in which a leg turns at its slider joint is the same operator on the arc of the leg's far end.
+//
+// Tables (learned effects) take slider positions as they are in the iteration; what the joints do is that of the nominal
+// machine at the commanded pose, turning rates from the commanded velocities.
 //
 // Real time: sliders() and pose() allocate nothing, throw nothing, lock nothing and call no system; at most four
 // inverse solutions. One instance belongs to one thread.
@@ -85,25 +88,34 @@ class Compensator {
  private:
   void prepare();
   bool follow(const Vector6& nominal_mm, const Direction& direction) noexcept;
+  void follow_joints(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept;
   void set_state(const Direction& direction, const Vector6& travel_direction, const Vector6& leg_force) noexcept;
+  void set_tables(const Direction& direction, const Vector6& travel_direction, const Vector6& leg_force,
+                  const Pose& nominal_pose, const Vector6& nominal_mm) noexcept;
   Vector6 leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept;
   const Ports& push_at(const Vector6& sliders_mm) noexcept;
   bool solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept;
 
   Model model_;                    // effects evaluated in every iteration
   SliderPolynomials polynomials_;  // all others, folded
+  TableSet tables_;
   CompensationLimits limits_;
   double reference_temperature_c_ = std::numeric_limits<double>::quiet_NaN();
-  bool has_effects_ = false, needs_leg_force_ = false;
+  bool has_effects_ = false, needs_leg_force_ = false, needs_pose_ = false;
   double direction_per_mm_ = 0.0;
   double contraction_ = 0.0;  // bound of the change of targets per change of the coordinates at which effects are taken
+  double bend_ = 0.0;         // bound of the change of that from one side of a table's knot to the other
   PlatformTriangle nominal_triangle_;
 
   Samples now_;  // one row: the state in which the effects are evaluated
+  TableState table_state_;
   Ports none_, push_;
   Vector6 travel_direction_ = Vector6::Zero();  // -1 .. 1
+  Vector6 joint_direction_ = Vector6::Zero();   // -1 .. 1
   Vector6 followed_mm_, checked_mm_;            // nominal coordinates; NaN where there are none
   Vector6 last_targets_mm_ = Vector6::Zero(), last_correction_mm_ = Vector6::Zero();
+  Vector6 correction_step_mm_ = Vector6::Zero();  // from the last correction but one to the last
+  bool has_last_ = false;                         // any of them
   double part_ = 1.0, wanted_part_ = 1.0;
   RssrAngles angles_, nominal_angles_;
   Pose last_pose_;

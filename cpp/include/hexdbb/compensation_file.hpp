@@ -3,6 +3,9 @@
 // A file is a subset of TOML: sections, numbers, strings, comments. It ends with the CRC-32 (IEEE 802.3) of every byte
 // above its [check] section, by which a truncated or edited file is detected. Numbers are in the engine's units (mm,
 // rad, s, N, K) and are written with as many digits as restore the same bits.
+//
+// Version 1 holds effects of the catalogue by name and value. Version 2 adds tables (compensation_tables.hpp); data
+// without a table are written as version 1, which earlier readers take.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "hexdbb/compensation_tables.hpp"
 #include "hexdbb/prediction.hpp"
 
 namespace hexdbb {
@@ -44,6 +48,7 @@ struct CompensationData {
   Machine machine;
   CompensationLimits limits;
   std::vector<CompensatedEffect> effects;
+  std::vector<CompensationTable> tables;
   std::vector<LeftOut> left_out;
 };
 
@@ -72,9 +77,11 @@ class CompensationError : public std::runtime_error {
 /// Select the effects of a model that can be compensated, with a reason for each that cannot. An effect can be
 /// compensated where it pushes sliders, legs or joints and depends on pose, slider position, direction of travel,
 /// velocity, load or measured temperature (the latter only where `reference_temperature_c`, that of the record's first
-/// sample, is a number).
+/// sample, is a number). `tables` are those of effects that the engine does not have; an effect of which one table cannot
+/// be compensated is left out as a whole.
 CompensationData compensation_of(const Model& model, const std::string& name, const std::string& model_sha256,
-                                 const CompensationLimits& limits, double reference_temperature_c);
+                                 const CompensationLimits& limits, double reference_temperature_c,
+                                 const std::vector<CompensationTable>& tables = {});
 
 /// Return the text of a compensation file.
 std::string compensation_text(const CompensationData& data);
@@ -97,8 +104,12 @@ bool is_same_machine(const Machine& one, const Machine& other) noexcept;
 /// Throw CompensationError (kOtherMachine), naming the first dimension that differs, unless the machines are the same.
 void require_machine(const Machine& of_data, const Machine& of_controller, const std::string& source);
 
-/// Return the model of the data: the machine and its effects with their values. Throws CompensationError
-/// (kUnknownEffect, kMalformed).
+/// Throw CompensationError unless every table can be evaluated: port and variable known (kUnknownEffect), elements and
+/// columns in range, counts that agree, finite numbers, rising knots (kMalformed).
+void require_tables(const std::vector<CompensationTable>& tables, const std::string& source);
+
+/// Return the model of the data: the machine and its effects with their values, tables checked but not in it. Throws
+/// CompensationError (kUnknownEffect, kMalformed).
 Model compensation_model(const CompensationData& data, const std::string& source);
 
 /// Compute the CRC-32 (IEEE 802.3, as in zlib).

@@ -132,6 +132,24 @@ typedef struct hexdbb_value {
   double value; /* mm, rad, s, N, K and their ratios */
 } hexdbb_value;
 
+/* A function of a variable: linear between the knots, held beyond them. It pushes column columns[i] of its port by
+ * weights[i] times the column `times` times its value at the variable of slider or leg elements[i]; elements and columns
+ * count from 1 as in files. Names are those of compensation files. */
+typedef struct hexdbb_table {
+  const char* effect;
+  const char* port;
+  const char* variable; /* "": the value is one number */
+  const char* times;    /* "": none */
+  double period;        /* of the variable; 0: not periodic */
+  uint32_t push_count;
+  uint32_t knot_count;
+  const int32_t* elements;
+  const int32_t* columns;
+  const double* weights;
+  const double* knots;
+  const double* values_mm;
+} hexdbb_table;
+
 typedef struct hexdbb_constants {
   uint32_t struct_size;
   uint32_t value_count;
@@ -140,6 +158,9 @@ typedef struct hexdbb_constants {
   double reversal_travel_mm;
   double reference_temperature_c; /* NAN where none was stated */
   const hexdbb_value* values;
+  uint32_t table_count; /* this and what follows: since 0.2.0; a smaller struct_size has no tables */
+  uint32_t reserved;
+  const hexdbb_table* tables;
 } hexdbb_constants;
 
 typedef struct hexdbb_compensator hexdbb_compensator;

@@ -89,9 +89,9 @@ def command(
 ) -> None:
     """Write the part of MODEL that a motion controller can correct, or apply the correction to a path.
 
-    MODEL is a model file, or a compensation file (NAME.hexcomp) made from one. Effects that belong to the measurement,
-    that depend on a quantity the controller does not know, or that are user-defined (--effects) are left out and listed
-    with the reason.
+    MODEL is a model file, or a compensation file (NAME.hexcomp) made from one. Learned effects, and users' effects
+    (--effects) that are functions of one variable, go in as tables. Effects that belong to the measurement, or that
+    depend on a quantity the controller does not know, are left out and listed with the reason.
 
     POSES has the columns x_mm, y_mm, z_mm, roll_deg, pitch_deg, yaw_deg; the table written has s1_mm to s6_mm, one row
     per pose. Poses have no times, so that speed-dependent errors (lags) are not corrected in this table.
@@ -155,6 +155,17 @@ def _summary(data: _core.CompensationData) -> dict[str, object]:
     return {
         "machine": data.name,
         "corrected": data.effects,
+        "tables": [
+            {
+                "effect": each.effect,
+                "port": each.port,
+                "variable": each.variable,
+                "times": each.times,
+                "knots": len(each.knots),
+                "largest_um": 1e3 * max(map(abs, each.values_mm)),
+            }
+            for each in data.tables
+        ],
         "left_out": [{"effect": effect, "reason": reason} for effect, reason in data.left_out],
         "max_correction_um": 1e3 * data.max_correction_mm,
         "reversal_travel_um": 1e3 * data.reversal_travel_mm,
@@ -162,10 +173,12 @@ def _summary(data: _core.CompensationData) -> dict[str, object]:
 
 
 def _table(summary: dict[str, object]) -> str:
-    corrected, left_out = summary["corrected"], summary["left_out"]
+    corrected, tables, left_out = summary["corrected"], summary["tables"], summary["left_out"]
     assert isinstance(corrected, list)
+    assert isinstance(tables, list)
     assert isinstance(left_out, list)
     lines = [f"machine      {summary['machine']}", f"corrected    {', '.join(corrected) or 'nothing'}"]
+    lines += [f"table        {_table_words(each)}" for each in tables]
     lines += [f"left out     {each['effect']}: {each['reason']}" for each in left_out]
     lines.append(f"limit        {summary['max_correction_um']:g} µm per slider")
     if "poses" in summary:
@@ -173,3 +186,9 @@ def _table(summary: dict[str, object]) -> str:
             f"path         {summary['poses']} poses, corrected by up to {summary['largest_correction_um']:.1f} µm"
         )
     return "\n".join(lines)
+
+
+def _table_words(table: dict[str, object]) -> str:
+    """Return one table as "learned:leg:5:turning_rate: leg by slider_joint_rate_rad_s, 82 knots, up to 8.1 µm"."""
+    of = " times ".join(filter(None, (str(table["times"]), str(table["variable"])))) or "nothing"
+    return f"{table['effect']}: {table['port']} by {of}, {table['knots']} knots, up to {table['largest_um']:.1f} µm"

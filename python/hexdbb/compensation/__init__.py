@@ -1,6 +1,7 @@
 """Compensation: a model as a controller loads it, paths and tables of slider targets corrected by it.
 
-`file` makes, writes and reads compensation files; `path` corrects a path pose by pose; `targets` corrects whole tables
+`file` makes, writes and reads compensation files; `tables` and `own_tables` state learned and users' effects as tables,
+the latter by asking them in the states of `probe`; `path` corrects a path pose by pose; `targets` corrects whole tables
 and looks ahead at `reversals`; `csv_tables` reads poses and writes slider coordinates.
 """
 

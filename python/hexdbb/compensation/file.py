@@ -12,6 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from hexdbb import _core
+from hexdbb.compensation.own_tables import NoTableError, own_tables
+from hexdbb.compensation.tables import learned_tables
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import write_text
 from hexdbb.kinematics import engine_machine
@@ -42,7 +44,7 @@ def make_compensation(
     Parameters
     ----------
     model : Model
-        User-defined effects are left out: the engine cannot compute them.
+        Learned effects, and users' effects that are functions of one variable, go in as tables.
     max_correction_mm : float
         Largest correction of one slider, mm; a controller refuses poses that need more.
     reversal_travel_mm : float
@@ -57,8 +59,8 @@ def make_compensation(
         `effects` lists the corrected effects, `left_out` the others with the reason.
     """
     content = model.path.read_bytes() if model.path is not None and model.path.is_file() else b""
-    unknown = [term.effect for term in model.terms if model.own(term.effect) is not None]
-    known = replace(model, terms=tuple(term for term in model.terms if term.effect not in unknown))
+    known = replace(model, terms=tuple(term for term in model.terms if model.own(term.effect) is None))
+    tables, left_out = _tables(model)
     return _core.compensation_of(
         known.engine(),
         name=model.machine.name,
@@ -66,8 +68,24 @@ def make_compensation(
         max_correction_mm=max_correction_mm,
         reversal_travel_mm=reversal_travel_mm,
         reference_temperature_c=math.nan if reference_temperature_c is None else reference_temperature_c,
-        unknown=unknown,
+        tables=tables,
+        left_out=left_out,
     )
+
+
+def _tables(model: Model) -> tuple[list[_core.CompensationTable], list[tuple[str, str]]]:
+    """Return the tables of all effects that the engine does not have, and those that have none, with the reason."""
+    tables, left_out = [], []
+    for term in model.terms:
+        own = model.own(term.effect)
+        if term.learned is not None:
+            tables += learned_tables(term)
+        elif own is not None:
+            try:
+                tables += own_tables(own, term.values, model.machine)
+            except NoTableError as why:
+                left_out.append((term.effect, str(why)))
+    return tables, left_out
 
 
 def reference_temperature_of(model: Model, record: Record) -> float:

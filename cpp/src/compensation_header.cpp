@@ -1,0 +1,88 @@
+// Compensation data as constants of a C program (hexdbb.h).
+#include <cmath>
+
+#include "compensation_layout.hpp"
+
+namespace hexdbb {
+
+namespace {
+
+constexpr const char* kValues = "hexdbb_compensation_values";
+constexpr const char* kTables = "hexdbb_compensation_tables";
+
+std::string member(const std::string& text, const std::string& name) {
+  return "    " + text + ", /* " + name + " */\n";
+}
+
+/// Return the array of values, or a place holder: C has no empty arrays.
+std::string values_array(const CompensationData& data, std::size_t& count) {
+  std::string out = std::string("static const hexdbb_value ") + kValues + "[] = {\n";
+  count = 0;
+  for (const CompensatedEffect& effect : data.effects) {
+    for (const CompensationValue& value : effect.values) {
+      out += "    {" + layout::quoted(effect.name) + ", " + layout::quoted(value.element) + ", " +
+             layout::quoted(value.parameter) + ", " + layout::number(value.value) + "},\n";
+      ++count;
+    }
+  }
+  if (count == 0) out += "    {0, 0, 0, 0.0} /* none: the nominal machine */\n";
+  return out + "};\n\n";
+}
+
+std::string list_name(std::size_t table, const std::string& list) {
+  return std::string(kTables) + "_" + std::to_string(table + 1) + "_" + list;
+}
+
+/// Return the arrays of one table, and in `row` its row in the array of all.
+std::string table_arrays(const CompensationTable& table, std::size_t at, std::string& row) {
+  std::string out;
+  row = "    {" + layout::quoted(table.effect) + ", " + layout::quoted(table.port) + ", " +
+        layout::quoted(table.variable) + ", " + layout::quoted(table.times) + ", " + layout::number(table.period) +
+        ", " + std::to_string(table.pushes.size()) + ", " + std::to_string(table.knots.size());
+  layout::for_each_list(table, "{", "}", [&](const std::string& name, const std::string& text) {
+    const bool is_integer = name == "elements" || name == "columns";
+    out += std::string("static const ") + (is_integer ? "int32_t " : "double ") + list_name(at, name) + "[] = " + text +
+           ";\n";
+    row += ",\n     " + list_name(at, name);
+  });
+  row += "},\n";
+  return out;
+}
+
+std::string tables_array(const CompensationData& data) {
+  if (data.tables.empty()) return {};
+  std::string arrays, rows, row;
+  for (std::size_t at = 0; at < data.tables.size(); ++at) {
+    arrays += table_arrays(data.tables[at], at, row);
+    rows += row;
+  }
+  return arrays + "static const hexdbb_table " + kTables + "[] = {\n" + rows + "};\n\n";
+}
+
+}  // namespace
+
+std::string compensation_header(const CompensationData& data) {
+  compensation_model(data, "compensation data");  // throws where the program could not use them
+  std::size_t count = 0;
+  std::string out = "/* Compensation of " + layout::quoted(data.name) +
+                    ", written by hexdbb compensate: mm, rad, s, N, K.\n" + " * Model " + data.model_sha256 +
+                    ". Use: hexdbb_create_from_constants(&hexdbb_compensation, ...). */\n" +
+                    "#ifndef HEXDBB_COMPENSATION_CONSTANTS_H\n#define HEXDBB_COMPENSATION_CONSTANTS_H\n\n" +
+                    "#include <hexdbb/hexdbb.h>\n#include <math.h>\n\n";
+  out += values_array(data, count) + tables_array(data);
+  out += "static const hexdbb_constants hexdbb_compensation = {\n    sizeof(hexdbb_constants),\n" +
+         member(std::to_string(count), "values") + "    {sizeof(hexdbb_dimensions), 0,\n";
+  for (const layout::Dimension& each : layout::kDimensions) {
+    const bool is_last = &each == &layout::kDimensions.back();
+    out += "     " + layout::number(data.machine.*each.member) + (is_last ? "}," : ",") + " /* " + each.name + " */\n";
+  }
+  for (const layout::Limit& each : layout::kLimits) out += member(layout::number(data.limits.*each.member), each.name);
+  const bool has_reference = std::isfinite(data.reference_temperature_c);
+  out += member(has_reference ? layout::number(data.reference_temperature_c) : "NAN", "reference_temperature_c");
+  out += std::string("    ") + kValues + ",\n";
+  out += data.tables.empty() ? std::string("    0, 0, 0, /* no tables */\n")
+                             : "    " + std::to_string(data.tables.size()) + ", 0, " + kTables + ",\n";
+  return out + "};\n\n#endif\n";
+}
+
+}  // namespace hexdbb

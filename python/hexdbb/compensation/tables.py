@@ -1,0 +1,70 @@
+"""Learned functions as tables that a controller evaluates: linear between the knots, held beyond them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.model import Term
+
+Floats = NDArray[np.float64]
+
+TOLERANCE_MM = 1e-5
+"""Largest deviation of a table from its function half-way between two knots: a tenth of an encoder count, below what a
+drive can follow."""
+MOST_HALVINGS = 6
+"""Bound on the size of a file: the knots of a learned function lie at least three to a spline, where six halvings leave
+less than a thousandth of what a cubic bends between two of them."""
+
+
+def learned_tables(term: Term) -> list[_core.CompensationTable]:
+    """Return the tables of a learned effect's term, one a component, knots close enough for `TOLERANCE_MM`."""
+    effect = term.learned
+    assert effect is not None
+    space, tables = effect.space, effect.tables(term.values)
+    parts = effect.coefficients(term.values).reshape(len(tables), -1)
+
+    def values_mm(at: Floats) -> Floats:
+        found: Floats = space.functions(at) @ parts.T
+        return found
+
+    knots = halved(np.array(tables[0].knots), values_mm)
+    return [
+        _core.CompensationTable(
+            effect=effect.name,
+            port=table.port,
+            variable=table.column,
+            times=table.times,
+            period=table.period,
+            pushes=within_port(table.port, table.pushes),
+            knots=knots.tolist(),
+            values_mm=column.tolist(),
+        )
+        for table, column in zip(tables, values_mm(knots).T, strict=True)
+    ]
+
+
+def within_port(port: str, pushes: Sequence[tuple[int, Sequence[tuple[int, float]]]]) -> list[tuple[int, int, float]]:
+    """Return element, column counted within the port, and weight of every push."""
+    first = _core.PORTS[port][0]
+    return [(element, column - first, weight) for element, columns in pushes for column, weight in columns]
+
+
+def halved(knots: Floats, values_mm: Callable[[Floats], Floats]) -> Floats:
+    """Return the knots with all intervals halved until lines between them are close enough; equal ones stay equal.
+
+    Parameters
+    ----------
+    knots : ndarray, shape (m,)
+    values_mm : callable
+        The functions at some places, shape (m, functions).
+    """
+    for _ in range(MOST_HALVINGS if len(knots) > 1 else 0):
+        middle, ends = 0.5 * (knots[1:] + knots[:-1]), values_mm(knots)
+        if np.abs(values_mm(middle) - 0.5 * (ends[1:] + ends[:-1])).max() <= TOLERANCE_MM:
+            break
+        knots = np.sort(np.concatenate([knots, middle]))
+    return knots

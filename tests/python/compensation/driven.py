@@ -1,0 +1,92 @@
+"""A machine driven along a path by compensated targets, and what its model says of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+from hexdbb.compensation import make_compensation, path_targets
+from hexdbb.kinematics import engine_machine, inverse
+from hexdbb.machine import shipped_machine
+from hexdbb.model import Model
+from hexdbb.samples.swing import derived_columns
+
+Floats = NDArray[np.float64]
+
+MACHINE = shipped_machine()
+STEP_S = 0.004
+RPY = np.array([0.05, -0.03, 0.1])
+WARMING_K = 3.0
+
+
+class Table:
+    """Columns of samples by name, as effects take them."""
+
+    def __init__(self, columns: Mapping[str, NDArray[Any]]) -> None:
+        self.columns = columns
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.columns[name]
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        if name not in self.columns:
+            raise AttributeError(name)
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        return len(self.columns["sliders_mm"])
+
+
+def path() -> Floats:
+    """A lap and a half of 90 mm at 3000 mm/min; shape (n, 3)."""
+    angle = np.arange(0.0, 3.0 * np.pi, 50.0 / 90.0 * STEP_S)
+    return np.column_stack([90.0 * np.cos(angle), 90.0 * np.sin(angle), np.full(len(angle), 285.0)])
+
+
+def table_of(sliders_mm: Floats) -> tuple[Table, _core.Samples]:
+    """Return samples of drives at these coordinates, with every column that follows from them."""
+    count = len(sliders_mm)
+    zeros = np.zeros(count, np.int32)
+    state = {"time_s": STEP_S * np.arange(count), "sweep": zeros, "warming_k": np.full(count, WARMING_K)}
+    state["angle_rad"] = state["time_s"]
+    set_up = _core.SetUp(cup_mm=np.zeros(3), ball_offset_mm=np.zeros(3), bar_length_mm=100.0)
+    block = _core.Samples(sliders_mm=sliders_mm, set_up=zeros, mount=zeros, set_ups=[set_up], state=state)
+    block.derive(engine_machine(MACHINE))
+    columns = {**block.state, "sliders_mm": sliders_mm}
+    columns |= derived_columns(MACHINE, columns)
+    columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
+    return Table(columns), block
+
+
+def nominal_table() -> Table:
+    """Return samples of the nominal machine on the path."""
+    return table_of(inverse(MACHINE, path(), RPY)[0])[0]
+
+
+def errors_mm(model: Model, targets_mm: Floats, commanded: Table | None = None) -> tuple[Floats, Table]:
+    """Return the largest error of the platform's position and orientation on the model's machine, (n,), and samples.
+
+    What the learned effect depends on is that of the drives, but for the sliders' positions that of `commanded` where
+    it is given: a controller knows the commanded motion, without that of the correction itself.
+    """
+    table, block = table_of(targets_mm)
+    columns = {**(commanded or table).columns, "sliders_mm": targets_mm, "warming_k": np.full(len(table), WARMING_K)}
+    driven = Table(columns)
+    engine = model.engine(lambda own, _: own.tabulated(driven))
+    poses, status = _core.forward_table(engine, block)
+    assert not status.any()
+    reach_mm = 100.0  # from the reference point to a ball joint
+    wanted = _core.rotation_from_rpy(*RPY).ravel()
+    of_position = np.abs(poses[:, :3] - path()).max(axis=1)
+    return np.maximum(of_position, reach_mm * np.abs(poses[:, 3:] - wanted).max(axis=1)), driven
+
+
+def targets_of(model: Model) -> Floats:
+    data = make_compensation(model, max_correction_mm=2.0, reference_temperature_c=20.0)
+    assert not data.left_out, data.left_out
+    times_s = STEP_S * np.arange(len(path()))
+    return path_targets(data, path(), RPY, time_s=times_s, temperature_c=20.0 + WARMING_K).sliders_mm
