@@ -21,7 +21,7 @@ import hexdbb
 from hexdbb.cli.compensate import command
 from hexdbb.compensation import make_compensation, path_targets, read_compensation, write_compensation
 from hexdbb.compensation.tables import halved, learned_tables
-from hexdbb.learned import Hypothesis, Space
+from hexdbb.learned import Learned, Space
 from hexdbb.model import LearnedEffect, Model, Term, new_model, new_term, save_model
 
 SIZE_MM = 0.01
@@ -39,7 +39,7 @@ def nominal() -> Table:
 
 def model_of(name: str, nominal: Table, beside: tuple[str, ...] = ("leg_length",)) -> Model:
     """A model with a learned effect of some `SIZE_MM`, and effects of the catalogue beside it."""
-    space = Space.of(Hypothesis.parse(name), nominal, MACHINE.sliders.screw_lead_mm)
+    space = Space.of(Learned.parse(name), nominal, MACHINE.sliders.screw_lead_mm)
     effect = LearnedEffect(space, 1.0, SIZE_MM)
     draw = np.random.default_rng(sum(map(ord, name)))
     values = SIZE_MM * draw.standard_normal(effect.size)
