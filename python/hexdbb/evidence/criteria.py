@@ -38,6 +38,7 @@ class Criteria:
         full fits.
     most_seen : int
         Directions in a full fit, the best seen: its time grows with their square; with 30 the place of a dent is lost.
+        Shared by the axes where the direction is not known.
     step_mm : float
         Prior standard deviation of steps found already, while the next is sought: beyond any step.
     shortest_mm : float

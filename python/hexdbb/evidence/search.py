@@ -259,13 +259,11 @@ class Search:
     def _is_whole(self, effect: str) -> bool:
         return len(self.engine.base.info(effect).elements) == 1
 
-    @property
-    def _sight(self) -> tuple[float, int]:
-        return self.criteria.least_seen, self.criteria.most_seen
-
     def _member(self, scored: Scored) -> Member:
         if isinstance(scored.hypothesis, Learned):
-            return Member(scored.hypothesis, scored.marginal.seen(*self._sight), scored.marginal.size)
+            most = self.criteria.most_seen // scored.hypothesis.components
+            seen = scored.marginal.seen(self.criteria.least_seen, most)
+            return Member(scored.hypothesis, seen, scored.marginal.size)
         return Member(scored.hypothesis)
 
 

@@ -158,12 +158,28 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     for each in node.hypotheses:
         if isinstance(each, Known):
             continue
-        of = next((one for one in causes if _at_its_place(search, one, each, by_name)), None)
+        there = (one for one in causes if _at_its_place(search, one, each, by_name))
+        of = next((one for one in there if _is_refined(search, node, one, each)), None)
         if of is None:
             causes.append(each)
         else:
             refinements[of.name] = (*refinements.get(of.name, ()), each.name)
     return causes, refinements
+
+
+def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) -> bool:
+    """Check that a cause alone explains nearly as much as the learned function at its place alone, beside the others.
+
+    A function that explains more by far is the cause, and the effect a part of its form.
+    """
+    rest = tuple(each for each in node.members if each.hypothesis not in (cause, learned))
+    of = {each.hypothesis: each for each in node.members}
+    excess = search.root.trial.left - 1.0
+    try:
+        one, other = (search.trials.of((*rest, of[each])).left for each in (cause, learned))
+    except RunError:
+        return False
+    return one - other < search.criteria.same_kind_share * excess
 
 
 def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: dict[str, Learned]) -> bool:
