@@ -42,11 +42,13 @@ def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, component: 
 
 
 def rows(curve: Curve) -> list[tuple[str, str, str]]:
-    """Return a short table: place, value and standard deviation (µm), evenly chosen where samples are."""
+    """Return a short table: place, value and standard deviation (µm), evenly chosen where samples are, with extremes."""
     seen = np.flatnonzero(np.nan_to_num(curve.samples, nan=1.0) > 0.0)
     seen = seen if len(seen) else np.arange(len(curve.at))
     unit, at = shown_places(curve)
-    chosen = seen[np.unique(np.linspace(0, len(seen) - 1, ROWS).round().astype(int))]
+    even = np.linspace(0, len(seen) - 1, ROWS).round().astype(int)
+    extremes = [int(np.argmin(curve.value_mm[seen])), int(np.argmax(curve.value_mm[seen]))]
+    chosen = seen[np.unique([*even, *extremes])]
     return [
         (
             f"{at[row]:.4g} {unit}".strip() if curve.column else "",

@@ -152,7 +152,7 @@ OF_LEG = (
 )
 OF_GUIDEWAY = (
     Variable("position", "sliders_mm", "mm", "position of the slider", 24),
-    Variable("fine_position", "sliders_mm", "mm", "position of the slider", 200),
+    Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
     TIME_POSITION,
 )
 OF_BALL = (TIME, FINE_TIME, ROLL, PITCH, YAW)

@@ -10,8 +10,8 @@ from hexdbb.learned.forms import Fit, Floats, fits
 from hexdbb.learned.space import Curve
 from hexdbb.learned.variables import ELAPSED
 
-ENOUGH = 0.95
-"""Part of a function's variation that a form must explain to be named: what is left is then below a quarter of it."""
+ENOUGH = 0.9
+"""Part of a function's variation that a form must explain to be named: what is left is then below a third of it."""
 MUCH_BETTER = 0.5
 """A more complicated form is named where it leaves less than this part of what the simpler leaves."""
 CERTAIN = 2.0
