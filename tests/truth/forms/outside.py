@@ -3,10 +3,15 @@
 More are added as one more module with a `TABLE`, joined here.
 """
 
-from tests.truth.forms import outside_drives, outside_measuring, outside_structure
+from tests.truth.forms import outside_drives, outside_later, outside_measuring, outside_structure
 from tests.truth.forms.fault import Fault, Outside
 
 __all__ = ["OUTSIDE", "Fault", "Outside"]
 
-OUTSIDE: dict[str, Outside] = {**outside_drives.TABLE, **outside_structure.TABLE, **outside_measuring.TABLE}
+OUTSIDE: dict[str, Outside] = {
+    **outside_drives.TABLE,
+    **outside_structure.TABLE,
+    **outside_measuring.TABLE,
+    **outside_later.TABLE,
+}
 """Kinds by name."""
