@@ -98,6 +98,11 @@ bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks
 closed-loop: setup  ## compensation judged on unseen circles of machines of known truth; rewrites docs/closed-loop.md
 	@$(BIN)/python -m tests.truth.closed_loop -o docs/closed-loop.md
 
+.PHONY: calibration
+calibration: setup  ## verdicts judged on machines with forms: hours, resumable; rewrites docs/discovery-calibration.md
+	@$(BIN)/python -m tests.truth.calibration build/calibration.jsonl --half judge
+	@$(BIN)/python -m tests.truth.calibration_page build/calibration.jsonl -o docs/discovery-calibration.md
+
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 
 .PHONY: lint lint-cpp lint-python lint-types lint-spelling

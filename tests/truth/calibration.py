@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import json
+import os
 import random
 import time
 from collections import defaultdict
@@ -32,8 +33,8 @@ from hexdbb.evidence.verdict import Verdict, judge
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples
+from hexdbb.threads import one_thread
 
-MOST_PROCESSES = 2
 PLACES = {"lateral": "guideway", "vertical": "guideway"}
 VARIABLES = {
     "fine_position": ("position",),
@@ -80,6 +81,7 @@ def wanted(half: str, seeds: int) -> Iterator[tuple[str, tuple[str, ...]]]:
     yield from every
 
 
+@one_thread
 def judged(name: str, withheld: Sequence[str]) -> dict[str, Any]:
     """Return the line of one case: what is hidden, what was found, whether that is right."""
     case = forms.case(name)
@@ -241,7 +243,7 @@ def main() -> None:
     parser.add_argument("--half", choices=forms.HALVES, default="calibrate")
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--most", type=int, default=0, help="cases to run now; all where not given")
-    parser.add_argument("--processes", type=int, default=1, choices=range(1, MOST_PROCESSES + 1))
+    parser.add_argument("--processes", type=int, default=os.cpu_count(), help="all cores where not given")
     parser.add_argument("--table", action="store_true", help="only print the table")
     asked = parser.parse_args()
     known = {(each["case"], tuple(each["withheld"])) for each in read_lines(asked.lines)}
