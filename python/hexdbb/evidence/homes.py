@@ -23,7 +23,7 @@ from hexdbb.learned import ALL, Learned
 Floats = NDArray[np.float64]
 
 MOST_COLUMNS = 24
-"""Splines of a discrepancy, at most: a finer function is no form gone wrong but another cause."""
+"""Splines of a discrepancy, at most, where the effect lives in such: a finer function would be another cause."""
 
 
 @dataclass(frozen=True)
@@ -107,9 +107,9 @@ def discrepancy(homes: Sequence[Home], most: int = DEFAULT.most_homes) -> list[L
     chosen: list[Learned] = []
     ranked = [each.hypothesis for each in sorted(homes, key=lambda each: -each.explained)]
     there = {(each.place, each.element) for each in ranked[:1]}
-    useful = [
-        each for each in ranked if 1 < each.variable.columns <= MOST_COLUMNS and (each.place, each.element) in there
-    ][:most]
+    near = [each for each in ranked if each.variable.columns > 1 and (each.place, each.element) in there]
+    # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
+    useful = [each for each in near if each.variable.columns <= MOST_COLUMNS][:most] or near[:1]
     for each in useful:
         chosen.append(each)
         if each.element == ALL and each.place in ("slider", "leg"):

@@ -42,7 +42,7 @@ def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, component: 
 
 
 def rows(curve: Curve) -> list[tuple[str, str, str]]:
-    """Return a short table: place, value and standard deviation (µm), evenly chosen where samples are, with extremes."""
+    """Return a short table: place, value and standard deviation (µm), evenly chosen among samples, with extremes."""
     seen = np.flatnonzero(np.nan_to_num(curve.samples, nan=1.0) > 0.0)
     seen = seen if len(seen) else np.arange(len(curve.at))
     unit, at = shown_places(curve)

@@ -39,7 +39,7 @@ def test_the_main_cause_is_drafted_as_it_was_learned(looked: Callable[[str], Dis
     model = found.base.knowing_effects([mine])
     fitted = hx.add_effect(found.samples, model, mine.name)
     # A bump stands for what was learned point by point: most of it, not all.
-    assert fitted.rms_after_um < 0.5 * fitted.rms_before_um
+    assert fitted.rms_after_um < 0.5 * found.rms_before_um
 
 
 def test_beside_a_known_cause_the_best_learned_function_is_drafted(
