@@ -14,8 +14,10 @@ DENT = '[[mechanism]]\nkind = "dent"\nguideway = 1\ndepth_um = 30.0\nat_mm = 250
 
 
 def _readme(folder: Path, run: Run) -> None:
-    """Make the folder that `make demo` makes."""
+    """Make the folder that `make demo` makes, with the machine whose commands the page shows in part."""
     (folder / "demo").mkdir()
+    _measured(folder, run, DENT, "demo/dent.toml", "demo/dented.parquet")
+    run("hexdbb diagnose demo/dented.parquet -m demo/dent-model.toml", folder)
 
 
 def _measured(folder: Path, run: Run, fault: str, truth: str, record: str) -> None:
