@@ -72,7 +72,7 @@ test-cpp: build  ## C++ tests
 .PHONY: test-python
 test-python: setup  ## Python tests
 	@echo "==> Python tests"
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
 .PHONY: sanitize
 sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
