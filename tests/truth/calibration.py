@@ -45,6 +45,7 @@ VARIABLES = {
     "since_reversal_travel": ("since_reversal", "direction"),
     "time_position": ("time", "position"),
     "turning_rate": ("joint_turning",),
+    "joint_angle_direction": ("joint_turning", "joint_angle"),
     "swing_rate": ("joint_turning",),
     "platform_turning_rate": ("joint_turning",),
     "platform_joint_angle": ("joint_angle",),

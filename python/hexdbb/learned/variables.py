@@ -120,6 +120,14 @@ TURNING = Variable(
     "turning_rate", "slider_joint_rate_rad_s", "rad/s", "turning rate of the slider's joint", 12, signed=True
 )
 JOINT_ANGLE = Variable("joint_angle", "slider_joint_angle_rad", "rad", "angle of the slider's joint", 12)
+JOINT_ANGLE_DIRECTION = Variable(
+    "joint_angle_direction",
+    "slider_joint_angle_rad",
+    "rad",
+    "angle of the slider's joint, by the sense of its turning",
+    12,
+    times="slider_joint_direction",
+)
 PLATFORM_TURNING = Variable(
     "platform_turning_rate",
     "platform_joint_rate_rad_s",
@@ -148,7 +156,18 @@ OF_SLIDER = (
 )
 OF_LEG = (
     *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE)),
-    *(TURNING, JOINT_ANGLE, PLATFORM_TURNING, PLATFORM_ANGLE, SWING, SWING_ANGLE, ROLL, PITCH, YAW),
+    *(
+        TURNING,
+        JOINT_ANGLE,
+        JOINT_ANGLE_DIRECTION,
+        PLATFORM_TURNING,
+        PLATFORM_ANGLE,
+        SWING,
+        SWING_ANGLE,
+        ROLL,
+        PITCH,
+        YAW,
+    ),
 )
 OF_GUIDEWAY = (
     Variable("position", "sliders_mm", "mm", "position of the slider", 24),

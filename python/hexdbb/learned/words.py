@@ -23,6 +23,7 @@ SHOWN = {"rad": ("deg", 180.0 / np.pi), "rad/s": ("deg/s", 180.0 / np.pi)}
 TIMES = {
     "": "",
     "travel_direction": ", its sign turning over with the direction of travel",
+    "slider_joint_direction": ", its sign turning over with the sense in which the joint turns",
     "direction": ", its sign turning over with the direction of the circle",
     ELAPSED: ", growing with time",
 }

@@ -96,11 +96,25 @@ def test_little_is_left_where_the_correction_s_own_motion_counts(name: str, left
     assert rms[0] < left * rms[1]
 
 
-@pytest.mark.parametrize("name", ["learned:slider:3:direction_position", "learned:leg:6:direction"])
-def test_a_direction_of_travel_is_corrected_away_from_reversals(name: str, nominal: Table) -> None:
+@pytest.mark.parametrize(
+    ("name", "since", "rate", "scale"),
+    [
+        ("learned:slider:3:direction_position", "since_reversal_mm", "velocity_mm_s", 1.0),
+        ("learned:leg:6:direction", "since_reversal_mm", "velocity_mm_s", 1.0),
+        (
+            "learned:leg:2:joint_angle_direction",
+            "slider_joint_since_reversal_rad",
+            "slider_joint_rate_rad_s",
+            1.0 / MACHINE.legs.length_mm,
+        ),
+    ],
+)
+def test_a_direction_is_corrected_away_from_reversals(
+    name: str, since: str, rate: str, scale: float, nominal: Table
+) -> None:
     model = model_of(name, nominal)
     remaining, driven = errors_mm(model, targets_of(model))
-    away = (driven["since_reversal_mm"] > AWAY_MM) & (np.abs(driven["velocity_mm_s"]) > AWAY_MM_S)
+    away = (driven[since] > scale * AWAY_MM) & (np.abs(driven[rate]) > scale * AWAY_MM_S)
     chosen = np.flatnonzero(away.all(axis=1))[20:-20]
     assert len(chosen) > 1000
     assert remaining[chosen].max() < 1e-4
