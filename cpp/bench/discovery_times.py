@@ -1,4 +1,4 @@
-"""Time of a whole discovery: every effect, whole and per element, on 20,000 readings of machines with a known fault."""
+"""Time of a whole discovery, known effects and learned functions, on records of machines with a known fault."""
 
 from __future__ import annotations
 
@@ -14,32 +14,37 @@ from hexdbb.samples import Samples
 
 PACE = Pace(rate_hz=11.5, instants_per_sample=15, travel_s=10.0)
 """About 20,000 samples on the standard plan."""
+DENSE = Pace(rate_hz=115.0, instants_per_sample=2, travel_s=10.0)
+"""Ten times as many."""
 CASES = (
-    "none-s1",
-    "backlash-x3-s1",
-    "gravity_sag-x3-s1",
-    "joint_offset-x3-s1",
-    "sample_delay-x3-s1",
-    "dent-x3-s1",
+    ("none-s1", PACE),
+    ("backlash-x3-s1", PACE),
+    ("backlash-x3-s1", DENSE),
+    ("gravity_sag-x3-s1", PACE),
+    ("joint_offset-x3-s1", PACE),
+    ("sample_delay-x3-s1", PACE),
+    ("dent-x3-s1", PACE),
+    ("backlash+servo_lag-x3-s4", PACE),
 )
-REPETITIONS = 5
-TARGET_S = 2.0
-"""Limit of one call: a user at the machine waits for it."""
+REPETITIONS = 3
+TARGET_S = 6.0
+"""Limit of one call on 20,000 readings: a user at the machine waits for it."""
 
 
 def discovery_rows() -> list[str]:
     """Return table rows: the fault, the number of readings, the verdict, the median time of one call."""
     rows = []
-    for name in CASES:
-        record = case(name, PACE).record()
+    for name, pace in CASES:
+        record = case(name, pace).record()
         model = new_model(record.machine)
         seconds = []
         for _ in range(REPETITIONS):
             begin = time.perf_counter()
             found = discover(Samples.of([record]), model)
             seconds.append(time.perf_counter() - begin)
-        called = found.verdict if found.best is None else f"{found.verdict}, {found.best.effect}"
+        called = ", ".join([found.verdict, *(each.effect or each.choice for each in found.causes)])
         hidden = name.rsplit("-s", 1)[0].replace("-x3", ", three times the noise").replace("none", "nothing")
         median_s = statistics.median(seconds)
-        rows.append(f"| {hidden} | {len(record):,} | {called} | {median_s:.2f} s | ≤ {TARGET_S:g} s |")
+        target = f"≤ {TARGET_S:g} s" if pace is PACE else "ten times the row above"
+        rows.append(f"| {hidden} | {len(record):,} | {called} | {median_s:.2f} s | {target} |")
     return rows
