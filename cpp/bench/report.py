@@ -177,7 +177,7 @@ def table(engine_ns: dict[str, float], scipy_ns: float, diagnosis_ms: dict[str, 
         lines.append(f"| {name} | {milliseconds:,.0f} ms | {target} | {milliseconds / ours:,.1f} |")
     lines += [
         "",
-        "One call of `discover`: known effects and learned functions screened, the best fitted, judged by what was left out.",
+        "One call of `discover`: known effects and learned functions screened, the best fitted and judged.",
         "",
         "| hidden in the machine | readings | verdict | time | target |",
         "|---|---|---|---|---|",
