@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from hexdbb.discovery.result import GROUPINGS, Candidate, GroupError, Grouping
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.search import Node, Search
-from hexdbb.evidence.trial import HeldOut
 from hexdbb.learned import Learned
 from hexdbb.model import Choice
 

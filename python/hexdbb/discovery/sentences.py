@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from hexdbb.discovery.result import Cause, Verdict
 from hexdbb.discovery.words import capital, joined, percent, unseen_words
-from hexdbb.evidence.trial import HeldOut
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned.places import is_learned
 
 UNKNOWN = "something is missing that no known effect explains"

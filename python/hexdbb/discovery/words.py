@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from hexdbb.discovery.result import Grouping
-from hexdbb.evidence.trial import HeldOut
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned import ALL, Learned, describe
 from hexdbb.learned.shown import ALL_OF, PLACES, sentence
 from hexdbb.model import Term

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.trial import HeldOut, Trial, Trials, heldout
+from hexdbb.evidence.heldout import HeldOut, heldout
+from hexdbb.evidence.trial import Trial, Trials
 from hexdbb.learned import Learned
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}

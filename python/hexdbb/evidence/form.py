@@ -1,0 +1,140 @@
+"""Model discrepancy: how far an effect's form differs from the machine's (Kennedy and O'Hagan 2001).
+
+Beside an effect of the catalogue stand functions of its own variables at its own place (`homes.py`), of a size that is
+a fraction f of the effect's, f half-normal with `Criteria.form_sigma`; f is chosen by marginal likelihood.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.engine import Engine, Fitted
+from hexdbb.evidence.homes import Home, Homes, discrepancy
+from hexdbb.evidence.marginal import marginal
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.signatures import signature_of
+from hexdbb.evidence.sums import Sums
+from hexdbb.learned import Learned
+from hexdbb.model import Parameter
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Form:
+    """How far an effect's form differs from the machine's: the relative size of the functions beside it."""
+
+    fraction: float
+    deviation: float
+    functions: tuple[str, ...]
+
+
+class Forms:
+    """Discrepancies of effects on one set of rows.
+
+    Parameters
+    ----------
+    engine : Engine
+    homes : Homes
+    criteria : Criteria
+    """
+
+    def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
+        self.engine, self.homes, self.criteria = engine, homes, criteria
+        self._homes: dict[tuple[str, str, str], list[Home]] = {}
+
+    def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
+        """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
+        size_mm, functions = self._size(fitted, known)
+        if not functions or size_mm <= 0.0:
+            return linear, Form(0.0, 0.0, ())
+        spaces = [signature_of(each, self.engine.readings) for each in functions]
+        signature = np.hstack([each.table for each in spaces])
+        roughness = self.criteria.roughness[1]
+        parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
+        factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
+        sums = Sums(linear, self.engine.readings, ())
+        block = sums.block(signature)
+        projected = sums.whole.project(block)
+        factor = _visible(factor, projected.information, block.own[0], self.criteria.form_visible)
+        if not factor.shape[1]:
+            return linear, Form(0.0, 0.0, ())
+        grid = np.array(self.criteria.form_grid)
+        weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
+        found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
+        if found.size <= 0.0:
+            return linear, Form(0.0, 0.0, tuple(each.name for each in functions))
+        at, squares = 0, []
+        for space in spaces:
+            width = space.table.shape[1]
+            squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
+            at += width
+        deviation = float(np.sqrt(sum(squares))) / size_mm
+        if deviation > self.criteria.form_limit:
+            # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
+            return linear, Form(0.0, 0.0, ())
+        form = Form(found.size, deviation, tuple(each.name for each in functions))
+        columns = signature @ (factor * found.size)
+        wider = replace(
+            linear,
+            own=np.hstack([linear.own, columns]),
+            standing=np.concatenate([linear.standing, np.zeros(columns.shape[1])]),
+        )
+        return wider, form
+
+    def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[Learned]]:
+        """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy."""
+        model, readings = fitted.model, self.engine.readings
+        sigmas = model.prior_sigma
+        square, functions = 0.0, []
+        for place, column in enumerate(fitted.free):
+            parameter = model.parameters()[column]
+            if parameter.effect != known.effect or parameter.element not in known.elements or parameter.is_shape:
+                continue
+            # Columns of the discrepancies stand behind those of the free values.
+            homes = self._homes_of(parameter, fitted.linear.own[:, place])
+            if homes:
+                square += (homes[0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
+                functions += [each for each in discrepancy(homes, self.criteria.most_homes) if each not in functions]
+        assert len(readings) > 0
+        return float(np.sqrt(square)), functions
+
+    def _homes_of(self, parameter: Parameter, signature: Floats) -> list[Home]:
+        """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""
+        key = (parameter.effect, parameter.element, parameter.name)
+        if any(each.is_shape for each in self.engine.base.info(parameter.effect).parameters):
+            return self.homes.around(signature)
+        if key not in self._homes:
+            self._homes[key] = self.homes.around(signature)
+        return self._homes[key]
+
+
+def _visible(factor: Floats, projected: Floats, whole: Floats, least: float) -> Floats:
+    """Keep the directions of a discrepancy that the model's own values do not imitate: shape (k, r)."""
+    values, vectors = np.linalg.eigh(factor.T @ whole @ factor)
+    kept = values > 1e-9 * values[-1]
+    white = factor @ (vectors[:, kept] / np.sqrt(values[kept]))
+    shares, turned = np.linalg.eigh(white.T @ projected @ white)
+    # Back in the prior's own scale: a direction's size is what it was before it was whitened.
+    own = np.sqrt(values[kept])[:, None] * turned
+    seen = shares > least
+    axes, _ = np.linalg.qr(own[:, seen]) if seen.any() else (own[:, :0], None)
+    found: Floats = factor @ vectors[:, kept] @ axes
+    return found
+
+
+def _diagonal(parts: Sequence[Floats]) -> Floats:
+    width = sum(each.shape[0] for each in parts)
+    table, at = np.zeros((width, sum(each.shape[1] for each in parts))), [0, 0]
+    for each in parts:
+        table[at[0] : at[0] + each.shape[0], at[1] : at[1] + each.shape[1]] = each
+        at[0] += each.shape[0]
+        at[1] += each.shape[1]
+    return table
