@@ -24,7 +24,7 @@ from hexdbb.rig.mechanisms import CATALOGUED, MECHANISMS, OUTSIDE
 from hexdbb.rig.plant import Plant
 from hexdbb.rig.truth import TruthFile, random_truth
 
-TRUTH = Path(__file__).parents[1] / "truth"
+TRUTH = Path(__file__).parents[2] / "truth"
 ESTIMATOR_FREE = {"errors", "files", "machine", "plan", "record", "rig"}
 """Parts of hexdbb that the truth may import: none of them computes a prediction."""
 
