@@ -46,6 +46,10 @@ void* operator new(std::size_t size) {
   if (out == nullptr) throw std::bad_alloc();
   return out;
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return __real_malloc(size);
+}
 // Not inlined: otherwise the compiler warns that free() in the caller does not match new.
 [[gnu::noinline]] void operator delete(void* old) noexcept { std::free(old); }
 [[gnu::noinline]] void operator delete(void* old, std::size_t) noexcept { std::free(old); }
