@@ -46,7 +46,7 @@ def _discovery(folder: Path, run: Run) -> None:
 
 
 def _compensation(folder: Path, run: Run) -> None:
-    """Give the model, the nominal model and a path of two poses."""
+    """Return the model, the nominal model and a path of two poses."""
     _diagnosed(folder, run)
     run("hexdbb add backlash:4 -m model.toml today.parquet", folder)
     run("hexdbb model new sp120 -o nominal.toml --effects none", folder)

@@ -28,7 +28,7 @@ def run(folder: Path, example: str, *arguments: str) -> str:
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
-    """Give the folder of the first example's files, and what it printed."""
+    """Return the folder of the first example's files, and what it printed."""
     folder = tmp_path_factory.mktemp("example")
     return folder, run(folder, "01_circular_test.py")
 

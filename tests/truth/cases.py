@@ -42,7 +42,7 @@ def _phase(draw: Draw) -> float:
 
 
 def _direction(draw: Draw) -> list[float]:
-    """Give a vector of 10 um in any direction."""
+    """Return a vector of 10 um in any direction."""
     vector = draw.normal(size=3)
     return [float(each) for each in 10.0 * vector / np.linalg.norm(vector)]
 
@@ -156,7 +156,7 @@ class Case:
 
     @property
     def name(self) -> str:
-        """Give the name that `case` understands."""
+        """Return the name that `case` understands."""
         return f"{'+'.join(self.kinds)}-x{self.times_noise:g}-s{self.seed}" if self.kinds else f"none-s{self.seed}"
 
     @property
@@ -198,7 +198,7 @@ class Case:
 
 
 def case(name: str, pace: Pace = PACE) -> Case:
-    """Give the case of a name.
+    """Return the case of a name.
 
     Raises
     ------
@@ -222,29 +222,29 @@ def alone(
     times_noise: Iterable[float] = TIMES_NOISE,
     seeds: Iterable[int] = SEEDS,
 ) -> Iterator[Case]:
-    """Give one mechanism at a time: every kind, in every size, in every seed's machine."""
+    """Return one mechanism at a time: every kind, in every size, in every seed's machine."""
     for kind, times, seed in itertools.product(kinds, times_noise, seeds):
         yield Case((kind,), times, seed)
 
 
 def outside(times_noise: Iterable[float] = TIMES_NOISE, seeds: Iterable[int] = SEEDS) -> Iterator[Case]:
-    """Give faults that no effect of the catalogue describes, one at a time."""
+    """Return faults that no effect of the catalogue describes, one at a time."""
     return alone(tuple(OUTSIDE), times_noise, seeds)
 
 
 def pairs(times_noise: float = 3.0, seed: int = 0) -> Iterator[Case]:
-    """Give every pair of catalogued mechanisms that one plan can see, each in another machine."""
+    """Return every pair of catalogued mechanisms that one plan can see, each in another machine."""
     for index, kinds in enumerate(itertools.combinations(CATALOGUED, 2)):
         if sum(kind in PLANS for kind in kinds) < 2:
             yield Case(kinds, times_noise, seed + index)
 
 
 def clean(seeds: Iterable[int] = range(60)) -> Iterator[Case]:
-    """Give machines with errors of geometry and set-up alone."""
+    """Return machines with errors of geometry and set-up alone."""
     for seed in seeds:
         yield Case((), 0.0, seed)
 
 
 def every() -> Iterator[Case]:
-    """Give all cases of the honest tests."""
+    """Return all cases of the honest tests."""
     return itertools.chain(clean(), alone(), outside(), pairs())

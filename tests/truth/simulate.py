@@ -99,7 +99,7 @@ def simulate(
 
 
 def true_readings_mm(truth: TruthFile, plan: Plan, pace: Pace | None = None) -> Array:
-    """Give the readings of all samples before noise and rounding, shape (n,); see `simulate`."""
+    """Return the readings of all samples before noise and rounding, shape (n,); see `simulate`."""
     machine, pace = plan.machine_file(), pace if pace is not None else Pace()
     return np.concatenate([reading_mm for _, _, reading_mm in _runs(truth, plan, machine, pace)])
 
@@ -139,7 +139,7 @@ def _reading_at(machine: Machine, arc: Arc, push: Push, instants: NDArray[np.int
 
 
 def _columns(arc: Arc, machine: MachineFile) -> dict[str, NDArray[Any]]:
-    """Give what is known of a run's samples without the gauge."""
+    """Return what is known of a run's samples without the gauge."""
     run, n = arc.run, len(arc.samples)
     turned = np.abs(arc.angle_rad[arc.samples]) / (2.0 * math.pi)
     counts = machine.can_setup.counts_per_mm

@@ -35,7 +35,7 @@ CORRECTIONS, NEAR_ENOUGH = 4, 0.002
 
 
 def sized(mechanism: MechanismTable, truth: TruthFile, plan: Plan, pace: Pace, times_noise: float) -> MechanismTable:
-    """Give the mechanism in the size whose signature is `times_noise` times the gauge's noise.
+    """Return the mechanism in the size whose signature is `times_noise` times the gauge's noise.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def sized(mechanism: MechanismTable, truth: TruthFile, plan: Plan, pace: Pace, t
 
 @lru_cache(maxsize=1024)
 def signature_um(mechanism: MechanismTable, truth: TruthFile, plan: Plan, pace: Pace) -> float:
-    """Give the root mean square (um) that a mechanism adds to the readings beyond what geometry and set-up absorb."""
+    """Return the root mean square (um) that a mechanism adds to the readings beyond what geometry and set-up absorb."""
     thin = replace(pace, rate_hz=pace.rate_hz / THINNED, instants_per_sample=pace.instants_per_sample * THINNED)
     faulty = truth.model_copy(update={"mechanism": (*truth.mechanism, mechanism)})
     change_mm = true_readings_mm(faulty, plan, thin) - _readings_mm(truth, plan, thin)
@@ -96,7 +96,7 @@ def _absorbed(plan: Plan, pace: Pace) -> Array:
 
 
 def _moved(truth: TruthFile, change_um: Array) -> TruthFile:
-    """Give the machine without its mechanisms, its geometry, cups and ball changed by these (um, urad)."""
+    """Return the machine without its mechanisms, its geometry, cups and ball changed by these (um, urad)."""
     geometry, used = {}, 0
     for name, value in truth.geometry.model_dump().items():
         size = np.size(value)

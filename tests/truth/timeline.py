@@ -89,7 +89,7 @@ class Timeline:
         self._travel_samples = max(1, math.ceil(travel_s * rate_hz))
 
     def stretches(self) -> Iterator[Arc | Motion]:
-        """Give the arcs in order, and between them the motions of travel."""
+        """Return the arcs in order, and between them the motions of travel."""
         begin, before = 0, None
         for run in self._plan.runs():
             arc = self._arc(run, begin)

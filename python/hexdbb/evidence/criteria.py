@@ -24,9 +24,11 @@ class Criteria:
     same_form : float
         Explained part of a signature from which a learned hypothesis is said to contain it (its home).
     form_home : float
-        Explained part from which a hypothesis at the best one's place lends its functions to a discrepancy.
+        Explained part from which a hypothesis at the best one's place lends its functions to a discrepancy: functions
+        of direction and position contain 96 % of play, whose form they must be able to mend.
     near_form : float
-        Where none contains it, the hypotheses nearest to it from this part on stand for its discrepancy.
+        Where none contains it, the hypotheses nearest to it from this part on stand for its discrepancy: a spike that
+        depends on travel and time at once is contained to six and seven tenths by functions of either.
     most_homes : int
         Functions of so many variables stand for a discrepancy; more add columns and no freedom.
     shape_starts : tuple of float
@@ -77,12 +79,14 @@ class Criteria:
     later_fits : int
         The same beside hypotheses already found.
     held_out : int
-        Hypotheses, of the largest evidence, that are also judged by circles left out while screening.
+        Hypotheses, of the largest evidence, that are also judged by circles left out while screening: twice as many as
+        get a full fit.
     most_steps : int
         Steps of one thing, at most: a count lost again and again, a gauge that jumps back and forth. Shared by the axes
         where the direction is not known: six steps of three axes each imitate whatever differs from circle to circle.
     change_part : float
-        Part of a circle's readings about its beginning in which one step is sought, but no second one.
+        Part of a circle's readings about its beginning in which one step is sought, but no second one: rows are thinned
+        to some hundred a circle, which place an instant to a few hundredths of it.
     max_effects : int
         Effects looked for at once.
     heldout_share_min : float
@@ -106,7 +110,8 @@ class Criteria:
     same_kind_share : float
         Part of the unexplained by which a known effect may lag behind the learned function that contains it.
     secondary : float
-        Factor on the variance that the forms of the causes found may leave, which a further cause must exceed.
+        Factor on the variance that the forms of the causes found may leave, which a further cause must exceed: twice
+        `form_sigma` squared is a form 20 % off, the largest that the calibration has.
     """
 
     max_rows: int = 12000

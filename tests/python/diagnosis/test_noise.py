@@ -20,7 +20,7 @@ def clean(seed: int) -> Record:
 
 
 def rounded(record: Record, noise_um: float, step_um: float, seed: int) -> Record:
-    """Give a record whose readings repeat from lap to lap but for noise, rounded."""
+    """Return a record whose readings repeat from lap to lap but for noise, rounded."""
     angle = np.radians(record.columns["angle_deg"])
     smooth_um = 30.0 * np.cos(angle) + 5.0 * np.cos(2.0 * angle)
     noisy_um = smooth_um + noise_um * np.random.default_rng(seed).standard_normal(len(record))

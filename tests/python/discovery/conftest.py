@@ -26,13 +26,13 @@ def _measured(name: str) -> Record:
 
 @pytest.fixture(scope="session")
 def measured() -> Measured:
-    """Give the record of a case, by its name."""
+    """Return the record of a case, by its name."""
     return _measured
 
 
 @pytest.fixture(scope="session")
 def few(measured: Measured) -> Record:
-    """Give every eighth sample of a machine without a fault: enough for algebra."""
+    """Return every eighth sample of a machine without a fault: enough for algebra."""
     record = measured("none-s3")
     return record.part(np.arange(len(record)) % 8 == 0)
 
@@ -45,5 +45,5 @@ def _found(name: str) -> Discovery:
 
 @pytest.fixture(scope="session")
 def found_in() -> Callable[[str], Discovery]:
-    """Give what is found missing from a new model on the record of a case."""
+    """Return what is found missing from a new model on the record of a case."""
     return _found

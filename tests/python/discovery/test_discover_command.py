@@ -29,7 +29,7 @@ def my_play(samples):
 
 @pytest.fixture
 def folder(measured: Callable[[str], Record], tmp_path: Path) -> Path:
-    """Give a folder with a record, the nominal machine's model, and an effect of the user's own."""
+    """Return a folder with a record, the nominal machine's model, and an effect of the user's own."""
     record = measured("backlash-x3-s1")
     write_record(record, tmp_path / "run.parquet")
     save_model(new_model(record.machine), tmp_path / "model.toml")
@@ -43,7 +43,7 @@ def run(folder: Path, line: str) -> Result:
 
 
 def refusal(done: Result) -> str:
-    """Give the line a refused command would end with (`hexdbb.cli.exits`)."""
+    """Return the line a refused command would end with (`hexdbb.cli.exits`)."""
     assert isinstance(done.exception, InputError)
     return str(done.exception)
 

@@ -30,7 +30,7 @@ FAULT = f'\n[[mechanism]]\nkind = "backlash"\nslider = {SLIDER}\nwidth_um = {WID
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Give a folder with the record of a machine that has a fault, and a model fitted to it that has not."""
+    """Return a folder with the record of a machine that has a fault, and a model fitted to it that has not."""
     folder = tmp_path_factory.mktemp("hidden_fault")
     plan = load_plan("standard").model_copy(update={"feeds_mm_min": FEEDS_MM_MIN, "laps": 1})
     (folder / "plan.toml").write_text(dump_toml(plan), encoding="utf-8")

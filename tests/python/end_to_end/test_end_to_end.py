@@ -26,13 +26,13 @@ FEED_MM_MIN = 3000.0
 
 
 def command(*words: str | Path) -> list[str]:
-    """Give the command line of `hexdbb`."""
+    """Return the command line of `hexdbb`."""
     return [sys.executable, "-m", "hexdbb.cli", *map(str, words)]
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory) -> Path:
-    """Give a folder with a plan of the seven standard circles, one lap each way, and a truth file."""
+    """Return a folder with a plan of the seven standard circles, one lap each way, and a truth file."""
     folder = tmp_path_factory.mktemp("end_to_end")
     plan = load_plan("standard").model_copy(update={"feeds_mm_min": (FEED_MM_MIN,), "laps": 1})
     (folder / "plan.toml").write_text(dump_toml(plan))

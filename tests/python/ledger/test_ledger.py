@@ -40,7 +40,7 @@ def record() -> Record:
 
 @pytest.fixture(scope="module")
 def without(record: Record) -> Model:
-    """Give a fitted model that lacks an effect."""
+    """Return a fitted model that lacks an effect."""
     names = [name for name in _core.effect_names() if new_model(record.machine, [name]).info(name).is_set_up]
     geometry = ["leg_length", "slider_offset", "guideway_translation", "guideway_rotation_xy", "platform_side"]
     chosen = geometry + [name for name in names if name in ("cup_position", "ball_offset")]

@@ -225,7 +225,7 @@ def test_bad_sample_is_refused_on_writing_and_on_reading(
 
 
 def fresh(record: Record) -> Record:
-    """Give one row of the record that is as it should be, for its file metadata."""
+    """Return one row of the record that is as it should be, for its file metadata."""
     row = next(row for row in range(len(record)) if row not in {bad[1] for bad in BAD_VALUES})
     return replace(record, columns={name: values[row : row + 1] for name, values in record.columns.items()})
 

@@ -300,7 +300,7 @@ def engine_misses(case: Case) -> tuple[Vector, Vector]:
 
 
 def loop_of(joints: list[Vector], s: Vector, leg_mm: float) -> Loop:
-    """Give the thesis' variables of two ball joints: f and r from the sliders, the lean from the joint."""
+    """Return the thesis' variables of two ball joints: f and r from the sliders, the lean from the joint."""
     feet = [(s[0] + s[1]) / 2, 2 * M - (s[2] + s[3]) / 2]
     radii = [np.sqrt(leg_mm**2 - ((s[2 * i + 1] - s[2 * i]) / 2) ** 2) for i in range(2)]
     second = TO_GUIDEWAY_2.T @ joints[1]
