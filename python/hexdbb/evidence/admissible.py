@@ -41,9 +41,14 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         return Checked(predicted, share, ())
     for grouping, held in predicted.items():
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
-        if extrapolates and trial.left > criteria.leaves_structure:
+        if extrapolates and _bends_geometry(trial, criteria):
             continue
         expected = held.expected * max(trial.left, 1.0) ** 0.5
         if held.share < criteria.heldout_share_min * share and held.after > criteria.heldout_ratio * expected:
             reasons.append(f"does not predict {WORDS[grouping]}")
     return Checked(predicted, share, tuple(reasons))
+
+
+def _bends_geometry(trial: Trial, criteria: Criteria) -> bool:
+    """Check for forms not quite right: what is left shows it, or the evidence for functions beside an effect."""
+    return any(form is not None and form.fraction > 0.0 for form in trial.forms) or trial.left > criteria.leaves_structure

@@ -76,7 +76,7 @@ class Forms:
             width = space.table.shape[1]
             squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
             at += width
-        deviation = float(np.sqrt(sum(squares))) / size_mm
+        deviation = float(np.sqrt(sum(squares) * _seen(found.coefficients, projected.information, block.own[0]))) / size_mm
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
@@ -114,6 +114,14 @@ class Forms:
         if key not in self._homes:
             self._homes[key] = self.homes.around(signature)
         return self._homes[key]
+
+
+def _seen(coefficients: Floats, projected: Floats, whole: Floats) -> float:
+    """Compute the part of functions' mean square that the model's own values do not imitate.
+
+    What the effect itself or geometry could have taken says nothing of the effect's form.
+    """
+    return float((coefficients @ projected @ coefficients) / (coefficients @ whole @ coefficients))
 
 
 def _visible(factor: Floats, projected: Floats, whole: Floats, least: float) -> Floats:

@@ -25,5 +25,7 @@ def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: floa
     lack = FitTest(engine.part, noise).of(linear.residual * engine.row_noise_mm, round(fitted))
     if matters_um is None:
         matters_um = default_matters_um(engine.noise.sigma_mm * 1e3, explained_um(engine.part, engine.base))
-    form_um = criteria.form_sigma * float(np.sqrt(trials.explained_before)) * lack.noise_um
+    # The variance below which the search looks for no further cause: to ask for one there would never end.
+    by_form = criteria.secondary * criteria.form_sigma**2 * trials.explained_before
+    form_um = float(np.sqrt(by_form)) * lack.noise_um
     return Sufficiency(lack, max(matters_um, form_um))

@@ -178,6 +178,7 @@ OF_BALL = (TIME, FINE_TIME, ROLL, PITCH, YAW)
 OF_PLATFORM_JOINT = (
     Variable("constant", "", "", "nothing: an offset"),
     Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5),
+    Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of the leg about its guideway", 5),
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION, FEED),
