@@ -41,7 +41,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         return Checked(predicted, share, ())
     for grouping, held in predicted.items():
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
-        if extrapolates and _bends_geometry(trial, criteria):
+        if extrapolates and _bends_geometry(trial, share, criteria):
             continue
         expected = held.expected * max(trial.left, 1.0) ** 0.5
         if held.share < criteria.heldout_share_min * share and held.after > criteria.heldout_ratio * expected:
@@ -49,6 +49,11 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     return Checked(predicted, share, tuple(reasons))
 
 
-def _bends_geometry(trial: Trial, criteria: Criteria) -> bool:
-    """Check for forms not quite right: what is left shows it, or the evidence for functions beside an effect."""
-    return any(form is not None and form.fraction > 0.0 for form in trial.forms) or trial.left > criteria.leaves_structure
+def _bends_geometry(trial: Trial, share: float, criteria: Criteria) -> bool:
+    """Check for an effect that explains nearly all, but whose form is not quite right.
+
+    What is left shows it, or the evidence for functions beside the effect. One that explains a part only may stand in
+    for another cause.
+    """
+    has_form = any(form is not None and form.fraction > 0.0 for form in trial.forms)
+    return share > criteria.form_explains and (has_form or trial.left > criteria.leaves_structure)
