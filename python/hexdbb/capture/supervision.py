@@ -13,6 +13,7 @@ from operator import itemgetter
 from typing import ClassVar
 
 from hexdbb.capture.exchange import SLOTS, Feedback
+from hexdbb.capture.pdo import SYNC_ID
 
 EMCY_BASE, HEARTBEAT_BASE = 0x080, 0x700
 """CAN identifiers of node 0 (predefined connection set)."""
@@ -70,6 +71,8 @@ class Supervision:
         Monotonic time of the last heartbeat, by node id.
     missing_in_a_row : list of int
         Consecutive SYNCs without an answer, by slot.
+    foreign_syncs : int
+        SYNCs received: of another producer, since no bus returns this controller's own.
     """
 
     nodes: Sequence[int]
@@ -80,9 +83,12 @@ class Supervision:
     nmt_states: dict[int, int] = field(default_factory=dict)
     heard_s: dict[int, float] = field(default_factory=dict)
     missing_in_a_row: list[int] = field(default_factory=lambda: [0] * SLOTS)
+    foreign_syncs: int = 0
 
     def on_frame(self, can_id: int, data: bytearray, timestamp: float) -> None:
         """Process a frame that is not process data."""
+        if can_id == SYNC_ID:
+            self.foreign_syncs += 1
         service, node = can_id & ~NODE_MASK, can_id & NODE_MASK
         handler = self._HANDLERS.get(service)
         if handler is not None and node in self.nodes:

@@ -8,6 +8,7 @@ more than that: whole batches are read back, and a torn tail is dropped.
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import threading
 from collections.abc import Mapping
@@ -133,7 +134,7 @@ class Journal:
         if self._stream is None:
             self.journal_path.unlink()
 
-    def finish(self, complete: bool = True, reason: str | None = None) -> Record:
+    def finish(self, complete: bool = True, reason: str | None = None, until_s: float = math.inf) -> Record:
         """Write the Parquet record and remove the journal; the samples are checked once.
 
         Parameters
@@ -142,6 +143,8 @@ class Journal:
             Whether the capture ran to its end.
         reason : str, optional
             Why it did not; kept in the record's metadata as ``incomplete_because``.
+        until_s : float
+            Time (``t_s``) from which samples are left out.
 
         Raises
         ------
@@ -158,6 +161,11 @@ class Journal:
         except BadRowError as error:
             raise RunError(f"{self.path}: not written: {error}; the journal is kept") from None
         record.path = self.path
+        before = record.columns["t_s"] < until_s
+        if not before.any():
+            self.journal_path.unlink()
+            raise RunError(f"{self.path}: not written: no certain samples were captured")
+        record.columns = {name: column[before] for name, column in record.columns.items()}
         write_parquet(record, self.path, self._overwrite)
         if not dropped:
             self.journal_path.unlink()
