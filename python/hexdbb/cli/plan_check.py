@@ -67,9 +67,10 @@ def check(
     clearances = _clearances(plan, machine, plan_name)
     assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
     if as_json:
-        summary = {"reachable": True, "duration_s": programme.duration_s, "bus_load": load, "runs": runs}
+        extent = {"rows": len(programme.table), "memory_bytes": int(programme.extent.memory_bytes)}
+        motion = {"reachable": True, "duration_s": programme.duration_s, **extent, "bus_load": load, "runs": runs}
         circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
-        click.echo(json.dumps({**summary, "circles": circles, **assessment.to_json()}, indent=2))
+        click.echo(json.dumps({**motion, "circles": circles, **assessment.to_json()}, indent=2))
         return
     _print(plan_name, programme, load, runs, clearances, assessment, machine)
 
@@ -84,7 +85,7 @@ def _print(
     machine: MachineFile,
 ) -> None:
     print_motion(f"plan {plan_name}: within reach and limits", runs, machine.can_setup.limits)
-    click.echo(f"{programme.duration_s:.0f} s at {1.0 / programme.cycle_s:g} Hz, bus load at most {load:.0%}\n")
+    click.echo(f"{programme.extent.words()} at {1.0 / programme.cycle_s:g} Hz, bus load at most {load:.0%}\n")
     print_clearances(clearances)
     print_assessment(assessment)
 
