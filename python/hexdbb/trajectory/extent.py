@@ -1,9 +1,9 @@
 """Extent of a plan: machine time, rows and memory, estimated from its numbers before anything is computed.
 
-Model: the whole table of targets is in memory before motion starts, because every row must be checked first. A run takes
-its captured and overshot arc at the feed, two ramps to the feed, feed-in and retract, and three rests; ramps and moves
-at the jerk and acceleration that a path gets at one millimetre of slider a millimetre of path. Transfers are not counted:
-the estimate is a little low, and the rows are counted once more while the table is made.
+Model: the whole table of targets is in memory before motion starts, because every row must be checked first. A run
+takes its captured and overshot arc at the feed, two ramps to the feed, feed-in and retract, and three rests; ramps and
+moves at the sliders' own acceleration and jerk. Transfers are not counted: the estimate is a little low, and the rows
+are counted once more while the table is made.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from hexdbb.machine import Limits
 from hexdbb.plan import CircleRun
 
 ROWS_MAX = 4_000_000
-"""Limits the rows of a table of targets: 4.4 h at 250 Hz, eight times the plan `standard` (34 min), longer than a machine
-keeps its temperature; its computation takes 1.2 GB and 15 s, which a small computer beside a machine has."""
+"""Limits the rows of a table of targets: 4.4 h at 250 Hz, eight times the plan `standard` (34 min), longer than a
+machine keeps its temperature; its computation takes 1.2 GB and 15 s, which a small computer beside a machine has."""
 BYTES_PER_ROW = 300
 """Memory per row while the table is computed, measured as growth of the process on the shipped plans (290 to 370)."""
 FEED_IN_MM = 0.5

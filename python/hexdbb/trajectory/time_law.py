@@ -118,9 +118,7 @@ def _calculated(parameter: InputParameter, limits: PathLimits, where: str) -> Tr
     try:
         Ruckig(1).calculate(parameter, trajectory)
     except RuckigError:
-        found = (
-            f"{limits.velocity_mm_s:.3g} mm/s, {limits.acceleration_mm_s2:.3g} mm/s², {limits.jerk_mm_s3:.3g} mm/s³"
-        )
+        found = f"{limits.velocity_mm_s:.3g} mm/s, {limits.acceleration_mm_s2:.3g} mm/s², {limits.jerk_mm_s3:.3g} mm/s³"
         expected = "a feed and limits of the sliders that a path can be driven with"
         raise InputError(f"{where}: no time law with {found} along the path (expected {expected})") from None
     return trajectory
