@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from rich.console import Console
 
+from hexdbb.cli.consoles import message_console, say
 from hexdbb.errors import InputError
 from hexdbb.record import journal_path, recover, write_record
 
@@ -40,9 +40,9 @@ def command(source: Path, output: Path | None, overwrite: bool) -> None:
             raise InputError(f"{source}: not named RECORD.journal (expected -o RECORD with such a name)")
     if output.exists() and source.exists() and output.samefile(source):
         raise InputError(f"{output}: is the file to recover (expected a new name: the original is kept)")
-    with Console(stderr=True).status(f"{source} to {output}"):
+    with message_console().status(f"{source} to {output}"):
         record = recover(source)
         write_record(record, output, overwrite, checked=True)
     last_s = record.columns["t_s"][-1]
-    click.echo(f"{output}: {len(record)} samples, the last at {last_s:.3f} s, marked incomplete")
-    click.echo(f"reason: {record.metadata['incomplete_because']}")
+    say(f"{output}: {len(record)} samples, the last at {last_s:.3f} s, marked incomplete")
+    say(f"reason: {record.metadata['incomplete_because']}")

@@ -159,6 +159,10 @@ def parse_toml(text: str, model: type[ModelT], origin: str) -> ModelT:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{origin}: not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{origin}: not valid TOML: nested too deep (expected a few levels)") from None
+    except ValueError:  # of Python's own limit on the digits of an integer
+        raise InputError(f"{origin}: not valid TOML: a number with too many digits (expected a number)") from None
     _check_schema(data, model, origin)
     try:
         return model.model_validate(data)

@@ -1,5 +1,4 @@
-"""Check of a record: circles that fit bar and machine; samples finite, known ids, within travel and gauge range, ordered
-in time, constant per sweep.
+"""Check of a record: circles fit bar and machine; samples finite, ordered, within limits, constant per sweep.
 
 The check runs over all samples, and therefore once for each record read or written.
 """
