@@ -7,6 +7,7 @@ import sys
 import click
 
 from hexdbb.errors import HexdbbError
+from hexdbb.files.plain_text import printable
 
 
 def reports_errors(command: click.Command) -> None:
@@ -14,5 +15,5 @@ def reports_errors(command: click.Command) -> None:
     try:
         command.main()
     except HexdbbError as error:
-        click.echo(f"error: {error}", err=True)
+        click.echo(f"error: {printable(str(error), kept='')}", err=True)
         sys.exit(error.exit_status)

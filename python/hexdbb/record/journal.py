@@ -25,7 +25,8 @@ from hexdbb.files.atomic_file import refuse_existing, sync_directory
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record.columns import REQUIRED_COLUMNS, BadRowError, Columns, RowSource, normalise
-from hexdbb.record.parquet import write_parquet
+from hexdbb.record.journal_stream import write_batch
+from hexdbb.record.parquet import SUFFIX, write_parquet
 from hexdbb.record.record import Record
 from hexdbb.record.recovery import read_journal
 from hexdbb.record.tables import to_table
@@ -71,8 +72,8 @@ class Journal:
     ) -> None:
         self.path, self.journal_path = Path(path), journal_path(path)
         self._overwrite = overwrite
-        if self.path.suffix != ".parquet":
-            raise InputError(f"{path}: suffix {self.path.suffix!r} (expected .parquet)")
+        if self.path.suffix != SUFFIX:
+            raise InputError(f"{path}: suffix {self.path.suffix!r} (expected {SUFFIX})")
         refuse_existing(self.path, overwrite)
         if self.journal_path.exists() and not overwrite:
             expected = f"none; make a record of it with: hexdbb recover {self.journal_path}"
@@ -83,6 +84,7 @@ class Journal:
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
+        self._rows_written = 0
         self._queued: list[Columns] = []
         self._lock, self._stop = threading.Lock(), threading.Event()
         self._failure: Exception | None = None
@@ -157,7 +159,7 @@ class Journal:
         if self._stream is None:
             raise RunError(f"{self.path}: not written: no samples were captured")
         try:
-            record, dropped = read_journal(self.journal_path, complete, reason)
+            record, dropped = read_journal(self.journal_path, complete, reason, self._rows_written)
         except BadRowError as error:
             raise RunError(f"{self.path}: not written: {error}; the journal is kept") from None
         record.path = self.path
@@ -197,7 +199,9 @@ class Journal:
         table = to_table(replace(self._header, columns=columns))
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
-        self._stream.write_table(table)
+        for batch in table.to_batches():
+            write_batch(self._stream, batch, self._rows_written)
+            self._rows_written += batch.num_rows
         self._sync()
 
     def _sync(self) -> None:
