@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import canopen
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
+from hexdbb.capture.link import Link
 from hexdbb.capture.sdo import RemoteDevice, name
 from hexdbb.capture.settings import configure_drive, configure_gauge
 from hexdbb.errors import RunError
@@ -44,12 +45,12 @@ class Devices:
         yield from (*self.drives, self.gauge)
 
 
-def add_devices(network: canopen.Network, machine: MachineFile) -> Devices:
+def add_devices(network: Link, machine: MachineFile) -> Devices:
     """Add the nodes of a machine file to a network.
 
     Parameters
     ----------
-    network : canopen.Network
+    network : Link
         The network of the bus; nothing is sent.
     machine : MachineFile
         Its ``[can]`` section names node ids and EDS files.

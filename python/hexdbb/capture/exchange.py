@@ -19,6 +19,9 @@ from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID
 GAUGE_SLOT = 6
 SLOTS = 7
 """Number of answers to one SYNC; slots 0 to 5 are the drives, slot 6 is the gauge."""
+MAX_BACKLOG = 1000
+"""Frames to read at most once the time for them is over: what a bus of 1 Mbit/s carries in the longest stall that a run
+survives (100 ms). A limit in time would drop answers that have waited while this process was stalled."""
 
 
 class Feedback:
@@ -42,12 +45,25 @@ class Feedback:
         Whether the answers certainly belong to this SYNC: none was missing, now or before, and none arrived late.
     cycle : int
         Number of the SYNC, from 0.
+    flooded : int
+        Consecutive SYNCs sent although more frames were waiting than `MAX_BACKLOG`.
     """
 
-    __slots__ = ("cycle", "gauge_status", "missing", "mode", "position", "reading_um", "settled", "statusword")
+    __slots__ = (
+        "cycle",
+        "flooded",
+        "gauge_status",
+        "missing",
+        "mode",
+        "position",
+        "reading_um",
+        "settled",
+        "statusword",
+    )
 
     def __init__(self) -> None:
         self.cycle = -1
+        self.flooded = 0
         self.statusword = [0] * 6
         self.position = [0] * 6
         self.mode = [0] * 6
@@ -139,9 +155,10 @@ class Exchange:
         """
         end_s = time.monotonic() + timeout_s
         pending = set(range(SLOTS)) - self._given_up
-        recv = self._bus.recv
-        while pending:
+        recv, backlog = self._bus.recv, MAX_BACKLOG
+        while pending and backlog:
             left_s = end_s - time.monotonic()
+            backlog -= left_s <= 0.0
             message = recv(max(left_s, 0.0))
             if message is None:
                 if left_s <= 0.0:
@@ -158,11 +175,16 @@ class Exchange:
 
     def drain(self) -> None:
         """Receive the frames that arrived since the last answers; process data among them are too late to be paired."""
-        while (message := self._bus.recv(0.0)) is not None:
+        for _ in range(MAX_BACKLOG):
+            message = self._bus.recv(0.0)
+            if message is None:
+                self.feedback.flooded = 0
+                return
             if message.arbitration_id in self._slots:
                 self.late_frames += 1
             else:
                 self._other(message.arbitration_id, message.data, message.timestamp)
+        self.feedback.flooded += 1
 
     def give_up(self, slots: Iterable[int]) -> None:
         """Stop waiting for the answers of some slots; they count as missing."""

@@ -8,14 +8,21 @@ Source: CiA 301, SDO protocol and abort codes; CiA 306, EDS files.
 from __future__ import annotations
 
 import configparser
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
+import can
 import canopen
 from canopen.sdo.exceptions import SdoAbortedError, SdoCommunicationError
 
+from hexdbb.capture.frames import SDO_ANSWER_BASE
+from hexdbb.capture.link import Link
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import InputError, RunError
 
+SDO_REQUEST_BASE = 0x600
+"""CAN identifier of node 0 (predefined connection set)."""
 SDO_TIMEOUT_S = 0.5
 """Longest time to wait for the answer to one SDO request, s.
 
@@ -35,7 +42,7 @@ class RemoteDevice:
 
     Parameters
     ----------
-    network : canopen.Network
+    network : Link
         The network the node is on.
     node_id : int
         1 to 127.
@@ -50,11 +57,14 @@ class RemoteDevice:
         The EDS does not exist or cannot be parsed.
     """
 
-    def __init__(self, network: canopen.Network, node_id: int, role: str, eds: Path) -> None:
-        self.node_id, self.role, self.eds = node_id, role, eds
-        self._node = network.add_node(node_id, _dictionary(eds, node_id))
-        self._node.sdo.RESPONSE_TIMEOUT = SDO_TIMEOUT_S
-        self._node.sdo.MAX_RETRIES = SDO_TRIES
+    def __init__(self, network: Link, node_id: int, role: str, eds: Path) -> None:
+        self.node_id, self.role, self.eds, self._network = node_id, role, eds, network
+        self._dictionary = _dictionary(eds, node_id)
+        # Not `canopen.RemoteNode`: it also makes PDOs of the EDS, and raises for one that describes them in part.
+        self._sdo = canopen.sdo.SdoClient(SDO_REQUEST_BASE + node_id, SDO_ANSWER_BASE + node_id, self._dictionary)
+        self._sdo.RESPONSE_TIMEOUT, self._sdo.MAX_RETRIES = SDO_TIMEOUT_S, SDO_TRIES
+        self._sdo.network = network
+        network.subscribe(SDO_ANSWER_BASE + node_id, self._sdo.on_response)
 
     @property
     def label(self) -> str:
@@ -63,11 +73,11 @@ class RemoteDevice:
 
     def has(self, index: int, subindex: int) -> bool:
         """Return whether the EDS describes an object."""
-        return self._node.object_dictionary.get_variable(index, subindex) is not None
+        return self._dictionary.get_variable(index, subindex) is not None
 
     def default(self, index: int, subindex: int) -> Value | None:
         """Return the value of an object in the EDS (DefaultValue) or DCF (ParameterValue); None if it has none."""
-        variable = self._node.object_dictionary.get_variable(index, subindex)
+        variable = self._dictionary.get_variable(index, subindex)
         if variable is None:
             return None
         value: Value | None = variable.value if variable.value is not None else variable.default
@@ -86,14 +96,8 @@ class RemoteDevice:
         RunError
             The node does not answer within `SDO_TRIES` times `SDO_TIMEOUT_S`, or refuses; names node and object.
         """
-        try:
+        with self._transfer(index, subindex, f"reading {name(index, subindex)}", "cannot be read"):
             value: Value = self._variable(index, subindex).raw
-        except SdoCommunicationError:
-            raise RunError(
-                f"{self.label}: no answer reading {name(index, subindex)} (expected a node on the bus)"
-            ) from None
-        except SdoAbortedError as error:
-            raise RunError(f"{self.label}: object {name(index, subindex)} cannot be read: {error}") from None
         return value
 
     def write(self, index: int, subindex: int, value: Value) -> None:
@@ -119,15 +123,30 @@ class RemoteDevice:
         RunError
             The node does not answer or refuses.
         """
-        try:
+        doing = f"writing {value} to {name(index, subindex)}"
+        with self._transfer(index, subindex, doing, f"refuses {value}"):
             self._variable(index, subindex).raw = value
-        except SdoCommunicationError:
-            raise RunError(f"{self.label}: no answer writing {value} to {name(index, subindex)}") from None
+
+    @contextmanager
+    def _transfer(self, index: int, subindex: int, doing: str, refused: str) -> Iterator[None]:
+        """Turn whatever a transfer raises into one message; a bus that is lost passes."""
+        try:
+            yield
+        except (RunError, can.CanError, OSError):
+            raise
         except SdoAbortedError as error:
-            raise RunError(f"{self.label}: object {name(index, subindex)} refuses {value}: {error}") from None
+            raise RunError(f"{self.label}: object {name(index, subindex)} {refused}: {error}") from None
+        except Exception as error:  # `canopen` raises what its parsers raise for an answer they do not expect
+            malformed = self._network.malformed.get(self.node_id)
+            silent = type(error) is SdoCommunicationError and "No SDO response" in str(error)
+            found = malformed or (None if silent else one_line(error))
+            why = f": {found}" if found else ""
+            raise RunError(f"{self.label}: no answer {doing}{why} (expected a node on the bus)") from None
 
     def _variable(self, index: int, subindex: int) -> canopen.sdo.SdoVariable:
-        entry = self._node.sdo[index]
+        if not self.has(index, subindex):
+            raise RunError(f"{self.label}: no object {name(index, subindex)} in {self.eds} (expected one)")
+        entry = self._sdo[index]
         return entry if isinstance(entry, canopen.sdo.SdoVariable) else entry[subindex]
 
 

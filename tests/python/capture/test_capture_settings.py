@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -88,6 +89,46 @@ def test_silent_node_is_named(drive: tuple[RemoteDevice, canopen.LocalNode]) -> 
     node.remove_network()
     with pytest.raises(RunError, match=r"node 3 \(slider 3\): no answer reading 6041:00"):
         device.read(0x6041)
+
+
+@pytest.mark.parametrize(
+    ("answer", "why"),
+    [
+        (b"\x43\x00\x10", r"SDO answer of 3 bytes \(43 00 10\) \(expected 8\)"),
+        (b"\x43\x18\x10\x01\x92\x01\x02\x00", "returned index|returned a value for"),
+        (b"\xe0\x00\x10\x00\x92\x01\x02\x00", "response|Unexpected"),
+    ],
+)
+def test_answer_that_is_none_is_named(answer: bytes, why: str) -> None:
+    name = f"answers{answer.hex()}"
+    with can.Bus(interface="virtual", channel=name) as ours, can.Bus(interface="virtual", channel=name) as theirs:
+        link = Link(ours)
+        finished = threading.Event()
+
+        def serve() -> None:
+            while not finished.is_set():
+                if theirs.recv(0.02) is not None:
+                    theirs.send(can.Message(arbitration_id=0x583, data=answer, is_extended_id=False))
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        try:
+            with link.threaded(), pytest.raises(RunError, match=r"^node 3 \(slider 3\): .*1000:00.*") as caught:
+                RemoteDevice(link, 3, "slider 3", EDS).read(0x1000)
+        finally:
+            finished.set()
+            thread.join()
+    assert re.search(why, str(caught.value))
+
+
+@pytest.mark.parametrize("index", [0x1000, 0x1400, 0x1600, 0x1800, 0x1A00, 0x6131])
+def test_object_missing_from_the_eds_is_named_with_node_and_file(index: int, tmp_path: Path) -> None:
+    eds = tmp_path / "lean.eds"
+    eds.write_text(without(f"{index:04X}"))
+    with can.Bus(interface="virtual", channel=f"missing{index}") as bus:
+        device = RemoteDevice(Link(bus), 3, "slider 3", eds)
+        with pytest.raises(RunError, match=rf"^node 3 \(slider 3\): no object {index:04X}:01 in .*lean\.eds"):
+            device.read(index, 1)
 
 
 def without(index: str) -> str:

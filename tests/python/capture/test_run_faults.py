@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import can
 import pyarrow as pa
 import pytest
 
@@ -183,6 +184,22 @@ def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
     _, said = process.communicate(timeout=30)
     assert process.returncode == 1
     assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
+
+
+def test_emergency_cut_short_stops_the_axes_and_keeps_cause_and_record(
+    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    with start_rig() as rig:
+        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+        wait_for_samples(process, tmp_path / "run.parquet")
+        rig.observer.send(can.Message(arbitration_id=0x083, data=b"\x10\x23", is_extended_id=False))
+        _, said = process.communicate(timeout=60)
+        assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
+    assert process.returncode == 1
+    cause = rf"node 3 \(slider 3\): EMCY 2310h \(expected none\) at t = .*; {STOPPED}; "
+    assert re.match(f"error: {cause}", said.splitlines()[-1])
+    assert re.match(cause, incomplete(tmp_path / "run.parquet").metadata["incomplete_because"] + "; ")
 
 
 def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
