@@ -176,6 +176,9 @@ class _Run:
             metadata={**request.metadata, "notes": list(self.progress.notes)},
             overwrite=request.overwrite,
         )
+        if journal.set_aside is not None:
+            kept = f"recover it with: hexdbb recover {journal.set_aside} -o RECORD"
+            self.progress.notes.append(f"journal of an interrupted capture kept as {journal.set_aside}; {kept}")
         return self.programme.after(way), journal
 
     def _move(self, programme: Programme, samples: SampleBuffer) -> str | None:
@@ -223,7 +226,7 @@ class _Run:
         elif isinstance(error, can.CanError | OSError):
             cause = str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
         else:
-            log.error("an error in this program stopped the run", exc_info=error)
+            log.debug("an error in this program stopped the run", exc_info=error)
             cause = str(Fault("controller", f"{type(error).__name__}: {one_line(error)} (an error in this program)"))
         unstopped = self.axes.stop()
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import re
+import select
 import signal
 import subprocess
 import time
@@ -154,9 +155,21 @@ def holds_a_batch(journal: Path) -> bool:
         return False
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ("number", "cause"),
+    [
+        (signal.SIGINT, "interrupted by the user"),
+        (signal.SIGTERM, "interrupted by the user"),
+        (signal.SIGQUIT, r"interrupted by the user \(SIGQUIT\)"),
+        (signal.SIGHUP, r"interrupted, the terminal was closed \(SIGHUP\)"),
+    ],
+)
 def test_interrupted_run_stops_and_keeps(
-    number: signal.Signals, start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+    number: signal.Signals,
+    cause: str,
+    start_rig: Callable[..., object],
+    command: Callable[..., list[str]],
+    tmp_path: Path,
 ) -> None:
     with start_rig() as rig:
         line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
@@ -168,10 +181,25 @@ def test_interrupted_run_stops_and_keeps(
         assert rig.velocities(DRIVES) == [0] * 6
         assert "no client on the bus" not in rig.log.read_text()
     assert process.returncode == 1
-    assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
+    assert re.match(f"error: hexdbb-run: {cause} at t = .*; {STOPPED}; ", said.splitlines()[-1])
     record = read_record(tmp_path / "run.parquet")
     assert not record.complete
     assert len(record) > 10
+
+
+def test_impatient_user_still_sees_the_cause_and_what_was_kept(
+    command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    line = command("--plan", "thesis", "--seed", 1)
+    process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+    wait_for_samples(process, tmp_path / "run.parquet")
+    while process.poll() is None and process.stderr is not None:
+        process.send_signal(signal.SIGINT)
+        if select.select([process.stderr], [], [], 0.05)[0] and "error: " in (said := process.stderr.readline()):
+            break
+    process.communicate(timeout=30)
+    kept = r"\d+ samples kept in .*run\.parquet, marked incomplete"
+    assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; {kept}", said)
 
 
 def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
