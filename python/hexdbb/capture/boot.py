@@ -12,16 +12,15 @@ from dataclasses import dataclass
 import canopen
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
+from hexdbb.capture.fitness import DRIVE_PROFILE, GAUGE_PROFILE, Level, findings
 from hexdbb.capture.link import Link
 from hexdbb.capture.sdo import RemoteDevice, name
 from hexdbb.capture.settings import configure_drive, configure_gauge
-from hexdbb.errors import RunError
+from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
 
 NMT_START, NMT_PRE_OPERATIONAL = 0x01, 0x80
 """NMT command specifiers (CiA 301)."""
-DRIVE_PROFILE, GAUGE_PROFILE = 402, 404
-"""Device profile numbers in the low word of object 1000h."""
 IDENTITY = {1: "vendor", 2: "product"}
 """Sub-indices of 1018h that are compared with the EDS; 0 in the EDS matches any device (CiA 306)."""
 
@@ -70,6 +69,22 @@ def add_devices(network: Link, machine: MachineFile) -> Devices:
         for k, (node, eds) in enumerate(zip(can.drive_nodes, can.drive_eds, strict=True), start=1)
     )
     return Devices(drives, RemoteDevice(network, can.gauge_node, "gauge", machine.eds_path(can.gauge_eds)))
+
+
+def refuse_unfit(devices: Devices, machine: MachineFile, cycle_s: float) -> None:
+    """Check by the EDS files that every device can run the test; nothing is sent.
+
+    Raises
+    ------
+    InputError
+        One cannot; names the device, its EDS, the object and what that means.
+    """
+    for device in devices:
+        profile = DRIVE_PROFILE if device in devices.drives else GAUGE_PROFILE
+        for found in findings(device.eds, profile, machine, cycle_s):
+            if found.level is Level.REFUSED:
+                line = "" if found.line is None else f":{found.line}"
+                raise InputError(f"{device.label}: {device.eds.path}{line}: object {found.place} {found}")
 
 
 def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float) -> list[str]:
@@ -132,7 +147,7 @@ def identify(device: RemoteDevice, profile: int) -> None:
         number = device.read(0x1018, subindex)
         if number != expected:
             where = f"{what} {number} in object {name(0x1018, subindex)}"
-            raise RunError(f"{device.label}: {where} (expected {expected}, as in {device.eds.name})")
+            raise RunError(f"{device.label}: {where} (expected {expected}, as in {device.eds.path.name})")
 
 
 def check_mode_offered(drive: RemoteDevice) -> None:

@@ -7,7 +7,6 @@ Source: CiA 301, SDO protocol and abort codes; CiA 306, EDS files.
 
 from __future__ import annotations
 
-import configparser
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,10 +15,11 @@ import can
 import canopen
 from canopen.sdo.exceptions import SdoAbortedError, SdoCommunicationError
 
+from hexdbb.capture.eds.file import read_eds
 from hexdbb.capture.frames import SDO_ANSWER_BASE
 from hexdbb.capture.link import Link
 from hexdbb.capture.transport import one_line
-from hexdbb.errors import InputError, RunError
+from hexdbb.errors import RunError
 
 SDO_REQUEST_BASE = 0x600
 """CAN identifier of node 0 (predefined connection set)."""
@@ -58,10 +58,11 @@ class RemoteDevice:
     """
 
     def __init__(self, network: Link, node_id: int, role: str, eds: Path) -> None:
-        self.node_id, self.role, self.eds, self._network = node_id, role, eds, network
-        self._dictionary = _dictionary(eds, node_id)
+        self.node_id, self.role, self._network = node_id, role, network
+        self.eds = read_eds(eds, node_id)
+        dictionary = self.eds.dictionary()
         # Not `canopen.RemoteNode`: it also makes PDOs of the EDS, and raises for one that describes them in part.
-        self._sdo = canopen.sdo.SdoClient(SDO_REQUEST_BASE + node_id, SDO_ANSWER_BASE + node_id, self._dictionary)
+        self._sdo = canopen.sdo.SdoClient(SDO_REQUEST_BASE + node_id, SDO_ANSWER_BASE + node_id, dictionary)
         self._sdo.RESPONSE_TIMEOUT, self._sdo.MAX_RETRIES = SDO_TIMEOUT_S, SDO_TRIES
         self._sdo.network = network
         network.subscribe(SDO_ANSWER_BASE + node_id, self._sdo.on_response)
@@ -73,15 +74,17 @@ class RemoteDevice:
 
     def has(self, index: int, subindex: int) -> bool:
         """Return whether the EDS describes an object."""
-        return self._dictionary.get_variable(index, subindex) is not None
+        return self.eds.get(index, subindex) is not None
+
+    def writable(self, index: int, subindex: int) -> bool:
+        """Return whether the EDS describes an object that SDO may write."""
+        described = self.eds.get(index, subindex)
+        return described is not None and described.writable
 
     def default(self, index: int, subindex: int) -> Value | None:
         """Return the value of an object in the EDS (DefaultValue) or DCF (ParameterValue); None if it has none."""
-        variable = self._dictionary.get_variable(index, subindex)
-        if variable is None:
-            return None
-        value: Value | None = variable.value if variable.value is not None else variable.default
-        return value
+        described = self.eds.get(index, subindex)
+        return None if described is None else described.value
 
     def read(self, index: int, subindex: int = 0) -> Value:
         """Read an object.
@@ -145,7 +148,7 @@ class RemoteDevice:
 
     def _variable(self, index: int, subindex: int) -> canopen.sdo.SdoVariable:
         if not self.has(index, subindex):
-            raise RunError(f"{self.label}: no object {name(index, subindex)} in {self.eds} (expected one)")
+            raise RunError(f"{self.label}: {self.eds.lacks(index, subindex)} (expected one)")
         entry = self._sdo[index]
         return entry if isinstance(entry, canopen.sdo.SdoVariable) else entry[subindex]
 
@@ -153,14 +156,3 @@ class RemoteDevice:
 def name(index: int, subindex: int) -> str:
     """Return index and sub-index as CiA writes them: 6065:00."""
     return f"{index:04X}:{subindex:02X}"
-
-
-def _dictionary(eds: Path, node_id: int) -> canopen.ObjectDictionary:
-    """Parse an EDS or DCF, in the cp1252 encoding that some manufacturers use."""
-    try:
-        with eds.open(encoding="cp1252", errors="replace") as file:
-            return canopen.import_od(file, node_id)
-    except OSError as error:
-        raise InputError(f"{eds}: cannot be read: {error.strerror} (expected the EDS of node {node_id})") from None
-    except (configparser.Error, ValueError, KeyError) as error:
-        raise InputError(f"{eds}: not an EDS: {one_line(error)} (expected the EDS of node {node_id})") from None

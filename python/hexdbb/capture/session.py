@@ -14,7 +14,7 @@ import can
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.capture.boot import Devices, add_devices, boot, release
+from hexdbb.capture.boot import Devices, add_devices, boot, refuse_unfit, release
 from hexdbb.capture.checks import Fault, Watch
 from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
@@ -84,6 +84,7 @@ def measure(
     progress.stage = "configuring nodes"
     link = Link(bus)
     devices = add_devices(link, request.machine)
+    refuse_unfit(devices, request.machine, request.cycle_s)
     try:
         with interrupts.watched():
             with link.threaded():

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
-from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, NOT_VALID, SYNCHRONOUS, PdoLayout
+from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, NOT_VALID, SYNCHRONOUS, WITHOUT_REMOTE, PdoLayout
 from hexdbb.capture.sdo import RemoteDevice, name
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
@@ -65,15 +65,18 @@ class Expected:
         Its value.
     meaning : str
         The value in words.
+    without : str
+        Consequence if the device has no such object.
     """
 
     index: int
     subindex: int
     value: int
     meaning: str
+    without: str
 
 
-GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre")
+GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre", "the unit of its readings is not known")
 
 
 def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
@@ -165,7 +168,7 @@ def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:
     Yields
     ------
     str
-        One line for each object that the EDS lacks, with the consequence.
+        One line for each object that the EDS lacks, or that is read-only with another value, with the consequence.
 
     Raises
     ------
@@ -173,12 +176,17 @@ def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:
         A required object is missing, or the node refuses a value or reads back another.
     """
     for setting in settings:
-        if device.has(setting.index, setting.subindex):
+        if device.writable(setting.index, setting.subindex):
             device.write(setting.index, setting.subindex, setting.value)
             continue
-        note = (
-            f"{device.label}: no object {name(setting.index, setting.subindex)} in {device.eds.name}: {setting.without}"
-        )
+        place = name(setting.index, setting.subindex)
+        if not device.has(setting.index, setting.subindex):
+            lack = f"no object {place} in {device.eds.path.name}"
+        elif (found := device.read(setting.index, setting.subindex)) != setting.value:
+            lack = f"object {place} is {found} and read-only (expected {setting.value})"
+        else:
+            continue
+        note = f"{device.label}: {lack}: {setting.without}"
         if setting.required:
             raise RunError(note)
         yield note
@@ -203,6 +211,8 @@ def expect(device: RemoteDevice, expected: Expected) -> None:
 def map_pdo(device: RemoteDevice, layout: PdoLayout, deadline_ms: int | None = None) -> Iterator[str]:
     """Configure one PDO in the order that CiA 301 prescribes, and read every value back.
 
+    Parameters that the device fixes are read only, and must be what would have been written.
+
     Parameters
     ----------
     device : RemoteDevice
@@ -221,16 +231,45 @@ def map_pdo(device: RemoteDevice, layout: PdoLayout, deadline_ms: int | None = N
         The node refuses a value or reads back another.
     """
     cob_id = layout.cob_id(device.node_id)
-    device.send(layout.communication, 1, cob_id | NOT_VALID)
-    device.write(layout.communication, 2, SYNCHRONOUS)
-    device.send(layout.mapping, 0, 0)
-    for subindex, mapped in enumerate(layout.objects, start=1):
-        device.write(layout.mapping, subindex, mapped.entry)
-    device.write(layout.mapping, 0, len(layout.objects))
+    fixed = not all(device.writable(layout.mapping, subindex) for subindex in layout.entries)
+    if device.writable(layout.communication, 1):
+        device.send(layout.communication, 1, cob_id | NOT_VALID)
+    write_or_expect(device, layout.communication, 2, SYNCHRONOUS)
+    if fixed:
+        for subindex, value in layout.entries.items():
+            expect_fixed(device, layout.mapping, subindex, value)
+    else:
+        device.send(layout.mapping, 0, 0)
+        for subindex, mapped in enumerate(layout.objects, start=1):
+            device.write(layout.mapping, subindex, mapped.entry)
+        device.write(layout.mapping, 0, len(layout.objects))
     if deadline_ms is not None:
-        without = "it does not detect missing targets"
-        yield from apply(device, [Setting(layout.communication, 5, deadline_ms, without)])
-    device.write(layout.communication, 1, cob_id)
+        yield from apply(device, [rpdo_deadline(deadline_ms)])
+    if device.writable(layout.communication, 1):
+        device.write(layout.communication, 1, cob_id)
+    else:
+        expect_fixed(device, layout.communication, 1, cob_id, ignored=WITHOUT_REMOTE)
+
+
+def rpdo_deadline(deadline_ms: int) -> Setting:
+    """Return the setting of a drive's RPDO event timer (1400h:05)."""
+    return Setting(DRIVE_RPDO.communication, 5, deadline_ms, "it does not detect missing targets")
+
+
+def write_or_expect(device: RemoteDevice, index: int, subindex: int, value: int) -> None:
+    """Write an object and read it back, or check the value of one that is read-only."""
+    if device.writable(index, subindex):
+        device.write(index, subindex, value)
+    else:
+        expect_fixed(device, index, subindex, value)
+
+
+def expect_fixed(device: RemoteDevice, index: int, subindex: int, value: int, ignored: int = 0) -> None:
+    """Check the value of a read-only object; raises `RunError` if it differs in bits that are not `ignored`."""
+    found = int(device.read(index, subindex))
+    if (found ^ value) & ~ignored:
+        place = name(index, subindex)
+        raise RunError(f"{device.label}: object {place} is {found:X}h and read-only (expected {value:X}h)")
 
 
 def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:

@@ -134,7 +134,7 @@ def test_object_missing_from_the_eds_is_named_with_node_and_file(index: int, tmp
 def without(index: str) -> str:
     """The drive's EDS without one object."""
     text = EDS.read_text()
-    text = re.sub(rf"\[{index}(sub\w+)?\]\n(?:[^\[].*\n|\n)*", "", text)
+    text = re.sub(rf"\[{index}(sub\w+)?\]\n(?:[^\[\n].*\n|\n)*", "", text)
     return re.sub(rf"(?m)^\d+=0x{index}\n", "", text)
 
 
