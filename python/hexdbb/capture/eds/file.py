@@ -133,5 +133,8 @@ def _described(index: int, subindex: int | None, section: Section, node_id: int)
     subs = compact_subs(section)
     if not subs:
         return {}
-    count = EdsObject(index, 0, "NrOfObjects", UNSIGNED8, "ro", False, subs, section.line)  # implicit (CiA 306)
-    return {(index, 0): count} | {(index, sub): read_object(index, sub, section, node_id) for sub in range(1, subs + 1)}
+    described = {(index, sub): read_object(index, sub, section, node_id) for sub in range(1, subs + 1)}
+    # Implicit. CiA 306 calls it read-only; of a PDO mapping it is as writable as the entries it counts (CiA 301).
+    access = described[index, 1].access
+    count = EdsObject(index, 0, "NrOfObjects", UNSIGNED8, access, mappable=False, value=subs, line=section.line)
+    return {(index, 0): count, **described}
