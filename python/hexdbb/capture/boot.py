@@ -87,7 +87,7 @@ def refuse_unfit(devices: Devices, machine: MachineFile, cycle_s: float) -> None
                 raise InputError(f"{device.label}: {device.eds.path}{line}: object {found.place} {found}")
 
 
-def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float) -> list[str]:
+def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float, timed: bool) -> list[str]:
     """Identify, configure and start every node.
 
     Parameters
@@ -99,7 +99,9 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
     machine : MachineFile
         Travel, limits and supervision times to be written.
     cycle_s : float
-        SYNC period, s.
+        Time from one target to the next, s.
+    timed : bool
+        Whether SYNC comes once in that time; not in lockstep.
 
     Returns
     -------
@@ -117,8 +119,8 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
     notes: list[str] = []
     for drive in devices.drives:
         check_mode_offered(drive)
-        notes += configure_drive(drive, machine, cycle_s)
-    notes += configure_gauge(devices.gauge, machine, cycle_s)
+        notes += configure_drive(drive, machine, cycle_s, timed)
+    notes += configure_gauge(devices.gauge, machine, cycle_s, timed)
     network.nmt.send_command(NMT_START)
     return notes
 

@@ -88,7 +88,7 @@ def measure(
     try:
         with interrupts.watched():
             with link.threaded():
-                progress.notes += boot(link, devices, request.machine, request.cycle_s)
+                progress.notes += boot(link, devices, request.machine, request.cycle_s, clock.real_time)
             with link.looped():
                 return _Run(request, programme, link, devices, clock, progress, interrupts).record()
     except (can.CanError, OSError) as error:

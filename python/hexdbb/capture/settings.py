@@ -79,7 +79,7 @@ class Expected:
 GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre", "the unit of its readings is not known")
 
 
-def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
+def drive_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> list[Setting]:
     """Return the settings of a drive.
 
     Parameters
@@ -87,7 +87,9 @@ def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
     machine : MachineFile
         Travel (mm), encoder scale, limits and supervision times.
     cycle_s : float
-        SYNC period, s.
+        Time from one target to the next, s.
+    timed : bool
+        Whether SYNC comes once in that time.
 
     Raises
     ------
@@ -99,7 +101,7 @@ def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
     period, exponent = interpolation_period(cycle_s)
     window = round(can.limits.following_error_mm * abs(scale))
     return [
-        *communication_settings(machine, cycle_s),
+        *communication_settings(machine, cycle_s, timed),
         Setting(0x6007, 0, ABORT_CONNECTION_QUICK_STOP, "it reacts to a lost connection by its factory setting"),
         Setting(0x605A, 0, QUICK_STOP_AND_STAY, "its quick stop follows its factory setting"),
         Setting(0x6065, 0, window, "only the controller supervises the following error"),
@@ -112,12 +114,17 @@ def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
     ]
 
 
-def communication_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
-    """Return the settings of every node: SYNC period (1006h), heartbeat consumer (1016h) and producer (1017h)."""
+def communication_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> list[Setting]:
+    """Return the settings of every node: SYNC period (1006h), heartbeat consumer (1016h) and producer (1017h).
+
+    In lockstep (not `timed`) SYNC has no period, which is 0: a device that supervises another would report
+    communication errors (EMCY 8100h).
+    """
     can = machine.can_setup
+    period_us = round(cycle_s * 1e6) if timed else 0
     watched = CONTROLLER_NODE << 16 | can.heartbeat_consumer_ms
     return [
-        Setting(0x1006, 0, round(cycle_s * 1e6), "it does not know the SYNC period"),
+        Setting(0x1006, 0, period_us, "it does not know the SYNC period"),
         Setting(0x1016, 1, watched, "it does not detect the loss of the controller"),
         Setting(0x1017, 0, can.heartbeat_producer_ms, "its loss is detected by missing process data only"),
     ]
@@ -272,15 +279,15 @@ def expect_fixed(device: RemoteDevice, index: int, subindex: int, value: int, ig
         raise RunError(f"{device.label}: object {place} is {found:X}h and read-only (expected {value:X}h)")
 
 
-def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:
+def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float, timed: bool) -> Iterator[str]:
     """Write all settings and PDO mappings of a drive; yield one line for each object it lacks."""
-    yield from apply(device, drive_settings(machine, cycle_s))
+    yield from apply(device, drive_settings(machine, cycle_s, timed))
     yield from map_pdo(device, DRIVE_RPDO, machine.can_setup.rpdo_timeout_ms)
     yield from map_pdo(device, DRIVE_TPDO)
 
 
-def configure_gauge(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:
+def configure_gauge(device: RemoteDevice, machine: MachineFile, cycle_s: float, timed: bool) -> Iterator[str]:
     """Check the unit of the gauge and write its settings and PDO mapping; yield one line for each object it lacks."""
     expect(device, GAUGE_UNIT)
-    yield from apply(device, communication_settings(machine, cycle_s))
+    yield from apply(device, communication_settings(machine, cycle_s, timed))
     yield from map_pdo(device, GAUGE_TPDO)

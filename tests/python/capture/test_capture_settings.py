@@ -51,6 +51,13 @@ def test_every_setting_is_in_the_node_afterwards(drive: tuple[RemoteDevice, cano
     assert node.sdo[0x1016][1].raw >> 16 == 127
 
 
+def test_sync_has_no_period_in_lockstep() -> None:
+    def period(timed: bool) -> list[int]:
+        return [each.value for each in drive_settings(shipped_machine(), CYCLE_S, timed) if each.index == 0x1006]
+
+    assert (period(True), period(False)) == ([4000], [0])
+
+
 def test_a_node_that_keeps_another_value_is_refused(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
     device, node = drive
     node.add_read_callback(lambda index, subindex, od: 1000 if index == 0x6065 else None)
