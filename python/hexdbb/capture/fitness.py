@@ -185,7 +185,7 @@ def _pdo(eds: Eds, layout: PdoLayout) -> Iterator[Finding]:
     slots = sum(eds.get(layout.mapping, k) is not None for k in layout.entries if k)
     if lacking and 0 < slots < len(layout.objects):
         wanted = ", ".join(name(each.index, each.subindex) for each in layout.objects)
-        what = f"{slots} mapping slots of {len(layout.objects)} (expected room for {wanted})"
+        what = f"{slots} of {len(layout.objects)} mapping slots (expected room for {wanted})"
         yield Finding(Level.REFUSED, name(layout.mapping, slots + 1), what, layout.objects[slots].without)
     elif lacking:
         yield from lacking

@@ -33,20 +33,25 @@ class Emergency:
         Node id.
     code : int
         Error code of CiA 301 and the device profiles.
-    register : int or None
-        Error register 1001h; None if the message was cut short before it.
+    data : bytes
+        The whole message: error code, error register 1001h, vendor bytes; eight unless it was cut short.
     reset : bool
         Whether the node has since reported 'no error'.
     """
 
     node: int
     code: int
-    register: int | None
+    data: bytes
     reset: bool = False
 
     def __str__(self) -> str:
-        register = "" if self.register is None else f", error register {self.register:02X}h"
-        return f"EMCY {self.code:04X}h{register}" + (", since reset by the node" if self.reset else "")
+        whole = malformed(EMCY_BASE + self.node, self.data) is None
+        rest = (
+            f"error register {self.data[2]:02X}h"
+            if whole
+            else f"cut short to {len(self.data)} bytes ({self.data.hex(' ').upper()})"
+        )
+        return f"EMCY {self.code:04X}h, {rest}" + (", since reset by the node" if self.reset else "")
 
 
 @dataclass
@@ -143,7 +148,7 @@ class Supervision:
         if code is None:
             return
         if code != NO_ERROR:
-            self.emergencies[node] = Emergency(node, code, data[2] if len(data) > 2 else None)
+            self.emergencies[node] = Emergency(node, code, bytes(data))
         elif node in self.emergencies:
             self.emergencies[node] = replace(self.emergencies[node], reset=True)
 

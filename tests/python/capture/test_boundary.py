@@ -44,7 +44,7 @@ def moving(bus: ScriptedBus, *frames: tuple[int, bytes]) -> AxisGroup:
 @pytest.mark.parametrize(
     ("can_id", "data", "cause"),
     [
-        (0x083, b"\x10\x23", r"node 3 \(slider 3\): EMCY 2310h \(expected none\)"),
+        (0x083, b"\x10\x23", r"node 3 \(slider 3\): EMCY 2310h, cut short to 2 bytes \(10 23\) \(expected none\)"),
         (0x083, b"\x10", r"node 3 \(slider 3\): EMCY of 1 bytes \(10\) \(expected 8\)"),
         (0x083, b"\x00\x00", r"node 3 \(slider 3\): EMCY of 2 bytes \(00 00\) \(expected 8\)"),
         (0x707, b"", r"node 7 \(gauge\): heartbeat of 0 bytes \(expected 1\)"),

@@ -114,7 +114,7 @@ def test_object_of_the_wrong_kind(section: str, key: str, value: str, place: str
 
 def test_drive_with_one_mapping_slot(fitness) -> None:
     ((place, said),) = shown(fitness(without(DRIVE, "1600sub2")))
-    expected = "cannot run: 1 mapping slots of 2 (expected room for 6040:00, 607A:00): it is given no targets"
+    expected = "cannot run: 1 of 2 mapping slots (expected room for 6040:00, 607A:00): it is given no targets"
     assert (place, said) == ("1600:02", expected)
 
 

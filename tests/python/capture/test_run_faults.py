@@ -225,7 +225,7 @@ def test_emergency_cut_short_stops_the_axes_and_keeps_cause_and_record(
         _, said = process.communicate(timeout=60)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
     assert process.returncode == 1
-    cause = rf"node 3 \(slider 3\): EMCY 2310h \(expected none\) at t = .*; {STOPPED}; "
+    cause = rf"node 3 \(slider 3\): EMCY 2310h, cut short to 2 bytes \(10 23\) \(expected none\) at t = .*; {STOPPED}; "
     assert re.match(f"error: {cause}", said.splitlines()[-1])
     assert re.match(cause, incomplete(tmp_path / "run.parquet").metadata["incomplete_because"] + "; ")
 
