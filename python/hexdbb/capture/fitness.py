@@ -235,5 +235,6 @@ def _mapped(eds: Eds, mapped: Mapped, received: bool, is_mapped: bool) -> Iterat
 
 def _missing(eds: Eds, index: int, subindex: int, level: Level, without: str) -> Finding:
     wrong = eds.unusable.get((index, subindex))
-    what = "missing" if wrong is None else f"cannot be used: {wrong}"
-    return Finding(level, name(index, subindex), what, without)
+    if wrong is None:
+        return Finding(level, name(index, subindex), "missing", without)
+    return Finding(level, name(index, subindex), f"cannot be used: {wrong.what}", without, wrong.line)

@@ -100,7 +100,10 @@ class RemoteDevice:
             The node does not answer within `SDO_TRIES` times `SDO_TIMEOUT_S`, or refuses; names node and object.
         """
         with self._transfer(index, subindex, f"reading {name(index, subindex)}", "cannot be read"):
-            value: Value = self._variable(index, subindex).raw
+            value = self._variable(index, subindex).raw
+        if not isinstance(value, int | float):
+            place = f"object {name(index, subindex)} in {self.eds.path}"
+            raise RunError(f"{self.label}: {place} is of another data type (expected a number)")
         return value
 
     def write(self, index: int, subindex: int, value: Value) -> None:
@@ -141,10 +144,10 @@ class RemoteDevice:
             raise RunError(f"{self.label}: object {name(index, subindex)} {refused}: {error}") from None
         except Exception as error:  # `canopen` raises what its parsers raise for an answer they do not expect
             malformed = self._network.malformed.get(self.node_id)
-            silent = type(error) is SdoCommunicationError and "No SDO response" in str(error)
-            found = malformed or (None if silent else one_line(error))
-            why = f": {found}" if found else ""
-            raise RunError(f"{self.label}: no answer {doing}{why} (expected a node on the bus)") from None
+            if malformed is None and type(error) is SdoCommunicationError and "No SDO response" in str(error):
+                raise RunError(f"{self.label}: no answer {doing} (expected a node on the bus)") from None
+            found = malformed or one_line(error)
+            raise RunError(f"{self.label}: {doing} failed: {found} (expected an SDO answer as in CiA 301)") from None
 
     def _variable(self, index: int, subindex: int) -> canopen.sdo.SdoVariable:
         if not self.has(index, subindex):

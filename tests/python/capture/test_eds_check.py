@@ -102,8 +102,8 @@ def test_object_that_the_test_can_do_without_is_said_with_its_consequence(fitnes
         ("6064", "DataType", "0x0003", "6064:00", "data type 0x0003 (expected integer of 32 bits)"),
         ("607A", "AccessType", "ro", "607A:00", "read-only (expected writable)"),
         ("1800sub2", "AccessType", "const", "", ""),
-        ("607A", "DataType", "what", "607A:00", "cannot be used: line "),
-        ("607A", "AccessType", "", "607A:00", "states no accesstype"),
+        ("607A", "DataType", "what", "607A:00", "cannot be used: DataType=what (expected a number)"),
+        ("607A", "AccessType", "", "607A:00", "cannot be used: no AccessType (expected one)"),
     ],
 )
 def test_object_of_the_wrong_kind(section: str, key: str, value: str, place: str, said: str, fitness) -> None:
@@ -200,6 +200,19 @@ def test_unfit_device_is_refused_before_anything_is_sent(tmp_path: Path) -> None
         )
         with pytest.raises(InputError, match=expected):
             refuse_unfit(Devices((drive,) * 6, gauge), shipped_machine(), CYCLE_S)
+
+
+def test_text_where_a_number_is_expected_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "drive.eds"
+    path.write_text(with_key(DRIVE, "6502", "DataType", "0x0009"))
+    with can.Bus(interface="virtual", channel="text") as ours, can.Bus(interface="virtual", channel="text") as theirs:
+        link, other = Link(ours), canopen.Network(theirs)
+        other.NOTIFIER_CYCLE = 0.02
+        other.connect()
+        other.create_node(3, canopen.import_od(str(DRIVE), 3))
+        with link.threaded(), pytest.raises(RunError, match=r"object 6502:00 in .*drive\.eds is of another data type"):
+            RemoteDevice(link, 3, "slider 3", path).read(0x6502)
+        other.notifier.stop()
 
 
 def test_fixed_mapping_is_read_and_not_written(tmp_path: Path) -> None:

@@ -39,13 +39,13 @@ class Eds:
         The file.
     objects : mapping of (index, sub-index) to EdsObject
         Objects it describes.
-    unusable : mapping of (index, sub-index) to str
-        What is wrong with the description of other objects: line, key, value and what was expected.
+    unusable : mapping of (index, sub-index) to UnusableError
+        What is wrong with the description of other objects.
     """
 
     path: Path
     objects: Mapping[Key, EdsObject]
-    unusable: Mapping[Key, str]
+    unusable: Mapping[Key, UnusableError]
 
     def get(self, index: int, subindex: int) -> EdsObject | None:
         """Return an object, or None if it is not described."""
@@ -76,15 +76,15 @@ class Eds:
         return dictionary
 
 
-def read_eds(path: Path, node_id: int = 1) -> Eds:
+def read_eds(path: Path, node_id: int | None = None) -> Eds:
     """Read an EDS or DCF.
 
     Parameters
     ----------
     path : Path
         The file, in cp1252 or UTF-8.
-    node_id : int
-        Value of ``$NODEID``.
+    node_id : int, optional
+        Value of ``$NODEID``; 1 where no node is meant.
 
     Returns
     -------
@@ -95,7 +95,7 @@ def read_eds(path: Path, node_id: int = 1) -> Eds:
     InputError
         The file cannot be read, or describes no object.
     """
-    expected = f"expected the EDS of node {node_id}"
+    expected = "expected an EDS or DCF" if node_id is None else f"expected the EDS of node {node_id}"
     try:
         if path.is_file() and path.stat().st_size > LARGEST_BYTES:
             raise InputError(f"{path}: not an EDS: {path.stat().st_size} bytes ({expected})")
@@ -104,14 +104,14 @@ def read_eds(path: Path, node_id: int = 1) -> Eds:
         raise InputError(f"{path}: cannot be read: {error.strerror} ({expected})") from None
     sections = parse_sections(text)
     objects: dict[Key, EdsObject] = {}
-    unusable: dict[Key, str] = {}
+    unusable: dict[Key, UnusableError] = {}
     for index, subindex, section in objects_of(sections):
         try:
-            objects.update(_described(index, subindex, section, node_id))
+            objects.update(_described(index, subindex, section, node_id or 1))
         except UnusableError as error:
-            unusable[index, subindex or 0] = str(error)
+            unusable[index, subindex or 0] = error
     if not objects:
-        first = next(iter(unusable.values()), "no section describes an object, as [1000] does")
+        first = next((str(wrong) for wrong in unusable.values()), "no section describes an object, as [1000] does")
         raise InputError(f"{path}: not an EDS: {first} ({expected})")
     return Eds(path, objects, unusable)
 

@@ -17,7 +17,19 @@ VAR, ARRAY, RECORD = 0x7, 0x8, 0x9
 
 
 class UnusableError(Exception):
-    """Raised for a section that does not describe an object; names line, key and value."""
+    """Raised for a section that does not describe an object.
+
+    Attributes
+    ----------
+    line : int
+        Line of the EDS that is wrong.
+    what : str
+        Key, value and what was expected.
+    """
+
+    def __init__(self, line: int, what: str) -> None:
+        super().__init__(f"line {line}: {what}")
+        self.line, self.what = line, what
 
 
 @dataclass(frozen=True)
@@ -94,12 +106,12 @@ def read_object(index: int, subindex: int, section: Section, node_id: int) -> Ed
     UnusableError
         Data type or access type are missing, or no such.
     """
-    data_type = _number(section, "datatype", None)
-    access = _required(section, "accesstype")
+    data_type = _number(section, "DataType", None)
+    access = _required(section, "AccessType")
     if access.text.lower() not in ACCESS:
-        raise UnusableError(f"line {access.line}: AccessType={access.text} (expected one of {', '.join(ACCESS)})")
+        raise UnusableError(access.line, f"AccessType={access.text} (expected one of {', '.join(ACCESS)})")
     if not 0 < data_type <= 0x1B:
-        raise UnusableError(f"line {section.line}: DataType={data_type:#06x} (expected a basic type of CiA 301)")
+        raise UnusableError(section.line, f"DataType={data_type:#06x} (expected a basic type of CiA 301)")
     stated = section.values.get("parametervalue") or section.values.get("defaultvalue")
     return EdsObject(
         index=index,
@@ -107,7 +119,7 @@ def read_object(index: int, subindex: int, section: Section, node_id: int) -> Ed
         name=section.values["parametername"].text if "parametername" in section.values else section.name,
         data_type=data_type,
         access=access.text.lower(),
-        mappable=_number(section, "pdomapping", 0) != 0,
+        mappable=_number(section, "PDOMapping", 0) != 0,
         value=None if stated is None else _value(stated.text, data_type, node_id),
         line=section.line,
     )
@@ -115,28 +127,28 @@ def read_object(index: int, subindex: int, section: Section, node_id: int) -> Ed
 
 def object_type(section: Section) -> int:
     """Return the object type of a section; raises `UnusableError` if it is no number."""
-    return _number(section, "objecttype", VAR)
+    return _number(section, "ObjectType", VAR)
 
 
 def compact_subs(section: Section) -> int:
     """Return the number of sub-indices that an array describes together (CompactSubObj); 0 if each has a section."""
-    return min(_number(section, "compactsubobj", 0), 254)
+    return min(_number(section, "CompactSubObj", 0), 254)
 
 
 def _required(section: Section, key: str) -> Value:
-    found = section.values.get(key)
+    found = section.values.get(key.lower())
     if found is None:
-        raise UnusableError(f"line {section.line}: [{section.name}] states no {key} (expected one)")
+        raise UnusableError(section.line, f"no {key} (expected one)")
     return found
 
 
 def _number(section: Section, key: str, default: int | None) -> int:
-    if default is not None and key not in section.values:
+    if default is not None and key.lower() not in section.values:
         return default
     value = _required(section, key)
     number = _parsed(value.text)
     if number is None:
-        raise UnusableError(f"line {value.line}: {key}={value.text} (expected a number)")
+        raise UnusableError(value.line, f"{key}={value.text} (expected a number)")
     return number
 
 
