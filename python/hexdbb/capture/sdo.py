@@ -34,6 +34,9 @@ SDO_TRIES = 3
 """Number of times a request is sent before the node counts as not answering, so that one lost frame does not refuse a
 run; a node that is switched off is reported after 3 x 0.5 s = 1.5 s."""
 
+MAX_SEGMENTS = 16
+"""Number of segments of one SDO transfer, of up to 7 bytes each. The objects read here are numbers of up to 8 bytes."""
+
 Value = int | float
 
 
@@ -100,7 +103,7 @@ class RemoteDevice:
             The node does not answer within `SDO_TRIES` times `SDO_TIMEOUT_S`, or refuses; names node and object.
         """
         with self._transfer(index, subindex, f"reading {name(index, subindex)}", "cannot be read"):
-            value = self._variable(index, subindex).raw
+            value = self._upload(index, subindex)
         if not isinstance(value, int | float):
             place = f"object {name(index, subindex)} in {self.eds.path}"
             raise RunError(f"{self.label}: {place} is of another data type (expected a number)")
@@ -148,6 +151,17 @@ class RemoteDevice:
                 raise RunError(f"{self.label}: no answer {doing} (expected a node on the bus)") from None
             found = malformed or one_line(error)
             raise RunError(f"{self.label}: {doing} failed: {found} (expected an SDO answer as in CiA 301)") from None
+
+    def _upload(self, index: int, subindex: int) -> object:
+        """Read an object in at most `MAX_SEGMENTS`; `canopen` would follow a transfer that never ends."""
+        variable = self._variable(index, subindex).od
+        with self._sdo.open(index, subindex, buffering=0) as stream:
+            pieces: list[bytes] = []
+            while len(pieces) < MAX_SEGMENTS and (piece := stream.read(7)):
+                pieces.append(piece)
+        data = b"".join(pieces)
+        # Some devices send 32 bits whatever the type.
+        return variable.decode_raw(data[: len(variable) // 8] if variable.fixed_size else data)
 
     def _variable(self, index: int, subindex: int) -> canopen.sdo.SdoVariable:
         if not self.has(index, subindex):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import random
 import struct
 import time
 
@@ -12,9 +14,12 @@ from tests.python.capture.scripted_bus import DRIVES, GAUGE, ScriptedBus, axes_o
 
 from hexdbb.capture.exchange import MAX_BACKLOG, Exchange
 from hexdbb.capture.frames import GuardedBus
+from hexdbb.capture.link import Link
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
+from hexdbb.capture.sdo import RemoteDevice
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import RunError
+from hexdbb.machine import shipped
 
 ROWS = 20
 FAULT_SYNC = 5
@@ -192,3 +197,78 @@ def test_answers_that_waited_while_this_process_stalled_are_read() -> None:
 def test_one_line_has_no_traceback() -> None:
     error = can.CanError("Failed to receive: x  Traceback (most recent call last):\n  File ...\nValueError: x")
     assert one_line(error) == "Failed to receive: x"
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_frame_raises_anything_but_a_fault(seed: int) -> None:
+    rng = random.Random(seed)
+    bus = ScriptedBus()
+    axes = moving(bus)
+    stopped = 0
+    services = [0x000, 0x080, 0x100, 0x180, 0x200, 0x280, 0x580, 0x600, 0x700, 0x780]
+
+    def noise(_: int) -> None:
+        for _ in range(5):
+            kind = rng.choice(
+                [{}, {}, {}, {"is_extended_id": True}, {"is_remote_frame": True}, {"is_error_frame": True}]
+            )
+            data = b"" if "is_remote_frame" in kind else rng.randbytes(rng.randint(0, 8))
+            bus.put(rng.choice(services) + rng.randrange(128), data, **kind)
+
+    for _ in range(30):
+        bus.on_sync = noise
+        try:
+            follow(axes)
+        except MotionFaultError as error:
+            assert "\n" not in str(error)
+            stopped += 1
+        bus.on_sync = lambda number: None
+        assert axes.stop() == []
+        axes._watch.supervision.malformed.clear()
+        axes._watch.supervision.emergencies.clear()
+        axes._watch.supervision.nmt_states.clear()
+        axes.enable()
+    assert stopped
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_sdo_answer_raises_anything_but_one_line(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hexdbb.capture.sdo.SDO_TIMEOUT_S", 0.002)
+    rng = random.Random(seed)
+    bus = ScriptedBus()
+    link = Link(bus)
+    device = RemoteDevice(link, 3, "slider 3", shipped("eds", "hexglider_drive.eds"))
+
+    def answer(can_id: int, data: bytes, remote: bool = False) -> None:
+        """Answer like a server with flipped bits, of any length, or never to an end."""
+        reply = bytearray(
+            rng.choice([b"\x43\x00\x10\x00\x92\x01\x02\x00", b"\x41\x00\x10\x00\x09\0\0\0", b"\x00" * 8, b"\x10" * 8])
+        )
+        for _ in range(rng.randint(0, 2)):
+            reply[rng.randrange(8)] ^= 1 << rng.randrange(8)
+        link.notify(0x583, reply[: 8 if rng.random() < 0.9 else rng.randrange(8)], 0.0)
+
+    monkeypatch.setattr(link, "send_message", answer)
+    read = failed = 0
+    for _ in range(250):
+        try:
+            device.read(0x1000) if rng.random() < 0.5 else device.write(0x6065, 0, 30000)
+            read += 1
+        except RunError as error:
+            assert str(error).startswith("node 3 (slider 3): ")
+            assert "\n" not in str(error)
+            failed += 1
+    assert read
+    assert failed
+
+
+def test_sdo_transfer_without_an_end_is_ended() -> None:
+    link = Link(ScriptedBus())
+    device = RemoteDevice(link, 3, "slider 3", shipped("eds", "hexglider_drive.eds"))
+    toggle = itertools.cycle((b"\x00", b"\x10"))
+
+    def answer(can_id: int, data: bytes, remote: bool = False) -> None:
+        link.notify(0x583, bytearray(b"\x40\x00\x10\0\0\0\0\0" if data[0] == 0x40 else next(toggle) + bytes(7)), 0.0)
+
+    link.send_message = answer
+    assert device.read(0x1000) == 0
