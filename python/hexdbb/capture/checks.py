@@ -22,6 +22,7 @@ from hexdbb.capture.cia402 import (
     state_of,
 )
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
+from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 
@@ -93,10 +94,10 @@ class Watch:
         Cycles missed immediately before the last SYNC.
     missed : int
         Cycles missed so far.
-    interrupted : bool
-        Whether the user has asked to stop.
     late_s : mapping of int to float
         Time from a SYNC to the last late answer of a slot, s.
+    interrupts : Interrupts
+        Whether a signal has asked the program to end.
     """
 
     feedback: Feedback
@@ -114,8 +115,8 @@ class Watch:
     gauge_watched: bool = False
     stalled: int = 0
     missed: int = 0
-    interrupted: bool = False
     late_s: Mapping[int, float] = field(default_factory=dict)
+    interrupts: Interrupts = field(default_factory=Interrupts)
 
     def lateness(self, slot: int) -> str:
         """Return how late a slot's answers come as part of a message, or an empty text."""
@@ -141,7 +142,7 @@ def find_fault(watch: Watch) -> Fault | None:
 
 
 def _interrupted(watch: Watch) -> Fault | None:
-    return Fault("hexdbb-run", "interrupted by the user") if watch.interrupted else None
+    return Fault("hexdbb-run", watch.interrupts.requested) if watch.interrupts.requested else None
 
 
 def _stall(watch: Watch) -> Fault | None:
@@ -150,6 +151,13 @@ def _stall(watch: Watch) -> Fault | None:
     if watch.missed > watch.max_missed:
         return Fault("controller", f"{watch.missed} cycles missed so far (expected at most {watch.max_missed})")
     return None
+
+
+def _flood(watch: Watch) -> Fault | None:
+    if watch.feedback.flooded < watch.supervision.silent_after:
+        return None
+    expected = "all frames read before the next SYNC"
+    return Fault("bus", f"flooded with frames for {watch.feedback.flooded} consecutive SYNCs (expected {expected})")
 
 
 def _answers(watch: Watch) -> Fault | None:
@@ -198,7 +206,14 @@ def _drive_states(watch: Watch) -> Fault | None:
 def _emergencies(watch: Watch) -> Fault | None:
     for node, emergency in watch.supervision.emergencies.items():
         label = watch.labels[watch.supervision.nodes.index(node)]
-        return Fault(label, f"EMCY {emergency.code:04X}h, error register {emergency.register:02X}h (expected none)")
+        return Fault(label, f"{emergency} (expected none)")
+    return None
+
+
+def _malformed(watch: Watch) -> Fault | None:
+    for node, wrong in watch.supervision.malformed.items():
+        where = watch.labels[watch.supervision.nodes.index(node)] if node else "bus"
+        return Fault(where, wrong)
     return None
 
 
@@ -301,12 +316,14 @@ def _heartbeats(watch: Watch) -> Fault | None:
 CHECKS: list[Check] = [
     Check("interrupted", _interrupted),
     Check("loop stall", _stall),
+    Check("flood", _flood),
     Check("length of answers", _wrong_length),
     Check("answers", _answers),
     Check("SYNC of others", _foreign_sync),
     Check("drive states", _drive_states),
     Check("modes", _modes),
     Check("emergencies", _emergencies),
+    Check("malformed frames", _malformed),
     Check("NMT states", _nmt_states),
     Check("heartbeats", _heartbeats),
     Check("status bits", _status_bits),

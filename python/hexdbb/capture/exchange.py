@@ -21,11 +21,9 @@ from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID
 GAUGE_SLOT = 6
 SLOTS = 7
 """Number of answers to one SYNC; slots 0 to 5 are the drives, slot 6 is the gauge."""
-
-
-DRAIN_LIMIT_S = 0.002
-"""Longest time to receive what has arrived before a SYNC, s: half a cycle at 250 Hz. A bus on which frames never end
-must not hold up the targets."""
+MAX_BACKLOG = 1000
+"""Frames to read at most once the time for them is over: what a bus of 1 Mbit/s carries in the longest stall that a run
+survives (100 ms). A limit in time would drop answers that have waited while this process was stalled."""
 
 
 class Feedback:
@@ -52,10 +50,13 @@ class Feedback:
         Slot of an answer that has not the configured length, its number of bytes, and the expected one.
     cycle : int
         Number of the SYNC, from 0.
+    flooded : int
+        Consecutive SYNCs sent although more frames were waiting than `MAX_BACKLOG`.
     """
 
     __slots__ = (
         "cycle",
+        "flooded",
         "gauge_status",
         "missing",
         "mode",
@@ -68,6 +69,7 @@ class Feedback:
 
     def __init__(self) -> None:
         self.cycle = -1
+        self.flooded = 0
         self.statusword = [0] * 6
         self.position = [0] * 6
         self.mode = [0] * 6
@@ -168,13 +170,14 @@ class Exchange:
             The same object in every cycle; `missing` names the slots without an answer.
         """
         end_s = time.monotonic() + timeout_s
-        recv, outstanding, given_up = self._bus.recv, self._outstanding, self._given_up
-        while not outstanding <= given_up:
+        recv, outstanding, given_up, backlog = self._bus.recv, self._outstanding, self._given_up, MAX_BACKLOG
+        while backlog and not outstanding <= given_up:
             left_s = end_s - time.monotonic()
+            backlog -= left_s <= 0.0
             message = recv(max(left_s, 0.0))
             if message is not None:
                 self._take(message)
-            if left_s <= 0.0:
+            elif left_s <= 0.0:
                 break
         self.feedback.missing = tuple(sorted(outstanding))
         self.feedback.settled = self.feedback.settled and not outstanding
@@ -185,11 +188,13 @@ class Exchange:
 
         Answers among them come late, to be paired no more, or are one too many.
         """
-        end_s = time.monotonic() + quiet_s + DRAIN_LIMIT_S
-        while (message := self._bus.recv(quiet_s)) is not None:
-            self._take(message, late=True)
-            if time.monotonic() > end_s:
+        for _ in range(MAX_BACKLOG):
+            message = self._bus.recv(quiet_s)
+            if message is None:
+                self.feedback.flooded = 0
                 return
+            self._take(message, late=True)
+        self.feedback.flooded += 1
 
     def await_late(self, timeout_s: float) -> None:
         """Wait for the missing answers to the last SYNC; after that they count as lost and may come no more."""

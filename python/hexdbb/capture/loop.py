@@ -16,9 +16,10 @@ import can
 
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
+from hexdbb.capture.frames import HEARTBEAT_BASE
 from hexdbb.capture.link import Link
 from hexdbb.capture.settings import CONTROLLER_NODE
-from hexdbb.capture.supervision import HEARTBEAT_BASE, NMT_OPERATIONAL
+from hexdbb.capture.supervision import NMT_OPERATIONAL
 
 T = TypeVar("T")
 QUIET_S = 0.002

@@ -24,6 +24,7 @@ from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing, sync_directory
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Gauge, Mount
+from hexdbb.record.abandoned import make_way
 from hexdbb.record.columns import REQUIRED_COLUMNS, BadRowError, Columns, RowSource, normalise
 from hexdbb.record.journal_stream import write_batch
 from hexdbb.record.parquet import SUFFIX, write_parquet
@@ -51,12 +52,17 @@ class Journal:
     machine, gauge, mounts, circles, metadata
         As in `Record`.
     overwrite : bool
-        Whether an existing record or journal may be replaced.
+        Whether an existing record may be replaced, and a journal set aside.
+
+    Attributes
+    ----------
+    set_aside : Path or None
+        Where the journal of an earlier, interrupted capture is kept now.
 
     Raises
     ------
     InputError
-        The record exists, or the journal of an interrupted capture does.
+        The record exists, or the journal of an interrupted capture with samples does.
     """
 
     def __init__(
@@ -75,9 +81,7 @@ class Journal:
         if self.path.suffix != SUFFIX:
             raise InputError(f"{path}: suffix {self.path.suffix!r} (expected {SUFFIX})")
         refuse_existing(self.path, overwrite)
-        if self.journal_path.exists() and not overwrite:
-            expected = f"none; make a record of it with: hexdbb recover {self.journal_path}"
-            raise InputError(f"{self.journal_path}: left by an interrupted capture (expected {expected})")
+        self.set_aside = make_way(self.journal_path, overwrite)
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
         self._header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
         to_table(self._header)  # raises here, not in the writing thread, for metadata that JSON cannot hold
@@ -168,7 +172,10 @@ class Journal:
             self.journal_path.unlink()
             raise RunError(f"{self.path}: not written: no certain samples were captured")
         record.columns = {name: column[before] for name, column in record.columns.items()}
-        write_parquet(record, self.path, self._overwrite)
+        try:
+            write_parquet(record, self.path, self._overwrite)
+        except RunError as error:
+            raise RunError(f"{error}; the samples are kept: hexdbb recover {self.journal_path}") from None
         if not dropped:
             self.journal_path.unlink()
         return record
