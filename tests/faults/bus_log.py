@@ -17,6 +17,8 @@ ENABLED_MASK, ENABLED = 0x6F, 0x27
 """Statusword bits of *operation enabled* (CiA 402)."""
 QUICK_STOP_MASK, QUICK_STOP = 0x86, 0x02
 """Controlword bits of *quick stop* (CiA 402)."""
+STANDING_SYNCS, STANDING_COUNTS = 5, 2
+"""Last SYNCs of a run during which a drive that was stopped moves by no more than its encoder's rounding, counts."""
 
 
 @dataclass
@@ -110,9 +112,18 @@ class BusLog:
         """Return cycles and seconds from a machine time since enabling to the quick stop, or None without one."""
         if self.enabled_at is None or self.stopped_at is None:
             return None
-        begin = min(self.enabled_at + round(at_s / cycle_s), len(self.cycles) - 1)
+        begin = min(self.enabled_at + round(at_s / cycle_s), len(self.cycles)) - 1
         stopped_at, stopped_s = self.stopped_at
-        return max(stopped_at - begin, 0), max(stopped_s - self.cycles[begin].time_s, 0.0)
+        return max(stopped_at - begin - 1, 0), max(stopped_s - self.cycles[begin].time_s, 0.0)
+
+    def standing(self) -> bool:
+        """Return whether every drive that answered the last SYNCs stood still."""
+        last = self.cycles[-STANDING_SYNCS:]
+        for node in DRIVES:
+            positions = [cycle.positions[node] for cycle in last if node in cycle.positions]
+            if positions and max(positions) - min(positions) > STANDING_COUNTS:
+                return False
+        return True
 
     @staticmethod
     def is_sync(frame: Frame, way: Way) -> bool:

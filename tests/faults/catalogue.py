@@ -29,7 +29,8 @@ from tests.faults.transformations import (
     twice,
 )
 
-AT_S = 6.5
+AT_S = 5.3
+"""Machine time at which faults act: half of the circle is captured, and slider 2 moves up at 150 mm/s."""
 CYCLE_S = 1 / RATE_HZ
 IN, OUT = Way.TO_CONTROLLER, Way.TO_NODES
 GAUGE = 0x187
@@ -66,6 +67,10 @@ class Fault:
         Whether a run must end complete: nothing is lost but the samples concerned.
     moves_machine : bool
         Whether the machine itself moves otherwise than without the fault.
+    cuts_off : bool
+        Whether commands no longer reach the drives, which then stop on their own.
+    at_s : float
+        Machine time at which it begins to act while capturing, s.
     """
 
     name: str
@@ -77,7 +82,7 @@ class Fault:
     may_pass: bool = False
     must_pass: bool = False
     moves_machine: bool = False
-
+    cuts_off: bool = False
     at_s: float = AT_S
 
     @property
@@ -155,7 +160,7 @@ def _reading(change: Callable[[float], float]) -> Transformation:
 
 
 def _silent_node_in_a_flood(lockstep: bool) -> list[Rule]:
-    flood = flooded(Frame(0x555, bytes(8)), per_second=20_000, seconds=4.0, silent=True)
+    flood = flooded(Frame(0x555, bytes(8)), per_second=300_000, seconds=4.0, silent=True)
     return [Rule(tpdo(3), IN, flood, AT_S), Rule(tpdo(3), IN, drop, AT_S, FOREVER)]
 
 
@@ -190,7 +195,7 @@ FAULTS: list[Fault] = [
     _proxy("bit of a statusword wrong", tpdo(2), bits_flipped(0, 1), r"node 2 ", may_pass=True),
     _proxy("reading 60 µm off", GAUGE, _reading(lambda um: um + 60.0), r"node 7 ", may_pass=True),
     _proxy("reading not a number", GAUGE, _reading(lambda um: float("nan")), r"node 7 "),
-    _proxy("position jumps 2.85 mm", tpdo(1), _position(28_500), r"node 1 ", may_pass=True),
+    _proxy("position jumps 2.85 mm", tpdo(2), _position(28_500), r"node 2 ", may_pass=True),
     _proxy("homing lost (bit 15)", tpdo(5), _word(clear=1 << 15), r"node 5 .*homed", count=FOREVER),
     _proxy("drive ignores targets (bit 12)", tpdo(5), _word(clear=1 << 12), r"node 5 ", count=FOREVER),
     _proxy("following error (bit 13)", tpdo(5), _word(set_bits=1 << 13), r"node 5 .*following error", count=FOREVER),
@@ -236,15 +241,23 @@ FAULTS: list[Fault] = [
         how_often="5000 a second for 1 s",
     ),
     Fault(
-        "flood of other frames, a node silent", CAPTURING, "20000 a second for 4 s", r"node 3 ", _silent_node_in_a_flood
+        "flood of other frames, a node silent",
+        CAPTURING,
+        "300000 a second for 4 s",
+        r"node 3 ",
+        _silent_node_in_a_flood,
     ),
-    _proxy("connection broken", tpdo(2), break_connection, r"\w"),
+    _proxy("connection broken", tpdo(2), break_connection, r"bus: ", cuts_off=True),
     # commands
     _proxy("SYNC lost", SYNC, drop, way=OUT, may_pass=True, moves_machine=True),
     _proxy("SYNC twice", SYNC, twice, way=OUT, may_pass=True, moves_machine=True),
-    _proxy("SYNCs lost", SYNC, drop, r"bus: no node answered", way=OUT, count=FOREVER, moves_machine=True),
+    _proxy(
+        "SYNCs lost", SYNC, drop, r"bus: no node answered", way=OUT, count=FOREVER, moves_machine=True, cuts_off=True
+    ),
     _proxy("target lost", RPDO_5, drop, way=OUT, may_pass=True, moves_machine=True),
-    _proxy("targets of a drive lost", RPDO_5, drop, r"node 5 ", way=OUT, count=FOREVER, moves_machine=True),
+    _proxy(
+        "targets of a drive lost", RPDO_5, drop, r"node 5 ", way=OUT, count=FOREVER, moves_machine=True, cuts_off=True
+    ),
     _proxy("target after its SYNC", RPDO_5, late(syncs=1), way=OUT, may_pass=True, moves_machine=True),
     _proxy("target 5 mm off", RPDO_5, _target(50_000), r"node 5 ", way=OUT, moves_machine=True),
     _proxy(
@@ -289,7 +302,7 @@ FAULTS: list[Fault] = [
     _rig("node gone", "node-missing:5", r"node 5 .*TPDO1 missing", moves_machine=True),
     _rig("node resets itself", "boot-up:2", r"node 2 ", moves_machine=True),
     _rig("node leaves operational", "nmt-change:2", r"node 2 ", moves_machine=True),
-    _rig("rig ends the connection", "bus-lost", r"\w"),
+    _rig("rig ends the connection", "bus-lost", r"bus: ", cuts_off=True),
 ]
 
 

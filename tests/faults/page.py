@@ -14,12 +14,14 @@ RULE = "|---|---|---|---|---|---|---|---|---|"
 INTRODUCTION = """# Faults and their outcomes
 
 Made by `python -m tests.faults --table docs/fault-table.md{options}`; nothing here is written by hand.
-Each fault acts on a circle of {rate:g} Hz in the middle of its capture: between the controller and the simulated rig, by a proxy that changes frames, or in
-the rig itself. Every sample that is kept is compared with the same run without a fault and, where the fault moves the machine itself, with what
-all seven nodes answered to one SYNC. **A wrong sample that is kept is a defect**; so is a fault without its name.
+Each fault acts on a circle driven at {rate:g} Hz, in the middle of its capture: between the controller and the
+simulated rig, by a proxy that changes frames, or in the rig itself. Every sample that is kept is compared with the same
+run without a fault and, where the fault moves the machine itself, with what all seven nodes answered to one SYNC.
+**A wrong sample that is kept is a defect**; so is a fault without its name.
 
-- *Time to stop*: from the moment of the fault until all six drives have received a quick stop, in SYNCs and in milliseconds (with this computer:
-  {computer}, shared with other work). A dash: no quick stop was received, because none was needed or the connection was gone.
+- *Time to stop*: from the moment of the fault until all six drives have received a quick stop, in SYNCs and in
+  milliseconds (on {computer}, shared with other work). A dash: no quick stop was received, because none was needed or
+  the connection was gone.
 - *Lost*: samples missing from a complete record, or captured before the fault and not in an incomplete one.
 - Real time: a run that this computer stalled is repeated, at most {attempts} times in all.
 """
@@ -70,6 +72,8 @@ def line(trial: Trial) -> str:
     """Return one line on a trial, for a terminal."""
     verdict = ", ".join(trial.unmet) or "as required"
     outcome = f"exit {trial.exit_status}, {trial.kept} kept, {trial.wrong} wrong"
+    if trial.unmet and trial.message:
+        verdict += f" [{trial.message}]"
     return f"{' + '.join(trial.names)} ({_pace(trial)}): {outcome}: {verdict}"
 
 

@@ -25,7 +25,7 @@ IDLE_S = 0.02
 """Longest time until the proxy sees that it is to end, s."""
 
 WRITE_TIMEOUT_S = 5.0
-"""Longest time for which a receiver may leave its frames unread, s; then its connection is broken, as a bus does that is off."""
+"""Longest time for which a receiver may leave its frames unread, s; then its connection is broken."""
 
 
 class _End:
@@ -178,8 +178,8 @@ class Proxy:
                 self._leave(waiting[1], out)
 
     def _send_what_is_due(self) -> None:
-        now_s = time.monotonic()
-        while self._timed and self._timed[0][0] <= now_s:
+        """Send one message whose time has come: in a flood, other messages take their turns."""
+        if self._timed and self._timed[0][0] <= time.monotonic():
             _, _, emission = heapq.heappop(self._timed)
             out: dict[Way, list[bytes]] = {way: [] for way in Way}
             self._leave(emission, out)

@@ -15,11 +15,13 @@ from tests.faults.judging import wrong_samples
 from tests.faults.runs import FIRST_SAMPLE_S, LAST_SAMPLE_S, RATE_HZ, Run, run
 
 ATTEMPTS = 3
-"""Runs in real time after which a computer is not fit for it: a desktop stalls the simulated rig now and then for more
-than the three SYNCs that a node may leave unanswered, which says nothing about the fault."""
-STALLED = "no node answered"
-"""Message of a run that this computer, and not a fault, has stopped."""
+"""Runs in real time until one reaches the fault: a desktop stalls the simulated rig now and then for longer than the
+three SYNCs that a node may leave unanswered, which says nothing about the fault."""
+STALLED = "this computer stalled every run before the fault"
 TRACEBACK = 70
+LONGEST_STOP_MS = 3000.0
+"""Wall-clock time from a fault to the quick stop, ms: in lockstep a node is silent after three waits of 0.25 s, and the
+computer may be busy."""
 
 
 @dataclass(frozen=True)
@@ -81,16 +83,22 @@ def reference(seed: int) -> Run:
 
 def try_faults(faults: Sequence[Fault], *, lockstep: bool, seed: int) -> Trial:
     """Run with faults and judge the outcome."""
-    for attempt in range(1, ATTEMPTS + 1):
+    attempts = 0
+    while True:
+        attempts += 1
         with tempfile.TemporaryDirectory() as folder:
             rules = [rule for fault in faults for rule in fault.rules(lockstep)]
             rig_faults = [spec for fault in faults for spec in fault.rig]
             done = run(Path(folder), rules, rig_faults, lockstep=lockstep, seed=seed)
         done = replace(done, message=done.message.replace(folder, ""))
-        stalled = not lockstep and STALLED in done.message and not any(STALLED in fault.cause for fault in faults)
-        if not stalled:
-            break
-    return judged(faults, done, lockstep, seed, attempt)
+        if lockstep or _reached(faults, done) or attempts == ATTEMPTS:
+            return judged(faults, done, lockstep, seed, attempts)
+
+
+def _reached(faults: Sequence[Fault], done: Run) -> bool:
+    """Return whether a run lasted until the moment of its faults."""
+    cycles = done.log.since_enabled
+    return all(fault.begins_s == 0.0 or (cycles or 0) / RATE_HZ >= fault.begins_s for fault in faults)
 
 
 def judged(faults: Sequence[Fault], done: Run, lockstep: bool, seed: int, attempts: int = 1) -> Trial:
@@ -102,6 +110,7 @@ def judged(faults: Sequence[Fault], done: Run, lockstep: bool, seed: int, attemp
     kept = 0 if done.record is None else len(done.record)
     due = len(clean) if done.exit_status == 0 else int((clean.columns["t_s"] < begins_s - 2 / RATE_HZ).sum())
     stop = done.log.time_to_stop(begins_s, 1 / RATE_HZ) if done.exit_status else None
+    stop_ms = 1e3 * stop[1] if stop else None
     return Trial(
         names=tuple(fault.name for fault in faults),
         lockstep=lockstep,
@@ -113,14 +122,18 @@ def judged(faults: Sequence[Fault], done: Run, lockstep: bool, seed: int, attemp
         lost=max(due - kept, 0),
         wrong=len(wrong),
         stop_cycles=stop[0] if stop else None,
-        stop_ms=1e3 * stop[1] if stop else None,
+        stop_ms=stop_ms,
         attempts=attempts,
-        unmet=tuple(_unmet(faults, done, lockstep, len(wrong), len(clean))),
+        unmet=tuple(_unmet(faults, done, lockstep, len(wrong), len(clean), stop_ms)),
     )
 
 
-def _unmet(faults: Sequence[Fault], done: Run, lockstep: bool, wrong: int, planned: int) -> list[str]:
+def _unmet(
+    faults: Sequence[Fault], done: Run, lockstep: bool, wrong: int, planned: int, stop_ms: float | None
+) -> list[str]:
     """Return what was required and is not so."""
+    if not lockstep and not _reached(faults, done):
+        return [STALLED]
     unmet = []
     if wrong:
         unmet.append(f"{wrong} wrong samples kept")
@@ -144,6 +157,13 @@ def _unmet(faults: Sequence[Fault], done: Run, lockstep: bool, wrong: int, plann
             unmet.append("the run need not have ended")
         if not any(re.match(fault.cause, done.message) for fault in faults):
             unmet.append("the message does not begin with the cause")
+        if done.log.enabled_at is not None and not any(fault.cuts_off for fault in faults):
+            if done.log.stopped_at is None:
+                unmet.append("the drives received no quick stop")
+            elif stop_ms is not None and stop_ms > LONGEST_STOP_MS:
+                unmet.append(f"the quick stop came after {stop_ms:.0f} ms")
+            elif not done.log.standing():
+                unmet.append("an axis still moved at the end")
         if done.record is not None and done.record.complete:
             unmet.append("the record is marked complete")
     return unmet
