@@ -27,6 +27,7 @@ from hexdbb.rig.socketcand import SocketcandServer
 from hexdbb.rig.truth import TruthFile
 
 RATE_HZ = 100.0
+RECORD = "run.parquet"
 PLAN = """
 schema = "hexdbb.plan/1"
 machine = "sp120"
@@ -90,6 +91,7 @@ def run(
     *,
     lockstep: bool = True,
     seed: int = 0,
+    plan: str = PLAN,
 ) -> Run:
     """Run the plan with faults.
 
@@ -105,19 +107,36 @@ def run(
         In lockstep all is done in this process; in real time rig and controller are processes of their own.
     seed : int
         Seed of the gauge's noise and of random transformations.
+    plan : str
+        The plan.
     """
-    plan, truth, record = folder / "plan.toml", folder / "truth.toml", folder / "run.parquet"
-    plan.write_text(PLAN)
-    truth.write_text(TRUTH)
+    truth, record = prepared(folder, plan), folder / RECORD
     begin_s = time.monotonic()
     rig = rig_in_thread(truth, rig_faults, seed) if lockstep else rig_in_process(truth, rig_faults, seed)
     with rig as port, proxied(port, [rule.fresh(rule.at_s) for rule in rules], 1 / RATE_HZ, seed) as proxy:
-        pace = "--lockstep" if lockstep else "--realtime"
-        words = ["--plan", plan, "-o", record, "--bus", proxy.bus, "--yes", pace, "--rate", RATE_HZ]
-        status, message = (_called if lockstep else _started)([str(word) for word in words])
+        status, message = (_called if lockstep else _started)(options(folder, proxy.bus, lockstep))
         duration_s = time.monotonic() - begin_s
     found = read_record(record) if record.exists() else None
     return Run(status, message, found, proxy.log, proxy.fired, duration_s)
+
+
+def prepared(folder: Path, plan: str = PLAN) -> Path:
+    """Write plan and truth into a folder and return the truth."""
+    (folder / "plan.toml").write_text(plan)
+    truth = folder / "truth.toml"
+    truth.write_text(TRUTH)
+    return truth
+
+
+def options(folder: Path, bus: str, lockstep: bool) -> list[str]:
+    """Return the options of ``hexdbb-run`` for the plan in a folder."""
+    words = ["--plan", folder / "plan.toml", "-o", folder / RECORD, "--bus", bus, "--yes", "--rate", RATE_HZ]
+    return [*map(str, words), "--lockstep" if lockstep else "--realtime"]
+
+
+def command_line(words: Sequence[str]) -> list[str]:
+    """Return the command line of ``hexdbb-run`` as a process of its own."""
+    return [sys.executable, "-c", "from hexdbb.cli.run import main; main()", *words]
 
 
 @contextmanager
@@ -165,9 +184,8 @@ def _called(words: list[str]) -> tuple[int, str]:
 
 def _started(words: list[str]) -> tuple[int, str]:
     """Start the command as a process of its own; a run that hangs counts as exit status -1."""
-    line = [sys.executable, "-c", "from hexdbb.cli.run import main; main()", *words]
     try:
-        done = subprocess.run(line, capture_output=True, text=True, timeout=DEADLINE_S)
+        done = subprocess.run(command_line(words), capture_output=True, text=True, timeout=DEADLINE_S)
     except subprocess.TimeoutExpired:
         return -1, f"not ended after {DEADLINE_S:g} s"
     said = done.stderr.strip().splitlines()

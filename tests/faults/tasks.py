@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tests.faults.catalogue import fault_named
+from tests.faults.kills import Kill, kill, random_shares
 from tests.faults.page import line
 from tests.faults.trials import Trial, random_pairs, try_faults
 
@@ -40,6 +41,16 @@ def made(tasks: Sequence[Task], jobs: int) -> list[Trial]:
             print(line(trial), flush=True)
             trials.append(trial)
     return trials
+
+
+def killed(count: int, seed: int, jobs: int) -> list[Kill]:
+    """Kill runs at random moments, in a few processes."""
+    kills = []
+    with ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn"), initializer=_silence) as pool:
+        for made_kill in pool.map(kill, random_shares(count, seed), [seed] * count):
+            print(made_kill, flush=True)
+            kills.append(made_kill)
+    return kills
 
 
 def _silence() -> None:
