@@ -76,7 +76,9 @@ class Forms:
             width = space.table.shape[1]
             squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
             at += width
-        deviation = float(np.sqrt(sum(squares) * _seen(found.coefficients, projected.information, block.own[0]))) / size_mm
+        deviation = (
+            float(np.sqrt(sum(squares) * _seen(found.coefficients, projected.information, block.own[0]))) / size_mm
+        )
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
