@@ -17,6 +17,8 @@ ENABLED_MASK, ENABLED = 0x6F, 0x27
 """Statusword bits of *operation enabled* (CiA 402)."""
 QUICK_STOP_MASK, QUICK_STOP = 0x86, 0x02
 """Controlword bits of *quick stop* (CiA 402)."""
+SHUTDOWN_MASK, SHUTDOWN = 0x87, 0x06
+"""Controlword bits of *shutdown* (CiA 402)."""
 STANDING_SYNCS, STANDING_COUNTS = 5, 2
 """Last SYNCs of a run during which a drive that was stopped moves by no more than its encoder's rounding, counts."""
 
@@ -57,11 +59,14 @@ class BusLog:
         Number of the SYNC at which all six drives first answered that they are enabled.
     stopped_at : tuple of int and float, or None
         Number of SYNCs and monotonic time when the last of six drives received its quick stop.
+    disabled : bool
+        Whether a drive received *shutdown* after it was enabled: the run came to its regular end.
     """
 
     cycles: list[Cycle] = field(default_factory=list)
     enabled_at: int | None = None
     stopped_at: tuple[int, float] | None = None
+    disabled: bool = False
     _targets: dict[int, int] = field(default_factory=dict)
     _commanded: dict[int, int] = field(default_factory=dict)
     _enabled: set[int] = field(default_factory=set)
@@ -88,6 +93,8 @@ class BusLog:
         if node not in DRIVES or len(frame.data) < 6:
             return
         controlword, self._targets[node] = struct.unpack_from("<Hi", frame.data)
+        if self.enabled_at is not None and controlword & SHUTDOWN_MASK == SHUTDOWN:
+            self.disabled = True
         if self.enabled_at is not None and controlword & QUICK_STOP_MASK == QUICK_STOP:
             self._stopping.add(node)
             if self.stopped_at is None and len(self._stopping) == len(DRIVES):

@@ -158,7 +158,7 @@ def _unmet(
         if not any(re.match(fault.cause, done.message) for fault in faults):
             unmet.append("the message does not begin with the cause")
         if done.log.enabled_at is not None and not any(fault.cuts_off for fault in faults):
-            if done.log.stopped_at is None:
+            if done.log.stopped_at is None and not done.log.disabled:
                 unmet.append("the drives received no quick stop")
             elif stop_ms is not None and stop_ms > LONGEST_STOP_MS:
                 unmet.append(f"the quick stop came after {stop_ms:.0f} ms")

@@ -35,7 +35,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     failures = [outcome for outcome in outcomes if outcome.kind == FAILED]
     for number, failure in enumerate(failures):
         options.failures.mkdir(parents=True, exist_ok=True)
-        path = options.failures / f"{failure.format.replace(' ', '-').replace(',', '')}.{options.seed}-{number}"
+        slug = next((each.slug for each in FORMATS if each.name == failure.format), "crash")
+        path = options.failures / f"{slug}.{options.seed}-{number}"
         path.write_bytes(failure.data)
         print(f"{path}: {failure.text}")
     return 1 if failures else 0

@@ -56,6 +56,11 @@ class Format:
     weight: int = 10
     sealed: Callable[[bytes], bytes] = bytes
 
+    @property
+    def slug(self) -> str:
+        """Name of the format in file names."""
+        return self.name.replace(" ", "-").replace(",", "")
+
     def input(self, good: bytes, rng: random.Random) -> bytes:
         """Return a damaged file."""
         return self.sealed(damaged(good, self.mutations, rng))

@@ -16,7 +16,7 @@ from hexdbb.capture.boot import add_devices
 from hexdbb.capture.checks import Watch, find_fault
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.link import Link
-from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 from hexdbb.machine import shipped_machine
 
 DRIVE = "1{node:02X} 37 96 A0 86 01 00 08"
@@ -85,6 +85,8 @@ def read(path: Path) -> object:
     supervision = Supervision(nodes, link().notify, 0.3)
     exchange = Exchange(bus, nodes[:6], 7, supervision.on_frame)  # type: ignore[arg-type]
     watch = Watch(exchange.feedback, supervision, LABELS, 30_000, 1000.0, 10_000.0, 25, 250, [100_000] * 6, True)
+    for node in nodes:  # the network is made once; every input finds it as nodes that are operational leave it
+        link().notify(0x700 + node, bytearray([NMT_OPERATIONAL]), 0.0)
     messages = []
     while bus:
         exchange.send_sync()
