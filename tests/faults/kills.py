@@ -24,13 +24,14 @@ from hexdbb.cli.recover import command as recover_command
 from hexdbb.errors import HexdbbError
 from hexdbb.record import Record, journal_path, read_record
 
-LONG_PLAN = PLAN.replace("laps = 1", "laps = 4")
-"""Four laps: 1676 samples in some 3 s, of which at most one second may be lost."""
+LONG_PLAN = PLAN.replace("laps = 1", "laps = 8")
+"""Eight laps: 1676 samples in some 3 s, of which at most one second may be lost."""
 MOST_LOST_S = 1.0
 """Captured samples that a kill may cost, s of wall-clock time: the requirement of the journal."""
-START_TIMEOUT_S = 60.0
-MARGIN = 1.1
-"""Latest moment of a kill, as a share of the duration of a run that is not killed: some come too late."""
+LONGEST_RUN_S = 60.0
+"""Time after which a run is killed in any case, s: it takes 4 s, more on a busy computer."""
+MARGIN = 1.05
+"""Latest moment of a kill, as a share of the SYNCs of a run that is not killed: some come too late."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def kill(share: float, seed: int, *, with_journal: bool = False) -> Kill:
     Parameters
     ----------
     share : float
-        Moment of the kill, as a share of the run.
+        Moment of the kill, as a share of the SYNCs of a run that is not killed.
     seed : int
         Seed of the gauge's noise.
     with_journal : bool
@@ -88,9 +89,9 @@ def kill(share: float, seed: int, *, with_journal: bool = False) -> Kill:
         folder = Path(name)
         truth = prepared(folder, LONG_PLAN)
         with rig_in_thread(truth, (), seed) as port, proxied(port, (), 1 / RATE_HZ) as proxy:
-            journal = journal_path(folder / RECORD)
-            begun = journal.exists if with_journal else lambda: bool(proxy.log.cycles)
-            killed_s = _run_and_kill(options(folder, proxy.bus, True), begun, share * _duration_s(whole.log))
+            journal, syncs = journal_path(folder / RECORD), share * len(whole.log.cycles)
+            due = journal.exists if with_journal else lambda: len(proxy.log.cycles) >= syncs
+            killed_s = _run_and_kill(options(folder, proxy.bus, True), due)
             captured = _captured(whole.record, proxy.log, killed_s - MOST_LOST_S)
         way, record, problem = _saved(folder, truth, seed)
     kept = 0 if record is None else len(record)
@@ -113,25 +114,15 @@ def whole_run(seed: int) -> Run:
     return whole
 
 
-def _duration_s(log: BusLog) -> float:
-    return log.cycles[-1].time_s - log.cycles[0].time_s
-
-
-def _run_and_kill(words: list[str], begun: Callable[[], bool], after_s: float) -> float:
-    """Start the command, kill it `after_s` after it has begun, and return when that was (monotonic, s)."""
+def _run_and_kill(words: list[str], due: Callable[[], bool]) -> float:
+    """Start the command, kill it when that is due, and return when that was (monotonic, s)."""
     process = subprocess.Popen(command_line(words), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        deadline_s = time.monotonic() + START_TIMEOUT_S
-        while not begun() and process.poll() is None and time.monotonic() < deadline_s:
-            time.sleep(0.001)
-        try:
-            process.wait(after_s)
-        except subprocess.TimeoutExpired:
-            process.kill()
-    finally:
-        killed_s = time.monotonic()
-        process.kill()
-        process.wait()
+    deadline_s = time.monotonic() + LONGEST_RUN_S
+    while not due() and process.poll() is None and time.monotonic() < deadline_s:
+        time.sleep(0.001)
+    process.kill()
+    killed_s = time.monotonic()
+    process.wait()
     return killed_s
 
 

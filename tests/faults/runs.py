@@ -26,7 +26,9 @@ from hexdbb.rig.faults import parse_fault
 from hexdbb.rig.socketcand import SocketcandServer
 from hexdbb.rig.truth import TruthFile
 
-RATE_HZ = 100.0
+RATE_HZ = 50.0
+"""Cycles in a second: slow, so that a desktop's stalls of some 20 ms to 50 ms do not end a run in real time, and a run
+in lockstep takes a second."""
 RECORD = "run.parquet"
 PLAN = """
 schema = "hexdbb.plan/1"
@@ -39,7 +41,7 @@ gauge = {bar_length_mm = 100, noise_um = 0.1, resolution_um = 0.1}
 mount = [{id = 0, cup_mm = [0, 0, 340]}]
 circle = [{id = 0, mount = 0, radius_mm = 100, ball_offset_mm = [0, 0, 60]}]
 """
-"""One circle: 7 s of machine time, 419 samples at `RATE_HZ`. Fast, so that the reading and the positions differ from
+"""One circle: 7 s of machine time, 209 samples at `RATE_HZ`. Fast, so that the reading and the positions differ from
 one SYNC to the next by far more than the noise, and a sample that belongs to another SYNC is seen."""
 TRUTH = """
 schema = "hexdbb.truth/1"
