@@ -6,12 +6,11 @@ reading disturbed once. Each would be recorded as an error of the machine.
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from dataclasses import dataclass, field
 
 from hexdbb.capture.exchange import Feedback
-from hexdbb.plan import Gauge
+from hexdbb.record.plausibility import NOISE_SIGMAS, SPIKE_UM
 
 SLOWEST_LOOP_S = 0.1
 """Largest time constant of a position loop, s: twice that of a gain of 1 m/min per mm (17 /s, 60 ms), the lowest in use
@@ -21,32 +20,6 @@ DISTURBANCE_MM = 0.1
 reversal with stiction (some micrometres), far below what a lost or doubled encoder word makes."""
 COMMANDED_SYNCS = 50
 """SYNCs over which a change of the commanded velocity acts on: 0.2 s at 250 Hz, two of the slowest time constants."""
-SPIKE_UM = 40.0
-"""A reading that differs from both its neighbours by this is a disturbance, µm: reversal spikes last longer than one
-sample at 250 Hz and reach some 10 to 30 µm on worn machines."""
-NOISE_SIGMAS = 12.0
-"""The same in standard deviations of a gauge noisier than usual: never reached by chance."""
-CHANCE = 1e-12
-"""Probability that a working gauge repeats a reading as often as a frozen one is allowed to: none in 1000 years of
-runs."""
-FEWEST_REPEATS, MOST_REPEATS = 10, 250
-"""Bounds of these repetitions, SYNCs: a driver may deliver a few readings twice; one second at 250 Hz bounds what is
-lost of a gauge whose noise is small beside its resolution or not stated."""
-
-
-def frozen_after(gauge: Gauge) -> int:
-    """Return the number of SYNCs after which an unchanged reading is a frozen one.
-
-    A reading rounded to steps of q stays the same with a probability of at most erf(q / (2 sqrt(2) sigma)).
-    """
-    if not gauge.noise_um:
-        return MOST_REPEATS
-    same = math.erf(gauge.resolution_um / (2.0 * math.sqrt(2.0) * gauge.noise_um))
-    if same <= 0.0:
-        return FEWEST_REPEATS
-    if same >= 1.0:
-        return MOST_REPEATS
-    return min(max(math.ceil(math.log(CHANCE) / math.log(same)), FEWEST_REPEATS), MOST_REPEATS)
 
 
 @dataclass

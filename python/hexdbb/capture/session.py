@@ -24,7 +24,7 @@ from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
-from hexdbb.capture.plausibility import Plausibility, frozen_after
+from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
@@ -32,6 +32,7 @@ from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
+from hexdbb.record.plausibility import frozen_after
 from hexdbb.trajectory import Phase, Programme, approach
 
 log = logging.getLogger(__name__)
@@ -172,8 +173,8 @@ class _Run:
                 samples.flush()
                 record = journal.finish(complete=cause is None, reason=cause, until_s=samples.until_s)
             except RunError as error:
-                known = cause is not None and str(error) in cause
-                raise RunError(cause if known else "; ".join(filter(None, (cause, str(error))))) from None
+                words = [each for each in (cause, str(error)) if each]
+                raise RunError(words[0] if words[-1] in words[0] else "; ".join(words)) from None
         if cause is not None:
             raise RunError(f"{cause}; {len(record)} samples kept in {record.path}, marked incomplete")
         return record
