@@ -108,6 +108,14 @@ calibration: setup  ## verdicts judged on machines with forms: hours, resumable;
 	@$(BIN)/python -m tests.truth.calibration build/calibration.jsonl --half judge
 	@$(BIN)/python -m tests.truth.calibration_page build/calibration.jsonl -o docs/discovery-calibration.md
 
+.PHONY: faults
+faults: setup  ## every fault on the bus and in the rig, in lockstep and real time; rewrites docs/fault-table.md
+	@$(BIN)/python -m tests.faults --realtime --pairs 30 --table docs/fault-table.md
+
+.PHONY: fuzz
+fuzz: setup  ## 10000 damaged inputs over all formats; failing ones go to build/fuzz
+	@$(BIN)/python -m tests.fuzz --count 10000
+
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 
 .PHONY: lint lint-cpp lint-python lint-types lint-spelling

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <random>
 #include <string>
+#include <utility>
 
 #include "compensating.hpp"
 
@@ -50,6 +52,47 @@ inline CompensationFault fault_of(const std::string& text, std::string* message 
     if (message != nullptr) *message = error.what();
     return error.fault();
   }
+}
+
+/// Return the text with one to four changes in a part of it: bytes replaced by some of an alphabet, dropped, doubled or
+/// exchanged.
+inline std::string noisy(std::string text, std::size_t begin, std::size_t length, const std::string& alphabet,
+                         std::mt19937_64& random) {
+  const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
+  const std::string part = text.substr(begin, length);
+  for (std::size_t change = 0; change <= below(4); ++change) {
+    const std::size_t at = begin + below(length), span = 1 + below(8);
+    switch (below(4)) {
+      case 0:
+        text[at] = alphabet[below(alphabet.size())];
+        break;
+      case 1:
+        text.erase(at, span);
+        break;
+      case 2:
+        text.insert(at, part.substr(below(length), span));
+        break;
+      default:
+        std::swap(text[at], text[begin + below(length)]);
+    }
+  }
+  return text;
+}
+
+/// Expect that a text is accepted and written alike, or refused with one line; return whether it is accepted.
+inline bool read_or_refused(const std::string& text) {
+  std::string message;
+  if (fault_of(text, &message) != CompensationFault::kNone) {
+    EXPECT_EQ(message.compare(0, 11, "a.hexcomp: "), 0) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return false;
+  }
+  const CompensationData data = parse_compensation(text, "a.hexcomp");
+  EXPECT_EQ(compensation_text(parse_compensation(compensation_text(data), "again")), compensation_text(data));
+  Compensator compensator(data);
+  const SliderTargets targets = compensator.sliders(make_pose(10, 20, 285, 0, 0, 0));
+  EXPECT_TRUE(targets.sliders_mm.allFinite());
+  return true;
 }
 
 /// An altered text and how it is refused.

@@ -52,6 +52,22 @@ TEST(CompensationFile, AnyByteChangedIsRefused) {
   EXPECT_EQ(fault_of(text + "\n"), CompensationFault::kAltered);
 }
 
+/// As `TablesInFile.NoisyTablesAreReadOrRefusedInOneLine`, for all parts of a file and with bytes that are no text. Half
+/// of the texts have a correct checksum, as another program would write it.
+TEST(CompensationFile, NoiseIsReadOrRefusedInOneLine) {
+  const std::string text = compensation_text(data_of(wrong_machine(kGeometricNames, 23)));
+  std::string alphabet = "0123456789.,-+eE[]= \"\\\n\r\t#naif_\x1b\x7f\x80\xff";
+  alphabet.push_back('\0');
+  std::mt19937_64 random(12);
+  int accepted = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const std::string other = noisy(text, 0, text.size(), alphabet, random);
+    accepted += read_or_refused(trial % 2 ? resealed(other) : other);
+  }
+  EXPECT_GT(accepted, 20);
+  EXPECT_LT(accepted, 1000);
+}
+
 TEST(CompensationFile, ALaterVersionIsNamed) {
   std::string message;
   const std::string text = replaced(compensation_text(everything()), "compensation/1", "compensation/3");

@@ -124,39 +124,9 @@ TEST(TablesInFile, NoisyTablesAreReadOrRefusedInOneLine) {
   const std::size_t begin = text.find("[table.1]"), length = text.find("[left_out]") - begin;
   const std::string alphabet = "0123456789.,-+eE[]= \"\\\n#naif_";
   std::mt19937_64 random(11);
-  const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   int accepted = 0;
   for (int trial = 0; trial < 2000; ++trial) {
-    std::string noisy = text;
-    for (std::size_t change = 0; change <= below(4); ++change) {
-      const std::size_t at = begin + below(length), span = 1 + below(8);
-      switch (below(4)) {
-        case 0:
-          noisy[at] = alphabet[below(alphabet.size())];
-          break;
-        case 1:
-          noisy.erase(at, span);
-          break;
-        case 2:
-          noisy.insert(at, noisy.substr(begin + below(length), span));
-          break;
-        default:
-          std::swap(noisy[at], noisy[begin + below(length)]);
-      }
-    }
-    std::string message;
-    const CompensationFault fault = fault_of(resealed(noisy), &message);
-    if (fault == CompensationFault::kNone) {
-      const CompensationData data = parse_compensation(resealed(noisy), "a.hexcomp");
-      EXPECT_EQ(compensation_text(parse_compensation(compensation_text(data), "again")), compensation_text(data));
-      Compensator compensator(data);
-      const SliderTargets targets = compensator.sliders(make_pose(10, 20, 285, 0, 0, 0));
-      EXPECT_TRUE(targets.sliders_mm.allFinite());
-      ++accepted;
-    } else {
-      EXPECT_EQ(message.compare(0, 11, "a.hexcomp: "), 0);
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    }
+    accepted += read_or_refused(resealed(noisy(text, begin, length, alphabet, random)));
   }
   EXPECT_GT(accepted, 100);
   EXPECT_LT(accepted, 1900);

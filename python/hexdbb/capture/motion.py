@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,8 +42,19 @@ STOPPED_STATES = (
     DriveState.READY_TO_SWITCH_ON,
 )
 
-KeepRow = Callable[[int, Feedback], None]
-"""Called with the number of a row of the table and the answers that belong to it."""
+VERIFY_SYNCS = 100
+"""SYNCs in lockstep between two looks for answers too many: 2 ms of silence each, a twentieth of the time that so many
+cycles take. What is not verified is dropped if there is one."""
+
+
+class Rows(Protocol):
+    """Receives the answers that belong to the rows of a table."""
+
+    def keep(self, row: int, feedback: Feedback) -> None:
+        """Take the answers of a row; they are not certain yet."""
+
+    def settle(self, paired: bool, held: int) -> None:
+        """Accept all but the last `held` rows taken, or drop all not accepted yet if not `paired`."""
 
 
 class MotionFaultError(RunError):
@@ -139,7 +151,7 @@ class AxisGroup:
         self,
         counts: NDArray[np.int32],
         gauge_watched: NDArray[np.bool_],
-        keep: KeepRow,
+        kept: Rows,
         pauses: Mapping[int, Callable[[], None]],
     ) -> None:
         """Send a table of targets, one row per cycle, and check every answer.
@@ -150,8 +162,8 @@ class AxisGroup:
             Targets in counts, shape (n, 6).
         gauge_watched : numpy.ndarray
             Rows in which the reading must be valid and within range, shape (n,).
-        keep : callable
-            Called with the number of a row and the answers that belong to it.
+        kept : Rows
+            Takes the answers that belong to each row.
         pauses : mapping of int to callable
             Work to be done before a row is sent, while the targets are held.
 
@@ -177,13 +189,20 @@ class AxisGroup:
             feedback = loop.cycle(enabled, counts[min(row, rows - 1)].tolist())
             self._check()
             if row and feedback.settled:
-                keep(row - 1, feedback)
+                kept.keep(row - 1, feedback)
+            if loop.clock.real_time:
+                kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
+            elif row % VERIFY_SYNCS == 0 or row == rows:
+                kept.settle(loop.confirm(), held=0)
+        kept.settle(loop.confirm(), held=0)
 
     def _check(self) -> None:
         """Check the answers to the last SYNC; raises `MotionFaultError` if a check finds a fault."""
         watch, loop = self._watch, self._loop
         watch.supervision.count_missing(loop.feedback)
         watch.stalled, watch.missed = loop.last_missed, loop.missed
+        watch.repeated, watch.last_repeated = loop.repeated
+        watch.plausibility.update(loop.feedback, watch.expected, loop.last_missed, watch.gauge_watched)
         fault = find_fault(watch)
         if fault is not None:
             raise MotionFaultError(fault)
@@ -269,7 +288,8 @@ class AxisGroup:
         """Return the message about the first node that did not reach the state."""
         feedback = self._loop.feedback
         if feedback.missing:
-            return f"{self._labels[feedback.missing[0]]}: TPDO1 missing"
+            slot = feedback.missing[0]
+            return f"{self._labels[slot]}: TPDO1 missing{self._watch.lateness(slot)}"
         for slot, word in enumerate(feedback.statusword):
             alone = Feedback()
             alone.statusword = [word] * 6

@@ -13,6 +13,7 @@ from typing import ClassVar
 
 from hexdbb.capture.exchange import SLOTS, Feedback
 from hexdbb.capture.frames import EMCY_BASE, HEARTBEAT_BASE, NMT, emergency_code, malformed, service_of
+from hexdbb.capture.pdo import SYNC_ID
 
 NMT_OPERATIONAL, NMT_BOOT_UP = 0x05, 0x00
 """NMT states as a heartbeat carries them."""
@@ -81,6 +82,8 @@ class Supervision:
         Monotonic time of the last heartbeat, by node id.
     missing_in_a_row : list of int
         Consecutive SYNCs without an answer, by slot.
+    foreign_syncs : int
+        SYNCs received: of another producer, since no bus returns this controller's own.
     """
 
     nodes: Sequence[int]
@@ -92,9 +95,12 @@ class Supervision:
     malformed: dict[int, str] = field(default_factory=dict)
     heard_s: dict[int, float] = field(default_factory=dict)
     missing_in_a_row: list[int] = field(default_factory=lambda: [0] * SLOTS)
+    foreign_syncs: int = 0
 
     def on_frame(self, can_id: int, data: bytearray, timestamp: float) -> None:
         """Process a frame that is not process data."""
+        if can_id == SYNC_ID:
+            self.foreign_syncs += 1
         service, node = service_of(can_id)
         if node in self.nodes or can_id == NMT:
             wrong = malformed(can_id, data)

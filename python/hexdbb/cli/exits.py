@@ -9,6 +9,7 @@ import click
 
 from hexdbb.cli.consoles import drop_stdout
 from hexdbb.errors import HexdbbError
+from hexdbb.files.plain_text import printable
 
 
 def reports_errors(command: click.Command) -> None:
@@ -16,7 +17,7 @@ def reports_errors(command: click.Command) -> None:
     try:
         command.main()
     except HexdbbError as error:
-        _end(str(error), error.exit_status)
+        _end(printable(str(error), kept=""), error.exit_status)
     except OSError as error:
         # Files are written by functions that raise HexdbbError: without a file it is the program's own output.
         if error.filename is None:

@@ -111,7 +111,7 @@ class MachineFile(FileModel):
     def eds_path(self, eds: str) -> Path:
         """Return the path of a node's EDS file: relative to the machine file, else the shipped one of that name."""
         beside = self.path.parent / eds if self.path is not None else Path(eds)
-        return beside if beside.is_file() else shipped("eds", eds)
+        return beside if _is_file(beside) else shipped("eds", eds)
 
     @model_validator(mode="after")
     def _stands(self) -> MachineFile:
@@ -171,7 +171,15 @@ def machine_beside(named: str, file: Path) -> MachineFile:
     if named == SHIPPED_MACHINE:
         return shipped_machine()
     path = file.parent / named
-    if not path.is_file():
+    if not _is_file(path):
         expected = f'a machine file relative to this file, or "{SHIPPED_MACHINE}", the shipped one'
         raise InputError(f'{file}: machine: "{named}": no such file {path} (expected {expected})')
     return load_machine(path)
+
+
+def _is_file(path: Path) -> bool:
+    """Return whether a path names a file; a name that the file system cannot have names none."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False

@@ -8,6 +8,7 @@ more than that: whole batches are read back, and a torn tail is dropped.
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import threading
 from collections.abc import Mapping
@@ -25,7 +26,8 @@ from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record.abandoned import make_way
 from hexdbb.record.columns import REQUIRED_COLUMNS, BadRowError, Columns, RowSource, normalise
-from hexdbb.record.parquet import write_parquet
+from hexdbb.record.journal_stream import write_batch
+from hexdbb.record.parquet import SUFFIX, write_parquet
 from hexdbb.record.record import Record
 from hexdbb.record.recovery import read_journal
 from hexdbb.record.tables import to_table
@@ -76,8 +78,8 @@ class Journal:
     ) -> None:
         self.path, self.journal_path = Path(path), journal_path(path)
         self._overwrite = overwrite
-        if self.path.suffix != ".parquet":
-            raise InputError(f"{path}: suffix {self.path.suffix!r} (expected .parquet)")
+        if self.path.suffix != SUFFIX:
+            raise InputError(f"{path}: suffix {self.path.suffix!r} (expected {SUFFIX})")
         refuse_existing(self.path, overwrite)
         self.set_aside = make_way(self.journal_path, overwrite)
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
@@ -86,6 +88,7 @@ class Journal:
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
+        self._rows_written = 0
         self._queued: list[Columns] = []
         self._lock, self._stop = threading.Lock(), threading.Event()
         self._failure: Exception | None = None
@@ -137,7 +140,7 @@ class Journal:
         if self._stream is None:
             self.journal_path.unlink()
 
-    def finish(self, complete: bool = True, reason: str | None = None) -> Record:
+    def finish(self, complete: bool = True, reason: str | None = None, until_s: float = math.inf) -> Record:
         """Write the Parquet record and remove the journal; the samples are checked once.
 
         Parameters
@@ -146,6 +149,8 @@ class Journal:
             Whether the capture ran to its end.
         reason : str, optional
             Why it did not; kept in the record's metadata as ``incomplete_because``.
+        until_s : float
+            Time (``t_s``) from which samples are left out.
 
         Raises
         ------
@@ -158,10 +163,15 @@ class Journal:
         if self._stream is None:
             raise RunError(f"{self.path}: not written: no samples were captured")
         try:
-            record, dropped = read_journal(self.journal_path, complete, reason)
+            record, dropped = read_journal(self.journal_path, complete, reason, self._rows_written)
         except BadRowError as error:
             raise RunError(f"{self.path}: not written: {error}; the journal is kept") from None
         record.path = self.path
+        before = record.columns["t_s"] < until_s
+        if not before.any():
+            self.journal_path.unlink()
+            raise RunError(f"{self.path}: not written: no certain samples were captured")
+        record.columns = {name: column[before] for name, column in record.columns.items()}
         try:
             write_parquet(record, self.path, self._overwrite)
         except RunError as error:
@@ -196,7 +206,9 @@ class Journal:
         table = to_table(replace(self._header, columns=columns))
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
-        self._stream.write_table(table)
+        for batch in table.to_batches():
+            write_batch(self._stream, batch, self._rows_written)
+            self._rows_written += batch.num_rows
         self._sync()
 
     def _sync(self) -> None:

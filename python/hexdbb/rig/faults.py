@@ -111,6 +111,10 @@ def _freeze(rig: Rig, node: int, value: float) -> None:
     rig.gauge.frozen = True
 
 
+def _stick(rig: Rig, node: int, value: float) -> None:
+    rig.gauge.stuck_um = value
+
+
 def _break(rig: Rig, node: int, value: float) -> None:
     rig.gauge.broken = True
 
@@ -139,6 +143,7 @@ FAULTS: dict[str, FaultKind] = {
     "bus-lost": FaultKind("the connection to the bus breaks", _lose_bus, on="bus"),
     "gauge-out-of-range": FaultKind("the reading jumps by this value, µm", _offset, on="gauge", value=3000.0),
     "gauge-frozen": FaultKind("the reading no longer changes", _freeze, on="gauge"),
+    "gauge-stuck": FaultKind("the reading is this value, µm, and no longer changes", _stick, on="gauge"),
     "gauge-break": FaultKind("sensor break: the status reports not valid", _break, on="gauge"),
     "gauge-unit": FaultKind("the gauge reads in another unit (object 6131h)", _unit, on="gauge", value=MILLIMETRE_UNIT),
 }

@@ -62,6 +62,8 @@ class GaugeNode(Node):
         Whether any drive moves; selects the noise sequence.
     frozen, broken : bool
         Injected faults.
+    stuck_um : float or None
+        Injected value that the reading keeps, µm.
     offset_um : float
         Injected offset of the reading, µm.
     """
@@ -89,6 +91,7 @@ class GaugeNode(Node):
         self.moving = False
         self.frozen = False
         self.broken = False
+        self.stuck_um: float | None = None
         self.offset_um = 0.0
         super().__init__(node_id, eds, send, stall_tolerance_s)
 
@@ -126,6 +129,9 @@ class GaugeNode(Node):
             return
         if self.true_reading_um is None or self.broken:
             self._write(0.0, NOT_VALID)
+            return
+        if self.stuck_um is not None:
+            self._write(self.stuck_um, 0)
             return
         noise_um = self.setup.noise_um * float(self._noise[self.moving].standard_normal())
         noisy_um = self.true_reading_um + self.offset_um + noise_um
