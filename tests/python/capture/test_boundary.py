@@ -27,27 +27,22 @@ FAULT_SYNC = 5
 
 
 class Kept:
-    """Rows taken, and those of them accepted."""
+    """Counts rows."""
 
-    def __init__(self) -> None:
-        self.taken: list[int] = []
-        self.accepted: list[int] = []
+    count = 0
 
     def keep(self, row: int, feedback: Feedback) -> None:
-        self.taken.append(row)
+        self.count += 1
 
     def settle(self, paired: bool, held: int) -> None:
-        end = len(self.taken) - held
-        self.accepted += self.taken[:end] if paired else []
-        del self.taken[: end if paired else None]
+        assert paired
 
 
 def follow(axes: AxisGroup) -> int:
     """Follow a table of standing targets; return the number of rows kept."""
     kept = Kept()
-    table = np.zeros((ROWS, 6), dtype=np.int32)
-    axes.follow(table, np.zeros(ROWS, dtype=bool), kept, {})
-    return len(kept.accepted)
+    axes.follow(np.zeros((ROWS, 6), dtype=np.int32), np.zeros(ROWS, dtype=bool), kept, {})
+    return kept.count
 
 
 def moving(bus: ScriptedBus, *frames: tuple[int, bytes]) -> AxisGroup:
