@@ -124,6 +124,8 @@ void bind_compensation(py::module_& module) {
                                "Compensation data that a controller loads; see compensation_file.hpp.")
       .def_readonly("name", &CompensationData::name)
       .def_readonly("model_sha256", &CompensationData::model_sha256)
+      .def_readonly("record_sha256", &CompensationData::record_sha256,
+                    "Content hashes of the records that the model was fitted to.")
       .def_readonly("reference_temperature_c", &CompensationData::reference_temperature_c)
       .def_readonly("machine", &CompensationData::machine)
       .def_property_readonly("max_correction_mm", [](const CompensationData& d) { return d.limits.max_correction_mm; })
@@ -146,22 +148,26 @@ void bind_compensation(py::module_& module) {
       "compensation_of",
       [](const Model& model, const std::string& name, const std::string& model_sha256, double max_correction_mm,
          double reversal_travel_mm, double reference_temperature_c, const std::vector<CompensationTable>& tables,
-         const std::vector<std::pair<std::string, std::string>>& left_out) {
+         const std::vector<std::pair<std::string, std::string>>& left_out,
+         const std::vector<std::string>& record_sha256) {
         CompensationData data = compensation_of(model, name, model_sha256, {max_correction_mm, reversal_travel_mm},
                                                 reference_temperature_c, tables);
         for (const auto& [effect, reason] : left_out) data.left_out.push_back({effect, reason});
+        data.record_sha256 = record_sha256;
         return data;
       },
       py::arg("model"), py::kw_only(), py::arg("name"), py::arg("model_sha256"), py::arg("max_correction_mm"),
       py::arg("reversal_travel_mm"), py::arg("reference_temperature_c"),
       py::arg("tables") = std::vector<CompensationTable>(),
       py::arg("left_out") = std::vector<std::pair<std::string, std::string>>(),
+      py::arg("record_sha256") = std::vector<std::string>(),
       "Select the effects of a model that a controller can correct, and state why the others are left out.\n\n"
       "Parameters\n----------\nmodel : Model\nname : str\n    Of the machine.\n"
       "model_sha256 : str\n    Of the model file.\nmax_correction_mm, reversal_travel_mm : float\n"
       "reference_temperature_c : float\n    Temperature at which no growth is corrected; nan where not known.\n"
       "tables : sequence of CompensationTable, optional\n    Of effects that the engine does not have.\n"
-      "left_out : sequence of (str, str), optional\n    Effects without a table, each with the reason.");
+      "left_out : sequence of (str, str), optional\n    Effects without a table, each with the reason.\n"
+      "record_sha256 : sequence of str, optional\n    Content hashes of the records the model was fitted to.");
   module.def("read_compensation", &read_compensation, py::arg("path"),
              "Read a compensation file. CompensationError where it is refused, with the reason.");
   module.def("require_machine", &require_machine, py::arg("of_data"), py::arg("of_controller"), py::arg("source"),

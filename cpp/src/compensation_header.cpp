@@ -10,6 +10,15 @@ namespace {
 constexpr const char* kValues = "hexdbb_compensation_values";
 constexpr const char* kTables = "hexdbb_compensation_tables";
 
+/// Return "fitted to the records a, b", nothing where there are none.
+std::string records_words(const CompensationData& data) {
+  std::string out;
+  for (const std::string& each : data.record_sha256) {
+    out += (out.empty() ? ",\n * fitted to the records\n *   " : ",\n *   ") + layout::c_comment(each);
+  }
+  return out;
+}
+
 std::string member(const std::string& text, const std::string& name) {
   return "    " + text + ", /* " + name + " */\n";
 }
@@ -20,8 +29,8 @@ std::string values_array(const CompensationData& data, std::size_t& count) {
   count = 0;
   for (const CompensatedEffect& effect : data.effects) {
     for (const CompensationValue& value : effect.values) {
-      out += "    {" + layout::quoted(effect.name) + ", " + layout::quoted(value.element) + ", " +
-             layout::quoted(value.parameter) + ", " + layout::number(value.value) + "},\n";
+      out += "    {" + layout::c_string(effect.name) + ", " + layout::c_string(value.element) + ", " +
+             layout::c_string(value.parameter) + ", " + layout::number(value.value) + "},\n";
       ++count;
     }
   }
@@ -36,8 +45,8 @@ std::string list_name(std::size_t table, const std::string& list) {
 /// Return the arrays of one table, and in `row` its row in the array of all.
 std::string table_arrays(const CompensationTable& table, std::size_t at, std::string& row) {
   std::string out;
-  row = "    {" + layout::quoted(table.effect) + ", " + layout::quoted(table.port) + ", " +
-        layout::quoted(table.variable) + ", " + layout::quoted(table.times) + ", " + layout::number(table.period) +
+  row = "    {" + layout::c_string(table.effect) + ", " + layout::c_string(table.port) + ", " +
+        layout::c_string(table.variable) + ", " + layout::c_string(table.times) + ", " + layout::number(table.period) +
         ", " + std::to_string(table.pushes.size()) + ", " + std::to_string(table.knots.size());
   layout::for_each_list(table, "{", "}", [&](const std::string& name, const std::string& text) {
     const bool is_integer = name == "elements" || name == "columns";
@@ -64,9 +73,10 @@ std::string tables_array(const CompensationData& data) {
 std::string compensation_header(const CompensationData& data) {
   compensation_model(data, "compensation data");  // throws where the program could not use them
   std::size_t count = 0;
-  std::string out = "/* Compensation of " + layout::quoted(data.name) +
-                    ", written by hexdbb compensate: mm, rad, s, N, K.\n" + " * Model " + data.model_sha256 +
-                    ". Use: hexdbb_create_from_constants(&hexdbb_compensation, ...). */\n" +
+  std::string out = "/* Compensation of \"" + layout::c_comment(data.name) +
+                    "\", written by hexdbb compensate: mm, rad, s, N, K.\n" + " * Model " +
+                    layout::c_comment(data.model_sha256) + records_words(data) +
+                    ".\n * Use: hexdbb_create_from_constants(&hexdbb_compensation, ...). */\n" +
                     "#ifndef HEXDBB_COMPENSATION_CONSTANTS_H\n#define HEXDBB_COMPENSATION_CONSTANTS_H\n\n" +
                     "#include <hexdbb/hexdbb.h>\n#include <math.h>\n\n";
   out += values_array(data, count) + tables_array(data);

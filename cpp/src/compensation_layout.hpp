@@ -49,14 +49,57 @@ inline std::string number(double value) {
   return std::string(text.data(), end);
 }
 
-/// Quote a string for TOML and C, control characters as spaces.
+/// Begins the comment that holds a record's hash, before the hash in quotes.
+inline const std::string kRecordComment = "# record_sha256 = ";
+
+/// Return text as one line that a terminal or an editor shows as it is: control characters, C1 controls, line and
+/// paragraph separators and marks that reverse the direction of text (U+0000-1F, 7F-9F, 200E-0F, 2028-2E, 2066-69)
+/// become spaces.
+inline std::string printable(const std::string& text) {
+  std::string out;
+  const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0u; };
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const unsigned first = byte(at), second = byte(at + 1), third = byte(at + 2);
+    const bool is_c1 = first == 0xc2 && second >= 0x80 && second <= 0x9f;
+    const bool is_mark =
+        first == 0xe2 && ((second == 0x80 && (third == 0x8e || third == 0x8f || (third >= 0xa8 && third <= 0xae))) ||
+                          (second == 0x81 && third >= 0xa6 && third <= 0xa9));
+    out += first < 0x20 || first == 0x7f || is_c1 || is_mark ? ' ' : text[at];
+    at += is_mark ? 2 : (is_c1 ? 1 : 0);
+  }
+  return out;
+}
+
+/// Quote a string for TOML, what is not printable as spaces.
 inline std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char each : text) {
+  for (const char each : printable(text)) {
     if (each == '"' || each == '\\') out += '\\';
-    out += static_cast<unsigned char>(each) < 0x20 || each == 0x7f ? ' ' : each;
+    out += each;
   }
   return out + "\"";
+}
+
+/// Quote a string for C: as for TOML, without trigraphs (ISO C99 5.2.1.1).
+inline std::string c_string(const std::string& text) {
+  std::string out;
+  for (const char each : quoted(text)) {
+    if (each == '?' && !out.empty() && out.back() == '?') out += '\\';
+    out += each;
+  }
+  return out;
+}
+
+/// Return text for a C comment: one line that neither ends it nor begins another, nor continues the line.
+inline std::string c_comment(const std::string& text) {
+  std::string out;
+  for (const char each : printable(text)) {
+    const bool is_mark = !out.empty() && ((out.back() == '*' && each == '/') || (out.back() == '/' && each == '*') ||
+                                          (out.back() == '?' && each == '?'));
+    out += is_mark ? std::string(" ") + each : std::string(1, each);
+  }
+  if (!out.empty() && out.back() == '\\') out += ' ';
+  return out;
 }
 
 /// Join what `text` makes of each of `count` numbers as "[1, 2]", the brackets given.

@@ -28,6 +28,7 @@ class Reader {
     take("", "schema");
     out.name = string(take("", "machine"));
     out.model_sha256 = string(take("", "model_sha256"));
+    out.record_sha256 = records_;
     if (has("", "reference_temperature_c")) out.reference_temperature_c = number(take("", "reference_temperature_c"));
     for (const layout::Dimension& each : layout::kDimensions) {
       out.machine.*each.member = number(take("dimensions", each.name));
@@ -84,6 +85,9 @@ class Reader {
     std::istringstream lines(text);
     std::string line, section;
     for (int number = 1; std::getline(lines, line); ++number) {
+      const bool is_record = line.compare(0, layout::kRecordComment.size(), layout::kRecordComment) == 0;
+      if (is_record)
+        records_.push_back(string({section, "record", line.substr(layout::kRecordComment.size()), number}));
       if (line.empty() || line[0] == '#') continue;
       const std::size_t equals = line.find(" = ", line.front() == '"' ? end_of_string(line) : 0);
       if (line.front() == '[' && line.back() == ']') {
@@ -222,6 +226,7 @@ class Reader {
   std::string source_;
   int version_ = 0;
   std::vector<Entry> entries_;
+  std::vector<std::string> records_;
 };
 
 }  // namespace

@@ -42,6 +42,7 @@ std::string without_check(const CompensationData& data) {
       "# Compensation for a motion controller, written by hexdbb compensate. Do not edit: the last line sums it up.\n";
   out += line("machine", layout::quoted(data.name));
   out += line("model_sha256", layout::quoted(data.model_sha256));
+  for (const std::string& each : data.record_sha256) out += layout::kRecordComment + layout::quoted(each) + "\n";
   if (std::isfinite(data.reference_temperature_c)) {
     out += line("reference_temperature_c", layout::number(data.reference_temperature_c));
   }

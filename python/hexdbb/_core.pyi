@@ -591,6 +591,11 @@ class CompensationData:
     @property
     def name(self) -> str: ...
     @property
+    def record_sha256(self) -> list[str]:
+        """
+        Content hashes of the records that the model was fitted to.
+        """
+    @property
     def reference_temperature_c(self) -> float: ...
     @property
     def reversal_travel_mm(self) -> float: ...
@@ -654,6 +659,7 @@ def compensation_of(
     reference_temperature_c: typing.SupportsFloat | typing.SupportsIndex,
     tables: collections.abc.Sequence[CompensationTable] = [],
     left_out: collections.abc.Sequence[tuple[str, str]] = [],
+    record_sha256: collections.abc.Sequence[str] = [],
 ) -> CompensationData:
     """
     Select the effects of a model that a controller can correct, and state why the others are left out.
@@ -672,6 +678,8 @@ def compensation_of(
         Of effects that the engine does not have.
     left_out : sequence of (str, str), optional
         Effects without a table, each with the reason.
+    record_sha256 : sequence of str, optional
+        Content hashes of the records the model was fitted to.
     """
 
 def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:

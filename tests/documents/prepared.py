@@ -60,6 +60,12 @@ def _planning(folder: Path, run: Run) -> None:
     (folder / "docs").symlink_to(ROOT / "docs")
 
 
+def _measuring(folder: Path, run: Run) -> None:
+    """Put the shipped EDS files where the page supposes the reader's."""
+    for name, source in (("drive.eds", "hexglider_drive.eds"), ("gauge.eds", "ballbar_gauge.eds")):
+        (folder / name).write_bytes((ROOT / "firmware_interfaces" / source).read_bytes())
+
+
 def _simulated_rig(folder: Path, run: Run) -> None:
     """Write the truth file that the page shows."""
     (folder / "truth.toml").write_text(_block("docs/simulated-rig.md", "toml"), encoding="utf-8")
@@ -80,6 +86,7 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "docs/discovery.md": _discovery,
     "docs/ledger.md": _today,
     "docs/planning.md": _planning,
+    "docs/measuring.md": _measuring,
     "docs/simulated-rig.md": _simulated_rig,
     "docs/thesis-tables.md": _thesis_tables,
 }

@@ -5,7 +5,8 @@
 // rad, s, N, K) and are written with as many digits as restore the same bits.
 //
 // Version 1 holds effects of the catalogue by name and value. Version 2 adds tables (compensation_tables.hpp); data
-// without a table are written as version 1, which earlier readers take.
+// without a table are written as version 1, which earlier readers take. The records that the model was fitted to stand in
+// comments, because readers of both versions refuse keys that they do not know.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +43,9 @@ struct LeftOut {
 };
 
 struct CompensationData {
-  std::string name;                                                           // of the machine
-  std::string model_sha256;                                                   // of the model file it was made from
+  std::string name;                        // of the machine
+  std::string model_sha256;                // of the model file it was made from
+  std::vector<std::string> record_sha256;  // of the records that the model's values were fitted to
   double reference_temperature_c = std::numeric_limits<double>::quiet_NaN();  // at which no growth is corrected
   Machine machine;
   CompensationLimits limits;

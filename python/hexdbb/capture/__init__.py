@@ -9,6 +9,7 @@ Source: CiA 301 (application layer), CiA 402-2 (drives), CiA 404 (measuring devi
 
 from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.clock import Clock, Deadlines, Lockstep
+from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.simulated import simulated_rig
@@ -17,6 +18,7 @@ from hexdbb.capture.transport import open_bus
 __all__ = [
     "Clock",
     "Deadlines",
+    "Interrupts",
     "Lockstep",
     "Request",
     "RunProgress",

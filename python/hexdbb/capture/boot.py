@@ -12,15 +12,15 @@ from dataclasses import dataclass
 import canopen
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
+from hexdbb.capture.fitness import DRIVE_PROFILE, GAUGE_PROFILE, Level, findings
+from hexdbb.capture.link import Link
 from hexdbb.capture.sdo import RemoteDevice, name
 from hexdbb.capture.settings import configure_drive, configure_gauge
-from hexdbb.errors import RunError
+from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
 
 NMT_START, NMT_PRE_OPERATIONAL = 0x01, 0x80
 """NMT command specifiers (CiA 301)."""
-DRIVE_PROFILE, GAUGE_PROFILE = 402, 404
-"""Device profile numbers in the low word of object 1000h."""
 IDENTITY = {1: "vendor", 2: "product"}
 """Sub-indices of 1018h that are compared with the EDS; 0 in the EDS matches any device (CiA 306)."""
 
@@ -44,12 +44,12 @@ class Devices:
         yield from (*self.drives, self.gauge)
 
 
-def add_devices(network: canopen.Network, machine: MachineFile) -> Devices:
+def add_devices(network: Link, machine: MachineFile) -> Devices:
     """Add the nodes of a machine file to a network.
 
     Parameters
     ----------
-    network : canopen.Network
+    network : Link
         The network of the bus; nothing is sent.
     machine : MachineFile
         Its ``[can]`` section names node ids and EDS files.
@@ -71,7 +71,23 @@ def add_devices(network: canopen.Network, machine: MachineFile) -> Devices:
     return Devices(drives, RemoteDevice(network, can.gauge_node, "gauge", machine.eds_path(can.gauge_eds)))
 
 
-def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float) -> list[str]:
+def refuse_unfit(devices: Devices, machine: MachineFile, cycle_s: float) -> None:
+    """Check by the EDS files that every device can run the test; nothing is sent.
+
+    Raises
+    ------
+    InputError
+        One cannot; names the device, its EDS, the object and what that means.
+    """
+    for device in devices:
+        profile = DRIVE_PROFILE if device in devices.drives else GAUGE_PROFILE
+        for found in findings(device.eds, profile, machine, cycle_s):
+            if found.level is Level.REFUSED:
+                line = "" if found.line is None else f":{found.line}"
+                raise InputError(f"{device.label}: {device.eds.path}{line}: object {found.place} {found}")
+
+
+def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float, timed: bool) -> list[str]:
     """Identify, configure and start every node.
 
     Parameters
@@ -83,7 +99,9 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
     machine : MachineFile
         Travel, limits and supervision times to be written.
     cycle_s : float
-        SYNC period, s.
+        Time from one target to the next, s.
+    timed : bool
+        Whether SYNC comes once in that time; not in lockstep.
 
     Returns
     -------
@@ -101,8 +119,8 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
     notes: list[str] = []
     for drive in devices.drives:
         check_mode_offered(drive)
-        notes += configure_drive(drive, machine, cycle_s)
-    notes += configure_gauge(devices.gauge, machine, cycle_s)
+        notes += configure_drive(drive, machine, cycle_s, timed)
+    notes += configure_gauge(devices.gauge, machine, cycle_s, timed)
     network.nmt.send_command(NMT_START)
     return notes
 
@@ -131,7 +149,7 @@ def identify(device: RemoteDevice, profile: int) -> None:
         number = device.read(0x1018, subindex)
         if number != expected:
             where = f"{what} {number} in object {name(0x1018, subindex)}"
-            raise RunError(f"{device.label}: {where} (expected {expected}, as in {device.eds.name})")
+            raise RunError(f"{device.label}: {where} (expected {expected}, as in {device.eds.path.name})")
 
 
 def check_mode_offered(drive: RemoteDevice) -> None:

@@ -9,15 +9,29 @@ Source: CiA 402 (statusword 6041h, mode display 6061h, position 6064h), CiA 404 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 
-from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION, FOLLOWING_ERROR, INTERNAL_LIMIT, DriveState, state_of
+from hexdbb.capture.cia402 import (
+    CYCLIC_SYNCHRONOUS_POSITION,
+    FOLLOWING_ERROR,
+    FOLLOWS_COMMAND,
+    HOMED,
+    INTERNAL_LIMIT,
+    DriveState,
+    state_of,
+)
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
+from hexdbb.capture.interrupts import Interrupts
+from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 
 GAUGE_STATUS_BITS = {0: "not valid", 1: "positive overload", 2: "negative overload"}
 """Meaning of the bits of object 6150h (CiA 404)."""
+
+MAX_REPEATED = 10
+"""Answers too many in one run: CAN may repeat a frame whose last bit was disturbed, once in a long while. Each costs
+the samples not yet confirmed."""
 
 ENABLED_MASK, ENABLED_VALUE = DriveState.OPERATION_ENABLED.value
 
@@ -32,10 +46,13 @@ class Fault:
         The node, as the user knows it: ``node 3 (slider 3)``.
     what : str
         Object, value and expectation.
+    doubtful : int
+        Number of SYNCs before this one whose samples it makes doubtful.
     """
 
     where: str
     what: str
+    doubtful: int = 0
 
     def __str__(self) -> str:
         return f"{self.where}: {self.what}"
@@ -65,14 +82,22 @@ class Watch:
         Largest number of cycles that may be missed in one run.
     expected : list of int
         Targets (counts) that the positions of the last SYNC belong to, shape (6,).
+    plausibility : Plausibility
+        History of positions and readings, and their limits.
+    repeated : int
+        Answers too many so far.
+    last_repeated : int or None
+        Slot of the last one.
     gauge_watched : bool
         Whether the bar is mounted and the ball on its circle.
     stalled : int
         Cycles missed immediately before the last SYNC.
     missed : int
         Cycles missed so far.
-    interrupted : bool
-        Whether the user has asked to stop.
+    late_s : mapping of int to float
+        Time from a SYNC to the last late answer of a slot, s.
+    interrupts : Interrupts
+        Whether a signal has asked the program to end.
     """
 
     feedback: Feedback
@@ -84,10 +109,19 @@ class Watch:
     max_stall: int
     max_missed: int
     expected: list[int]
+    plausibility: Plausibility
+    repeated: int = 0
+    last_repeated: int | None = None
     gauge_watched: bool = False
     stalled: int = 0
     missed: int = 0
-    interrupted: bool = False
+    late_s: Mapping[int, float] = field(default_factory=dict)
+    interrupts: Interrupts = field(default_factory=Interrupts)
+
+    def lateness(self, slot: int) -> str:
+        """Return how late a slot's answers come as part of a message, or an empty text."""
+        late_s = self.late_s.get(slot)
+        return "" if late_s is None else f", the last {1e3 * late_s:.1f} ms after its SYNC"
 
 
 @dataclass(frozen=True)
@@ -108,7 +142,7 @@ def find_fault(watch: Watch) -> Fault | None:
 
 
 def _interrupted(watch: Watch) -> Fault | None:
-    return Fault("hexdbb-run", "interrupted by the user") if watch.interrupted else None
+    return Fault("hexdbb-run", watch.interrupts.requested) if watch.interrupts.requested else None
 
 
 def _stall(watch: Watch) -> Fault | None:
@@ -117,6 +151,13 @@ def _stall(watch: Watch) -> Fault | None:
     if watch.missed > watch.max_missed:
         return Fault("controller", f"{watch.missed} cycles missed so far (expected at most {watch.max_missed})")
     return None
+
+
+def _flood(watch: Watch) -> Fault | None:
+    if watch.feedback.flooded < watch.supervision.silent_after:
+        return None
+    expected = "all frames read before the next SYNC"
+    return Fault("bus", f"flooded with frames for {watch.feedback.flooded} consecutive SYNCs (expected {expected})")
 
 
 def _answers(watch: Watch) -> Fault | None:
@@ -128,8 +169,30 @@ def _answers(watch: Watch) -> Fault | None:
     limit = watch.supervision.silent_after
     if len(silent) == len(watch.labels):
         return Fault("bus", f"no node answered {limit} consecutive SYNCs (expected TPDO1 of every node)")
-    what = f"TPDO1 missing after {limit} consecutive SYNCs (expected one after every SYNC)"
+    what = f"TPDO1 missing after {limit} consecutive SYNCs{watch.lateness(silent[0])} (expected one after every SYNC)"
     return Fault(watch.labels[silent[0]], what)
+
+
+def _wrong_length(watch: Watch) -> Fault | None:
+    wrong = watch.feedback.wrong_length
+    if wrong is None:
+        return None
+    slot, found, expected = wrong
+    return Fault(watch.labels[slot], f"TPDO1 has {found} bytes (expected {expected}, as mapped in 1A00h)")
+
+
+def _foreign_sync(watch: Watch) -> Fault | None:
+    count = watch.supervision.foreign_syncs
+    if not count:
+        return None
+    return Fault("bus", f"{count} SYNC of another producer (expected SYNC 080h from this controller only)", count)
+
+
+def _repeated(watch: Watch) -> Fault | None:
+    if watch.repeated <= MAX_REPEATED or watch.last_repeated is None:
+        return None
+    what = f"{watch.repeated} answers too many so far (expected one TPDO1 after every SYNC; is a node id used twice?)"
+    return Fault(watch.labels[watch.last_repeated], what)
 
 
 def _drive_states(watch: Watch) -> Fault | None:
@@ -143,7 +206,14 @@ def _drive_states(watch: Watch) -> Fault | None:
 def _emergencies(watch: Watch) -> Fault | None:
     for node, emergency in watch.supervision.emergencies.items():
         label = watch.labels[watch.supervision.nodes.index(node)]
-        return Fault(label, f"EMCY {emergency.code:04X}h, error register {emergency.register:02X}h (expected none)")
+        return Fault(label, f"{emergency} (expected none)")
+    return None
+
+
+def _malformed(watch: Watch) -> Fault | None:
+    for node, wrong in watch.supervision.malformed.items():
+        where = watch.labels[watch.supervision.nodes.index(node)] if node else "bus"
+        return Fault(where, wrong)
     return None
 
 
@@ -168,6 +238,41 @@ def _status_bits(watch: Watch) -> Fault | None:
         for bit, meaning in ((FOLLOWING_ERROR, "following error"), (INTERNAL_LIMIT, "internal limit active")):
             if word & bit:
                 return Fault(watch.labels[slot], f"object 6041:00 is {word:04X}h, {meaning} (expected that bit clear)")
+    return None
+
+
+def _lasting_bits(watch: Watch) -> Fault | None:
+    for slot, word in enumerate(watch.feedback.statusword):
+        for bit, meaning in ((HOMED, "no longer homed"), (FOLLOWS_COMMAND, "does not follow its target")):
+            if not word & bit:
+                number = bit.bit_length() - 1
+                return Fault(
+                    watch.labels[slot], f"object 6041:00 is {word:04X}h, {meaning} (expected bit {number} set)"
+                )
+    return None
+
+
+def _jump(watch: Watch) -> Fault | None:
+    found = watch.plausibility.jump()
+    if found is None:
+        return None
+    slot, step_mm, limit_mm = found
+    what = f"object 6064:00 jumped by {step_mm:+.3f} mm in one SYNC (expected at most {limit_mm:.3f} mm)"
+    return Fault(watch.labels[slot], what)
+
+
+def _reading_changes(watch: Watch) -> Fault | None:
+    if not watch.gauge_watched:
+        return None
+    label, plausibility = watch.labels[GAUGE_SLOT], watch.plausibility
+    spike = plausibility.spike()
+    if spike is not None:
+        off_um, limit_um = spike
+        return Fault(label, f"object 6130:01 jumped by {off_um:+.1f} µm (expected at most {limit_um:.1f} µm)", 1)
+    if plausibility.is_frozen():
+        same = plausibility.same
+        what = f"object 6130:01 is {watch.feedback.reading_um:.1f} µm, unchanged for {same} SYNCs"
+        return Fault(label, f"{what} (expected noise; plan file gauge.noise_um = 0 for a gauge without)", same)
     return None
 
 
@@ -211,14 +316,22 @@ def _heartbeats(watch: Watch) -> Fault | None:
 CHECKS: list[Check] = [
     Check("interrupted", _interrupted),
     Check("loop stall", _stall),
+    Check("flood", _flood),
+    Check("length of answers", _wrong_length),
     Check("answers", _answers),
+    Check("SYNC of others", _foreign_sync),
     Check("drive states", _drive_states),
     Check("modes", _modes),
     Check("emergencies", _emergencies),
+    Check("malformed frames", _malformed),
     Check("NMT states", _nmt_states),
     Check("heartbeats", _heartbeats),
     Check("status bits", _status_bits),
+    Check("lasting bits", _lasting_bits),
     Check("following error", _following),
+    Check("jump of a position", _jump),
     Check("gauge", _gauge),
+    Check("changes of the reading", _reading_changes),
+    Check("answers too many", _repeated),
 ]
 """Checks of every cycle, causes before consequences."""

@@ -14,6 +14,8 @@ CYCLIC_SYNCHRONOUS_POSITION = 8
 
 FOLLOWING_ERROR = 1 << 13
 INTERNAL_LIMIT = 1 << 11
+FOLLOWS_COMMAND = 1 << 12
+"""Statusword bit in cyclic synchronous position mode: the drive follows the target position."""
 HOMED = 1 << 15
 """Statusword bit: position referenced to home; the profile leaves bit 15 to the manufacturer."""
 

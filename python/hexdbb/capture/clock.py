@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from typing import Protocol
 
 
@@ -31,6 +32,20 @@ class Clock(Protocol):
 
     def answer_timeout_s(self) -> float:
         """Return the time (s) allowed for the answers to the SYNC just sent."""
+
+    def let_pass(self, receive: Callable[[float], None]) -> int:
+        """Send no SYNC for a while, in which late answers are received.
+
+        Parameters
+        ----------
+        receive : callable
+            Receives for a number of seconds; returns earlier when nothing is missing any more.
+
+        Returns
+        -------
+        int
+            Number of cycles that passed.
+        """
 
 
 class Lockstep:
@@ -58,6 +73,11 @@ class Lockstep:
     def answer_timeout_s(self) -> float:
         """Return the patience (s), the same in every cycle."""
         return self._patience_s
+
+    def let_pass(self, receive: Callable[[float], None]) -> int:
+        """Wait for late answers as long as for timely ones; return 0: no cycle passes."""
+        receive(self._patience_s)
+        return 0
 
 
 class Deadlines:
@@ -99,3 +119,11 @@ class Deadlines:
     def answer_timeout_s(self) -> float:
         """Return the time (s) left until the answers are due, at least 0."""
         return max(0.0, self._due_s - (1.0 - self.ANSWER_SHARE) * self._cycle_s - time.monotonic())
+
+    def let_pass(self, receive: Callable[[float], None]) -> int:
+        """Leave one SYNC out; return 1."""
+        receive(max(0.0, self._due_s - time.monotonic()))
+        if (left_s := self._due_s - time.monotonic()) > 0.0:
+            time.sleep(left_s)
+        self._due_s += self._cycle_s
+        return 1

@@ -3,12 +3,14 @@
 Pairing: at a SYNC every node samples its values and sends them, then acts on the target it received before that SYNC.
 The answers to one SYNC therefore belong together, and the positions sampled at SYNC k are the result of the target of
 SYNC k-1: they are recorded with row k-1 of the table of targets.
+
+An answer carries nothing that tells its SYNC, so answers are counted: exactly one of every node between two SYNCs. One
+that is missing may still come and is waited for before the next SYNC (`Loop`); one too many makes the answers doubtful.
 Source: CiA 301, synchronous PDOs of transmission type 1.
 """
 
 from __future__ import annotations
 
-import struct
 import time
 from collections.abc import Callable, Iterable, Sequence
 
@@ -19,6 +21,9 @@ from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID
 GAUGE_SLOT = 6
 SLOTS = 7
 """Number of answers to one SYNC; slots 0 to 5 are the drives, slot 6 is the gauge."""
+MAX_BACKLOG = 1000
+"""Frames to read at most once the time for them is over: what a bus of 1 Mbit/s carries in the longest stall that a run
+survives (100 ms). A limit in time would drop answers that have waited while this process was stalled."""
 
 
 class Feedback:
@@ -39,15 +44,32 @@ class Feedback:
     missing : tuple of int
         Slots that did not answer.
     settled : bool
-        Whether the answers certainly belong to this SYNC: none was missing, now or before, and none arrived late.
+        Whether the answers belong to this SYNC as far as known: none is missing and none of an earlier SYNC was
+        outstanding. One too many may still show otherwise (`Exchange.doubtful`).
+    wrong_length : tuple of int, or None
+        Slot of an answer that has not the configured length, its number of bytes, and the expected one.
     cycle : int
         Number of the SYNC, from 0.
+    flooded : int
+        Consecutive SYNCs sent although more frames were waiting than `MAX_BACKLOG`.
     """
 
-    __slots__ = ("cycle", "gauge_status", "missing", "mode", "position", "reading_um", "settled", "statusword")
+    __slots__ = (
+        "cycle",
+        "flooded",
+        "gauge_status",
+        "missing",
+        "mode",
+        "position",
+        "reading_um",
+        "settled",
+        "statusword",
+        "wrong_length",
+    )
 
     def __init__(self) -> None:
         self.cycle = -1
+        self.flooded = 0
         self.statusword = [0] * 6
         self.position = [0] * 6
         self.mode = [0] * 6
@@ -55,6 +77,7 @@ class Feedback:
         self.gauge_status = 0
         self.missing: tuple[int, ...] = tuple(range(SLOTS))
         self.settled = False
+        self.wrong_length: tuple[int, int, int] | None = None
 
 
 class Exchange:
@@ -75,8 +98,12 @@ class Exchange:
     ----------
     feedback : Feedback
         Answers to the last SYNC.
-    late_frames : int
-        Answers that arrived too late to be paired.
+    late_s : dict of int to float
+        Time (s) from the SYNC to the last late answer of a slot.
+    doubtful : bool
+        Whether answers since `confirm` may belong to another SYNC: a node answered once more than it was asked.
+    repeated : int
+        Answers too many, so far.
     """
 
     def __init__(
@@ -93,9 +120,13 @@ class Exchange:
         self._slots[GAUGE_TPDO.cob_id(gauge_node)] = GAUGE_SLOT
         self._rpdo, self._drive, self._gauge = DRIVE_RPDO.struct, DRIVE_TPDO.struct, GAUGE_TPDO.struct
         self.feedback = Feedback()
-        self.late_frames = 0
+        self.late_s: dict[int, float] = {}
+        self.doubtful = False
+        self.repeated = 0
+        self.last_repeated: int | None = None
         self._given_up: set[int] = set()
-        self._late_before = 0
+        self._outstanding: set[int] = set()
+        self._sync_s = 0.0
 
     def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
         """Send the six RPDOs, which take effect at the next SYNC.
@@ -119,10 +150,11 @@ class Exchange:
 
     def send_sync(self) -> None:
         """Send the SYNC; raises `can.CanError` if the bus cannot send."""
+        self.feedback.settled = not self._outstanding
         self._bus.send(self._sync)
+        self._sync_s = time.monotonic()
         self.feedback.cycle += 1
-        self.feedback.settled = not self.feedback.missing and self.late_frames == self._late_before
-        self._late_before = self.late_frames
+        self._outstanding = set(range(SLOTS))
 
     def collect(self, timeout_s: float) -> Feedback:
         """Receive the answers to the last SYNC.
@@ -130,7 +162,7 @@ class Exchange:
         Parameters
         ----------
         timeout_s : float
-            Longest time to wait, s.
+            Longest time to wait, s; also where frames of others never end.
 
         Returns
         -------
@@ -138,54 +170,85 @@ class Exchange:
             The same object in every cycle; `missing` names the slots without an answer.
         """
         end_s = time.monotonic() + timeout_s
-        pending = set(range(SLOTS)) - self._given_up
-        recv = self._bus.recv
-        while pending:
+        recv, outstanding, given_up, backlog = self._bus.recv, self._outstanding, self._given_up, MAX_BACKLOG
+        while backlog and not outstanding <= given_up:
             left_s = end_s - time.monotonic()
+            backlog -= left_s <= 0.0
             message = recv(max(left_s, 0.0))
-            if message is None:
-                if left_s <= 0.0:
-                    break
-                continue
-            slot = self._slots.get(message.arbitration_id)
-            if slot is None:
-                self._other(message.arbitration_id, message.data, message.timestamp)
-            elif self._decode(slot, message.data):
-                pending.discard(slot)
-        self.feedback.missing = tuple(sorted(pending | self._given_up))
-        self.feedback.settled = self.feedback.settled and not self.feedback.missing
+            if message is not None:
+                self._take(message)
+            elif left_s <= 0.0:
+                break
+        self.feedback.missing = tuple(sorted(outstanding))
+        self.feedback.settled = self.feedback.settled and not outstanding
         return self.feedback
 
-    def drain(self) -> None:
-        """Receive the frames that arrived since the last answers; process data among them are too late to be paired."""
-        while (message := self._bus.recv(0.0)) is not None:
-            if message.arbitration_id in self._slots:
-                self.late_frames += 1
-            else:
-                self._other(message.arbitration_id, message.data, message.timestamp)
+    def drain(self, quiet_s: float = 0.0) -> None:
+        """Receive the frames that arrived since the last answers, until none arrives for `quiet_s` seconds.
+
+        Answers among them come late, to be paired no more, or are one too many.
+        """
+        for _ in range(MAX_BACKLOG):
+            message = self._bus.recv(quiet_s)
+            if message is None:
+                self.feedback.flooded = 0
+                return
+            self._take(message, late=True)
+        self.feedback.flooded += 1
+
+    def await_late(self, timeout_s: float) -> None:
+        """Wait for the missing answers to the last SYNC; after that they count as lost and may come no more."""
+        end_s = time.monotonic() + timeout_s
+        while self.is_waiting() and (left_s := end_s - time.monotonic()) > 0.0:
+            message = self._bus.recv(left_s)
+            if message is not None:
+                self._take(message, late=True)
+
+    def is_waiting(self) -> bool:
+        """Return whether an answer to the last SYNC may still come."""
+        return not self._outstanding <= self._given_up
+
+    def end_waiting(self) -> None:
+        """Count the missing answers as lost: the answers to the next SYNC are its own."""
+        self._outstanding = set()
 
     def give_up(self, slots: Iterable[int]) -> None:
         """Stop waiting for the answers of some slots; they count as missing."""
         self._given_up.update(slots)
 
     def listen(self, timeout_s: float) -> None:
-        """Receive frames that are not process data for `timeout_s` seconds while no SYNC is being answered."""
+        """Receive frames for `timeout_s` seconds while no SYNC is being answered."""
         end_s = time.monotonic() + timeout_s
         while (left_s := end_s - time.monotonic()) > 0.0:
             message = self._bus.recv(left_s)
-            if message is not None and message.arbitration_id not in self._slots:
-                self._other(message.arbitration_id, message.data, message.timestamp)
+            if message is not None:
+                self._take(message, late=True)
+
+    def _take(self, message: can.Message, late: bool = False) -> None:
+        """Take in one frame: an answer, one too many or too late, or a frame of another service."""
+        slot = self._slots.get(message.arbitration_id)
+        if slot is None:
+            self._other(message.arbitration_id, message.data, message.timestamp)
+        elif slot not in self._outstanding:
+            self.doubtful, self.last_repeated = True, slot
+            self.repeated += 1
+        elif late:
+            self._outstanding.discard(slot)
+            self.late_s[slot] = time.monotonic() - self._sync_s
+        elif self._decode(slot, message.data):
+            self._outstanding.discard(slot)
 
     def _decode(self, slot: int, data: bytearray) -> bool:
         """Decode one answer; return False if its length is not the configured one, so that it counts as missing."""
         feedback = self.feedback
-        try:
-            if slot == GAUGE_SLOT:
-                feedback.reading_um, feedback.gauge_status = self._gauge.unpack(data)
-            else:
-                feedback.statusword[slot], feedback.position[slot], feedback.mode[slot] = self._drive.unpack(data)
-        except struct.error:
+        layout = self._gauge if slot == GAUGE_SLOT else self._drive
+        if len(data) != layout.size:
+            feedback.wrong_length = (slot, len(data), layout.size)
             return False
+        if slot == GAUGE_SLOT:
+            feedback.reading_um, feedback.gauge_status = layout.unpack(data)
+        else:
+            feedback.statusword[slot], feedback.position[slot], feedback.mode[slot] = layout.unpack(data)
         return True
 
 

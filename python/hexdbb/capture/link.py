@@ -7,6 +7,7 @@ helper thread sends wait in an outbox until the loop sends them.
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,7 +15,9 @@ from contextlib import contextmanager
 import can
 import canopen
 
-NOTIFIER_CYCLE_S = 0.02
+from hexdbb.capture.frames import SDO_ANSWER_BASE, GuardedBus, malformed, service_of
+
+READ_S = 0.02
 """Longest time the receiving thread blocks in one read: the delay until it ends when the configuration is finished."""
 
 
@@ -25,20 +28,31 @@ class Link(canopen.Network):
     ----------
     bus : can.BusABC
         An open bus; the caller closes it.
+
+    Attributes
+    ----------
+    malformed : dict of int to str
+        The last frame of a node that its service does not allow, in words, by node id; 0 for NMT commands.
     """
 
     def __init__(self, bus: can.BusABC) -> None:
-        super().__init__(bus)
+        self._guard = GuardedBus(bus)
+        super().__init__(self._guard)
+        self.malformed: dict[int, str] = {}
         self._outbox: deque[can.Message] | None = None
+        self._lost: Exception | None = None
 
     @contextmanager
     def threaded(self) -> Iterator[None]:
         """Receive in a thread that passes frames on to `canopen`, for the length of the context."""
-        notifier = can.Notifier(self.bus, self.listeners, NOTIFIER_CYCLE_S)
+        finished = threading.Event()
+        thread = threading.Thread(target=self._receive, args=(finished,), name="hexdbb-receive", daemon=True)
+        thread.start()
         try:
             yield
         finally:
-            notifier.stop()
+            finished.set()
+            thread.join()
 
     @contextmanager
     def looped(self) -> Iterator[None]:
@@ -50,8 +64,23 @@ class Link(canopen.Network):
             self.flush()
             self._outbox = None
 
+    def notify(self, can_id: int, data: bytearray, timestamp: float) -> None:
+        """Process a frame: keep what is wrong with it, or pass an SDO answer on to `canopen`.
+
+        `canopen` is given nothing else: its consumers of EMCY, NMT and heartbeat raise for frames cut short and keep
+        every EMCY of a run.
+        """
+        service, node = service_of(can_id)
+        wrong = malformed(can_id, data)
+        if wrong is not None:
+            self.malformed[node] = wrong
+        elif service == SDO_ANSWER_BASE:
+            super().notify(can_id, data, timestamp)
+
     def send_message(self, can_id: int, data: bytes, remote: bool = False) -> None:
-        """Send a frame now, or queue it for the loop."""
+        """Send a frame now, or queue it for the loop; raises `can.CanError` if the bus is lost."""
+        if self._lost is not None:
+            raise self._lost
         if self._outbox is None:
             super().send_message(can_id, data, remote)
         else:
@@ -63,3 +92,18 @@ class Link(canopen.Network):
         """Send the queued frames."""
         while self._outbox:
             self.bus.send(self._outbox.popleft())
+
+    def notes(self) -> list[str]:
+        """Return one line for each frame or message that was skipped or malformed outside the cyclic loop."""
+        named = [f"node {node}: {wrong}" if node else f"bus: {wrong}" for node, wrong in self.malformed.items()]
+        return [*named, *self._guard.notes()]
+
+    def _receive(self, finished: threading.Event) -> None:
+        while not finished.is_set():
+            try:
+                message = self.bus.recv(READ_S)
+            except (can.CanError, OSError) as error:
+                self._lost = error  # raised where the next frame is sent: nobody waits for this thread
+                return
+            if message is not None:
+                self.notify(message.arbitration_id, message.data, message.timestamp)

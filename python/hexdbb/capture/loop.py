@@ -16,11 +16,15 @@ import can
 
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
+from hexdbb.capture.frames import HEARTBEAT_BASE
 from hexdbb.capture.link import Link
 from hexdbb.capture.settings import CONTROLLER_NODE
-from hexdbb.capture.supervision import HEARTBEAT_BASE, NMT_OPERATIONAL
+from hexdbb.capture.supervision import NMT_OPERATIONAL
 
 T = TypeVar("T")
+QUIET_S = 0.002
+"""Silence on the bus after which, in lockstep, no answer is on its way, s: some ten round trips of a socketcand server
+on the same computer (0.1 to 0.3 ms)."""
 PAUSE_POLL_S = 0.005
 """Time between two repetitions of the targets during a pause in lockstep: well below the RPDO timeout (100 ms)."""
 STALL_PATIENCE = 8
@@ -64,12 +68,18 @@ class Loop:
         self.missed = 0
         self.last_missed = 0
         self.counts: list[int] = [0] * 6
+        self._incomplete = False
         clock.start()
 
     @property
     def feedback(self) -> Feedback:
         """Answers to the last SYNC."""
         return self._exchange.feedback
+
+    @property
+    def repeated(self) -> tuple[int, int | None]:
+        """Number of answers too many so far, and the slot of the last one."""
+        return self._exchange.repeated, self._exchange.last_repeated
 
     def cycle(self, controlwords: Sequence[int], counts: Sequence[int]) -> Feedback:
         """Send targets and SYNC, receive the answers.
@@ -93,14 +103,31 @@ class Loop:
         self._send(controlwords, counts)
         self.last_missed = self.clock.wait()
         self.missed += self.last_missed
+        self._exchange.drain()
+        if self._incomplete and self._exchange.is_waiting():
+            # Were another SYNC sent now, a late answer would be taken for one to it, and so would all that follow.
+            self.last_missed += self.clock.let_pass(self._exchange.await_late)
+        self._exchange.end_waiting()
         self.cycle_index += 1 + self.last_missed
-        if self.clock.real_time:
-            self._exchange.drain()
         self._exchange.send_sync()
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
         if len(feedback.missing) == SLOTS and not self.clock.real_time:
             self._wait_for_any(controlwords, counts)
+        self._incomplete = bool(feedback.missing)
         return feedback
+
+    def confirm(self) -> bool:
+        """Look whether every answer belonged to its SYNC since this was last called.
+
+        Returns
+        -------
+        bool
+            False where a node has answered once more than it was asked: some answers are another SYNC's.
+        """
+        if not self.clock.real_time:
+            self._exchange.drain(QUIET_S)
+        doubtful, self._exchange.doubtful = self._exchange.doubtful, False
+        return not doubtful
 
     def give_up(self, slots: Collection[int]) -> Collection[int]:
         """Stop waiting for the answers of some slots and return them; empty in real time, where waiting is free."""

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
 
-import can
 import numpy as np
 from numpy.typing import NDArray
 
@@ -48,8 +48,19 @@ STOPPED_STATES = (
     DriveState.READY_TO_SWITCH_ON,
 )
 
-KeepRow = Callable[[int, Feedback], None]
-"""Called with the number of a row of the table and the answers that belong to it."""
+VERIFY_SYNCS = 100
+"""SYNCs in lockstep between two looks for answers too many: 2 ms of silence each, a twentieth of the time that so many
+cycles take. What is not verified is dropped if there is one."""
+
+
+class Rows(Protocol):
+    """Receives the answers that belong to the rows of a table."""
+
+    def keep(self, row: int, feedback: Feedback) -> None:
+        """Take the answers of a row; they are not certain yet."""
+
+    def settle(self, paired: bool, held: int) -> None:
+        """Accept all but the last `held` rows taken, or drop all not accepted yet if not `paired`."""
 
 
 class MotionFaultError(RunError):
@@ -64,6 +75,35 @@ class MotionFaultError(RunError):
     def __init__(self, fault: Fault) -> None:
         super().__init__(str(fault))
         self.fault = fault
+
+
+class Standstill:
+    """Counts for how many consecutive cycles each axis has answered and not moved.
+
+    Parameters
+    ----------
+    position : sequence of int
+        Positions last known, counts, shape (6,).
+    """
+
+    def __init__(self, position: Sequence[int]) -> None:
+        self._before = list(position)
+        self._still = [0] * 6
+
+    def update(self, feedback: Feedback) -> None:
+        """Compare the positions of a cycle with those of the cycle before."""
+        for slot, position in enumerate(feedback.position):
+            rests = slot not in feedback.missing and abs(position - self._before[slot]) <= STANDSTILL_COUNTS
+            self._still[slot] = self._still[slot] + 1 if rests else 0
+        self._before = list(feedback.position)
+
+    def restart(self) -> None:
+        """Count anew: the answers to a SYNC are not known."""
+        self._still = [0] * 6
+
+    def confirmed(self, slot: int) -> bool:
+        """Return whether an axis has been at standstill for `STANDSTILL_CYCLES`."""
+        return self._still[slot] >= STANDSTILL_CYCLES
 
 
 class AxisGroup:
@@ -100,6 +140,7 @@ class AxisGroup:
         for command in (Command.DISABLE_VOLTAGE, Command.FAULT_RESET, Command.DISABLE_VOLTAGE):
             feedback = self._until(command, lambda feedback: not feedback.missing, "an answer to SYNC")
         self._until(Command.DISABLE_VOLTAGE, self._all_in(DriveState.SWITCH_ON_DISABLED), "switch on disabled")
+        self._watch.supervision.forget_earlier()
         in_mode = [mode == CYCLIC_SYNCHRONOUS_POSITION for mode in feedback.mode]
         if not all(in_mode):
             slot = in_mode.index(False)
@@ -114,6 +155,12 @@ class AxisGroup:
         for label, word in zip(self._labels, self._loop.feedback.statusword, strict=False):
             if not word & HOMED:
                 raise RunError(f"{label}: object 6041:00 is {word:04X}h, not homed (expected bit 15)")
+
+    def check_interrupts(self) -> None:
+        """Check that no signal has asked the program to end; raises `MotionFaultError` otherwise."""
+        requested = self._watch.interrupts.requested
+        if requested is not None:
+            raise MotionFaultError(Fault("hexdbb-run", requested))
 
     def enable(self) -> list[int]:
         """Enable operation without a jump: each target is the present position of its axis.
@@ -139,7 +186,7 @@ class AxisGroup:
         self,
         counts: NDArray[np.int32],
         gauge_watched: NDArray[np.bool_],
-        keep: KeepRow,
+        kept: Rows,
         pauses: Mapping[int, Callable[[], None]],
     ) -> None:
         """Send a table of targets, one row per cycle, and check every answer.
@@ -150,8 +197,8 @@ class AxisGroup:
             Targets in counts, shape (n, 6).
         gauge_watched : numpy.ndarray
             Rows in which the reading must be valid and within range, shape (n,).
-        keep : callable
-            Called with the number of a row and the answers that belong to it.
+        kept : Rows
+            Takes the answers that belong to each row.
         pauses : mapping of int to callable
             Work to be done before a row is sent, while the targets are held.
 
@@ -165,7 +212,7 @@ class AxisGroup:
         enabled = [Command.ENABLE_OPERATION] * 6
         watch, loop = self._watch, self._loop
         # A heartbeat sent before the nodes were started may have arrived only now.
-        watch.supervision.nmt_states.clear()
+        watch.supervision.forget_stale_states()
         rows = len(counts)
         for row in range(rows + 1):
             if row in pauses:
@@ -177,13 +224,20 @@ class AxisGroup:
             feedback = loop.cycle(enabled, counts[min(row, rows - 1)].tolist())
             self._check()
             if row and feedback.settled:
-                keep(row - 1, feedback)
+                kept.keep(row - 1, feedback)
+            if loop.clock.real_time:
+                kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
+            elif row % VERIFY_SYNCS == 0 or row == rows:
+                kept.settle(loop.confirm(), held=0)
+        kept.settle(loop.confirm(), held=0)
 
     def _check(self) -> None:
         """Check the answers to the last SYNC; raises `MotionFaultError` if a check finds a fault."""
         watch, loop = self._watch, self._loop
         watch.supervision.count_missing(loop.feedback)
         watch.stalled, watch.missed = loop.last_missed, loop.missed
+        watch.repeated, watch.last_repeated = loop.repeated
+        watch.plausibility.update(loop.feedback, watch.expected, loop.last_missed, watch.gauge_watched)
         fault = find_fault(watch)
         if fault is not None:
             raise MotionFaultError(fault)
@@ -191,32 +245,34 @@ class AxisGroup:
     def stop(self) -> list[str]:
         """Quick stop all axes together with frozen targets until the standstill of each is confirmed.
 
+        An error of the bus does not end the attempt: it is repeated until `STOP_TIMEOUT_S` is over.
+
         Returns
         -------
         list of str
             One line for each axis whose standstill could not be confirmed; empty if all have stopped.
         """
         loop, frozen = self._loop, list(self._loop.counts)
-        supervision = self._watch.supervision
-        still = [0] * 6
-        before = list(loop.feedback.position)
-        end_s = time.monotonic() + 2.0 * STOP_TIMEOUT_S
-        try:
-            for _ in range(round(STOP_TIMEOUT_S / self._cycle_s)):
-                given_up = loop.give_up(supervision.silent())
+        standstill = Standstill(loop.feedback.position)
+        cycles, end_s = round(STOP_TIMEOUT_S / self._cycle_s), time.monotonic() + 2.0 * STOP_TIMEOUT_S
+        lost: Exception | None = None
+        while cycles > 0 and time.monotonic() < end_s:
+            try:
+                given_up = loop.give_up(self._watch.supervision.silent())
                 feedback = loop.cycle([Command.QUICK_STOP] * 6, frozen)
-                supervision.count_missing(feedback)
-                for slot, position in enumerate(feedback.position):
-                    rests = slot not in feedback.missing and abs(position - before[slot]) <= STANDSTILL_COUNTS
-                    still[slot] = still[slot] + 1 if rests else 0
-                before = list(feedback.position)
-                done = all(self._stopped(slot, still) or slot in given_up for slot in range(6))
-                if done or time.monotonic() > end_s:
-                    break
-        except (can.CanError, OSError) as error:
-            lost = f"bus lost ({one_line(error)})"
-            return [f"{lost}: the drives stop on their own when targets and heartbeat are missing"]
-        return [self._unstopped(slot) for slot in range(6) if not self._stopped(slot, still)]
+                self._watch.supervision.count_missing(feedback)
+                standstill.update(feedback)
+            except Exception as error:  # whatever it is, the axes still move
+                lost = error
+                standstill.restart()
+                time.sleep(self._cycle_s)
+                continue
+            lost, cycles = None, cycles - 1
+            if all(self._stopped(slot, standstill) or slot in given_up for slot in range(6)):
+                break
+        if lost is not None:
+            return [f"bus lost ({one_line(lost)}): the drives stop on their own when targets and heartbeat are missing"]
+        return [self._unstopped(slot) for slot in range(6) if not self._stopped(slot, standstill)]
 
     def disable(self) -> None:
         """Disable the drives, axes at standstill; raises `RunError` if one does not reach the next state."""
@@ -227,11 +283,11 @@ class AxisGroup:
             Command.DISABLE_VOLTAGE, self._all_in(DriveState.SWITCH_ON_DISABLED), "switch on disabled", follow=False
         )
 
-    def _stopped(self, slot: int, still: Sequence[int]) -> bool:
+    def _stopped(self, slot: int, standstill: Standstill) -> bool:
         """Whether the standstill of an axis is confirmed, in a state in which it does not follow targets."""
         feedback = self._loop.feedback
         state = state_of(feedback.statusword[slot])
-        return slot not in feedback.missing and state in STOPPED_STATES and still[slot] >= STANDSTILL_CYCLES
+        return slot not in feedback.missing and state in STOPPED_STATES and standstill.confirmed(slot)
 
     def _unstopped(self, slot: int) -> str:
         """Return the message about an axis whose standstill is not confirmed."""
@@ -253,19 +309,27 @@ class AxisGroup:
                 break
             if not feedback.missing and reached(feedback):
                 return feedback
-        raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s)")
+        reported = "".join(f"; {each}" for each in self._reported())
+        raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}")
+
+    def _reported(self) -> list[str]:
+        """Return what nodes have reported of themselves, or sent malformed: the cause may lie in another node."""
+        supervision = self._watch.supervision
+        told = {**supervision.malformed, **supervision.emergencies}
+        labels = dict(zip(supervision.nodes, self._labels, strict=True)) | {0: "bus"}
+        return [f"{labels[node]} sent {each}" for node, each in told.items()]
 
     def _culprit(self, reached: Callable[[Feedback], bool]) -> str:
         """Return the message about the first node that did not reach the state."""
         feedback = self._loop.feedback
         if feedback.missing:
-            return f"{self._labels[feedback.missing[0]]}: TPDO1 missing"
+            slot = feedback.missing[0]
+            return f"{self._labels[slot]}: TPDO1 missing{self._watch.lateness(slot)}"
         for slot, word in enumerate(feedback.statusword):
             alone = Feedback()
             alone.statusword = [word] * 6
             if not reached(alone):
-                reason = self._watch.supervision.reason(slot)
-                return f"{self._labels[slot]}: object 6041:00 is {word:04X}h, {state_of(word).label}{reason}"
+                return f"{self._labels[slot]}: object 6041:00 is {word:04X}h, {state_of(word).label}"
         return "drives: no common state"
 
     @staticmethod

@@ -17,6 +17,9 @@ SYNCHRONOUS = 1
 NOT_VALID = 1 << 31
 """Bit 31 of a PDO's COB-ID (1400h:01, 1800h:01): the PDO is disabled."""
 
+WITHOUT_REMOTE = 1 << 30
+"""Bit 30 of a TPDO's COB-ID: the PDO is not sent on remote requests, of which there are none here."""
+
 
 @dataclass(frozen=True)
 class Mapped:
@@ -28,11 +31,14 @@ class Mapped:
         Its place in the object dictionary.
     code : str
         Its `struct` code.
+    without : str
+        Consequence if the device has no such object, or no PDO can hold it.
     """
 
     index: int
     subindex: int
     code: str
+    without: str
 
     @property
     def entry(self) -> int:
@@ -52,12 +58,20 @@ class PdoLayout:
         Indices of its communication and mapping parameters.
     objects : tuple of Mapped
         Its contents in the order of the frame.
+    without : str
+        Consequence if the device has no such PDO.
     """
 
     base_id: int
     communication: int
     mapping: int
     objects: tuple[Mapped, ...]
+    without: str
+
+    @property
+    def entries(self) -> dict[int, int]:
+        """Values of the mapping parameter by sub-index: the number of objects, then each of them."""
+        return {0: len(self.objects)} | {k: mapped.entry for k, mapped in enumerate(self.objects, start=1)}
 
     @property
     def struct(self) -> struct.Struct:
@@ -74,14 +88,18 @@ class PdoLayout:
         return self.base_id + node
 
 
-CONTROLWORD = Mapped(0x6040, 0, "H")
-TARGET_POSITION = Mapped(0x607A, 0, "i")
-STATUSWORD = Mapped(0x6041, 0, "H")
-POSITION = Mapped(0x6064, 0, "i")
-MODE_DISPLAY = Mapped(0x6061, 0, "b")
-READING = Mapped(0x6130, 1, "f")
-GAUGE_STATUS = Mapped(0x6150, 1, "B")
+CONTROLWORD = Mapped(0x6040, 0, "H", "it can neither be enabled nor stopped")
+TARGET_POSITION = Mapped(0x607A, 0, "i", "it is given no targets")
+STATUSWORD = Mapped(0x6041, 0, "H", "its state is not known")
+POSITION = Mapped(0x6064, 0, "i", "its position is not known")
+MODE_DISPLAY = Mapped(0x6061, 0, "b", "it cannot be seen whether it follows cyclic targets")
+READING = Mapped(0x6130, 1, "f", "there is no reading")
+GAUGE_STATUS = Mapped(0x6150, 1, "B", "readings that are not valid cannot be told from others")
 
-DRIVE_RPDO = PdoLayout(0x200, 0x1400, 0x1600, (CONTROLWORD, TARGET_POSITION))
-DRIVE_TPDO = PdoLayout(0x180, 0x1800, 0x1A00, (STATUSWORD, POSITION, MODE_DISPLAY))
-GAUGE_TPDO = PdoLayout(0x180, 0x1800, 0x1A00, (READING, GAUGE_STATUS))
+DRIVE_RPDO = PdoLayout(
+    0x200, 0x1400, 0x1600, (CONTROLWORD, TARGET_POSITION), "it receives no targets in time with SYNC"
+)
+DRIVE_TPDO = PdoLayout(
+    0x180, 0x1800, 0x1A00, (STATUSWORD, POSITION, MODE_DISPLAY), "it does not answer in time with SYNC"
+)
+GAUGE_TPDO = PdoLayout(0x180, 0x1800, 0x1A00, (READING, GAUGE_STATUS), "it does not answer in time with SYNC")

@@ -1,5 +1,7 @@
 """From answers to samples: rows of the record, collected and appended to its journal in blocks.
 
+A sample is held until it is confirmed: that every answer belonged to its SYNC shows only when none came too many.
+
 Pairing: positions and reading of a row are the answers to one SYNC; commanded angle and targets of the row are those of
 the SYNC before, which the drives have reached by then (`exchange`). The lag of the position loops is the difference
 between target and position columns.
@@ -7,6 +9,7 @@ between target and position columns.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -38,7 +41,11 @@ class SampleBuffer:
     Attributes
     ----------
     count : int
-        Samples collected so far.
+        Samples confirmed so far.
+    dropped : int
+        Samples dropped so far.
+    until_s : float
+        Time from which samples on disk are doubtful, s; infinite where none is.
     """
 
     def __init__(self, programme: Programme, journal: Journal, counts_per_mm: float) -> None:
@@ -48,9 +55,11 @@ class SampleBuffer:
         self._sweep = np.array([run.sweep for run in runs])
         self._direction = np.array([run.direction for run in runs])
         self._feed_mm_min = np.array([run.feed_mm_min for run in runs])
+        self._held: list[tuple[float, ...]] = []
         self._block: list[tuple[float, ...]] = []
         self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
-        self.count = 0
+        self.count = self.dropped = 0
+        self.until_s = math.inf
 
     def keep(self, row: int, cycle_index: int, missed: int, feedback: Feedback) -> None:
         """Collect the answers of one captured row.
@@ -65,20 +74,45 @@ class SampleBuffer:
             Cycles missed immediately before the sample.
         feedback : Feedback
             The answers.
+        """
+        status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
+        self._held.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
+
+    def confirm(self, held: int = 0) -> None:
+        """Accept the samples collected, but for the last ones.
+
+        Parameters
+        ----------
+        held : int
+            Number of samples still held.
 
         Raises
         ------
         RunError
             Earlier samples could not be written.
         """
-        status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
-        self._block.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
-        self.count += 1
+        end = len(self._held) - held
+        if end <= 0:
+            return
+        self._block += self._held[:end]
+        del self._held[:end]
+        self.count += end
         if len(self._block) >= self._block_size:
             self.flush()
 
+    def drop(self) -> None:
+        """Drop the samples not confirmed: their answers may belong to other SYNCs."""
+        self.dropped += len(self._held)
+        self._held.clear()
+
+    def cut(self, cycle_index: int) -> None:
+        """Drop samples from a cycle on; `until_s` says from when those on disk are to be dropped as well."""
+        self._held = [each for each in self._held if each[1] < cycle_index]
+        self._block = [each for each in self._block if each[1] < cycle_index]
+        self.until_s = cycle_index * self._programme.cycle_s
+
     def flush(self) -> None:
-        """Append the collected samples to the journal; raises `RunError` if earlier samples could not be written."""
+        """Append the confirmed samples to the journal; raises `RunError` if earlier samples could not be written."""
         if self._block:
             block = np.array(self._block)
             self._block.clear()

@@ -8,23 +8,23 @@ record.
 
 from __future__ import annotations
 
-import signal
-import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import logging
 
 import can
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.capture.boot import Devices, add_devices, boot, release
+from hexdbb.capture.boot import Devices, add_devices, boot, refuse_unfit, release
+from hexdbb.capture.captured_rows import CapturedRows
 from hexdbb.capture.checks import Fault, Watch
 from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
-from hexdbb.capture.exchange import Exchange, Feedback
+from hexdbb.capture.exchange import Exchange
+from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
-from hexdbb.capture.motion import AxisGroup
+from hexdbb.capture.motion import AxisGroup, MotionFaultError
+from hexdbb.capture.plausibility import Plausibility, frozen_after
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
@@ -34,16 +34,26 @@ from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
 from hexdbb.trajectory import Phase, Programme, approach
 
+log = logging.getLogger(__name__)
+
 MAX_MISSED = 250
 """Largest number of cycles missed in one run: one second at 250 Hz. A computer that stalls more often is not fit for a
 real-time run, and each stall leaves a gap in the samples."""
+MAX_LOST = 0.01
+"""Largest share of the planned samples that a complete record may lack: four degrees of a circle; what is lost more
+leaves gaps in the fit, and has a cause that should be known."""
 LOCKSTEP_TOLERANCE_S = 1.0
 """Added to the heartbeat limit in lockstep, s. Nothing else depends on time there, and a busy desktop may stall the
 process that sends the heartbeats."""
 
 
 def measure(
-    request: Request, programme: Programme, bus: can.BusABC, clock: Clock, progress: RunProgress | None = None
+    request: Request,
+    programme: Programme,
+    bus: can.BusABC,
+    clock: Clock,
+    progress: RunProgress | None = None,
+    interrupts: Interrupts | None = None,
 ) -> Record:
     """Drive a programme on a bus and write its record.
 
@@ -59,6 +69,8 @@ def measure(
         Pace of the loop: `Lockstep` or `Deadlines`.
     progress : RunProgress, optional
         Updated during the run for a display.
+    interrupts : Interrupts, optional
+        Signals that end the run; by default those that arrive during this call.
 
     Returns
     -------
@@ -73,17 +85,21 @@ def measure(
         The rig was refused before motion, or a fault stopped the run; names the cause and what was kept.
     """
     progress = RunProgress() if progress is None else progress
+    interrupts = Interrupts() if interrupts is None else interrupts
     progress.stage = "configuring nodes"
     link = Link(bus)
     devices = add_devices(link, request.machine)
+    refuse_unfit(devices, request.machine, request.cycle_s)
     try:
-        with link.threaded():
-            progress.notes += boot(link, devices, request.machine, request.cycle_s)
-        with link.looped():
-            return _Run(request, programme, link, devices, clock, progress).record()
+        with interrupts.watched():
+            with link.threaded():
+                progress.notes += boot(link, devices, request.machine, request.cycle_s, clock.real_time)
+            with link.looped():
+                return _Run(request, programme, link, devices, clock, progress, interrupts).record()
     except (can.CanError, OSError) as error:
         raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing has moved") from error
     finally:
+        progress.notes += link.notes()
         _release(link, devices)
 
 
@@ -99,7 +115,14 @@ class _Run:
     """The part of a measurement in which axes move."""
 
     def __init__(
-        self, request: Request, programme: Programme, link: Link, devices: Devices, clock: Clock, progress: RunProgress
+        self,
+        request: Request,
+        programme: Programme,
+        link: Link,
+        devices: Devices,
+        clock: Clock,
+        progress: RunProgress,
+        interrupts: Interrupts,
     ) -> None:
         machine, cycle_s = request.machine, request.cycle_s
         can_setup = machine.can_setup
@@ -120,6 +143,16 @@ class _Run:
             max_stall=int(can_setup.rpdo_timeout_ms / 1000.0 / cycle_s),
             max_missed=MAX_MISSED,
             expected=self.loop.counts,
+            plausibility=Plausibility(
+                counts_per_mm=self.counts_per_mm,
+                cycle_s=cycle_s,
+                velocity_mm_s=can_setup.limits.velocity_mm_s,
+                ball_mm_s=max(run.feed_mm_min for run in programme.runs) / 60.0,
+                noise_um=request.plan.gauge.noise_um or 0.0,
+                repeats=frozen_after(request.plan.gauge),
+            ),
+            late_s=exchange.late_s,
+            interrupts=interrupts,
         )
         self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
 
@@ -128,20 +161,21 @@ class _Run:
         self.progress.stage = "reading axis positions"
         present_mm = np.array(self.axes.read_positions()) / self.counts_per_mm
         self.axes.check_homed()
+        self.watch.interrupts.note_only()
         programme, journal = self.loop.hold_while(
             lambda: self._with_approach(present_mm), [Command.DISABLE_VOLTAGE] * 6
         )
         with journal:
             samples = SampleBuffer(programme, journal, self.counts_per_mm)
-            cause = self._move(programme, samples)
+            cause = self._move(programme, samples) or _too_few(samples, programme)
             try:
                 samples.flush()
-                record = journal.finish(complete=cause is None, reason=cause)
+                record = journal.finish(complete=cause is None, reason=cause, until_s=samples.until_s)
             except RunError as error:
                 known = cause is not None and str(error) in cause
                 raise RunError(cause if known else "; ".join(filter(None, (cause, str(error))))) from None
         if cause is not None:
-            raise RunError(f"{cause}; {samples.count} samples kept in {record.path}, marked incomplete")
+            raise RunError(f"{cause}; {len(record)} samples kept in {record.path}, marked incomplete")
         return record
 
     def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, Journal]:
@@ -157,73 +191,72 @@ class _Run:
             metadata={**request.metadata, "notes": list(self.progress.notes)},
             overwrite=request.overwrite,
         )
+        if journal.set_aside is not None:
+            kept = f"recover it with: hexdbb recover {journal.set_aside} -o RECORD"
+            self.progress.notes.append(f"journal of an interrupted capture kept as {journal.set_aside}; {kept}")
         return self.programme.after(way), journal
 
     def _move(self, programme: Programme, samples: SampleBuffer) -> str | None:
         """Enable, follow the table, disable; return the cause if a fault stopped the run."""
-        with _watching_interrupts(self.watch):
-            try:
-                self.progress.stage = "enabling"
-                self.axes.enable()
-                self._follow(programme, samples)
-                self.progress.stage = "disabling"
-                self.axes.disable()
-            except (HexdbbError, can.CanError, OSError) as error:
-                return self._stopped(error)
-            except BaseException:
-                # An error in this program must not leave axes enabled either.
-                self.axes.stop()
-                raise
+        try:
+            self.axes.check_interrupts()
+            self.progress.stage = "enabling"
+            self.axes.enable()
+            self._follow(programme, samples)
+            self.progress.stage = "disabling"
+            self.axes.disable()
+        except Exception as error:  # an error in this program must neither leave axes enabled nor lose the record
+            return self._stopped(error, samples)
+        except BaseException:
+            self.axes.stop()
+            raise
         return None
 
     def _follow(self, programme: Programme, samples: SampleBuffer) -> None:
         table, progress = programme.table, self.progress
         progress.programme, progress.rows, progress.stage = programme, len(table), "moving"
-        capture = table.capture.tolist()
         self.loop.restart_time()
-
-        def keep(row: int, feedback: Feedback) -> None:
-            progress.row, progress.cycle_index, progress.reading_um = row, self.loop.cycle_index, feedback.reading_um
-            progress.missed = self.loop.missed
-            if capture[row]:
-                samples.keep(row, self.loop.cycle_index, self.loop.last_missed, feedback)
-                progress.samples = samples.count
-
         self.axes.follow(
             np.rint(table.sliders_mm * self.counts_per_mm).astype(np.int32),
             table.phase == Phase.ARC,
-            keep,
+            CapturedRows(samples, table.capture.tolist(), self.loop, progress),
             pauses(setup_changes(programme), self.request.plan.gauge, self.devices.gauge, self.request.confirm),
         )
 
-    def _stopped(self, error: Exception) -> str:
-        """Stop all axes; return cause, time and whether all of them stopped."""
-        time_s = self.loop.cycle_index * self.request.cycle_s
+    def _stopped(self, error: Exception, samples: SampleBuffer) -> str:
+        """Stop all axes and drop what is doubtful; return cause, time and whether all of them stopped."""
+        cycle_index = self.loop.cycle_index
+        time_s = cycle_index * self.request.cycle_s
         self.progress.stage = "stopping all axes"
         if isinstance(error, HexdbbError):
             cause = str(error)
-        else:
+        elif isinstance(error, can.CanError | OSError):
             cause = str(Fault("bus", f"{one_line(error)} (expected a working bus)"))
+        else:
+            log.debug("an error in this program stopped the run", exc_info=error)
+            cause = str(Fault("controller", f"{type(error).__name__}: {one_line(error)} (an error in this program)"))
         unstopped = self.axes.stop()
+        try:
+            paired = self.loop.confirm()
+        except (can.CanError, OSError):
+            paired = False  # nobody can tell any more
+        if isinstance(error, MotionFaultError) and error.fault.doubtful:
+            samples.cut(cycle_index - error.fault.doubtful)
+        if paired:
+            samples.confirm()
+        else:
+            samples.drop()
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"
         return f"{cause} at t = {time_s:.3f} s; {outcome}"
 
 
-@contextmanager
-def _watching_interrupts(watch: Watch) -> Iterator[None]:
-    """Turn SIGINT and SIGTERM into a fault that the next check finds, so that the axes stop before the program ends."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def note(_number: int, _frame: object) -> None:
-        watch.interrupted = True
-
-    before: dict[signal.Signals, Callable[..., object] | int | None] = {
-        number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)
-    }
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
+def _too_few(samples: SampleBuffer, programme: Programme) -> str | None:
+    """Return what is missing of a run that came to its end, if it is more than a record may lack."""
+    planned = int(programme.table.capture.sum())
+    lost = planned - samples.count
+    if lost <= MAX_LOST * planned:
+        return None
+    return (
+        f"{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired with their "
+        f"SYNC (expected at most {MAX_LOST:.0%})"
+    )

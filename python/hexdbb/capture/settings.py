@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
-from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, NOT_VALID, SYNCHRONOUS, PdoLayout
+from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, NOT_VALID, SYNCHRONOUS, WITHOUT_REMOTE, PdoLayout
 from hexdbb.capture.sdo import RemoteDevice, name
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
@@ -65,18 +65,21 @@ class Expected:
         Its value.
     meaning : str
         The value in words.
+    without : str
+        Consequence if the device has no such object.
     """
 
     index: int
     subindex: int
     value: int
     meaning: str
+    without: str
 
 
-GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre")
+GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre", "the unit of its readings is not known")
 
 
-def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
+def drive_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> list[Setting]:
     """Return the settings of a drive.
 
     Parameters
@@ -84,7 +87,9 @@ def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
     machine : MachineFile
         Travel (mm), encoder scale, limits and supervision times.
     cycle_s : float
-        SYNC period, s.
+        Time from one target to the next, s.
+    timed : bool
+        Whether SYNC comes once in that time.
 
     Raises
     ------
@@ -96,7 +101,7 @@ def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
     period, exponent = interpolation_period(cycle_s)
     window = round(can.limits.following_error_mm * abs(scale))
     return [
-        *communication_settings(machine, cycle_s),
+        *communication_settings(machine, cycle_s, timed),
         Setting(0x6007, 0, ABORT_CONNECTION_QUICK_STOP, "it reacts to a lost connection by its factory setting"),
         Setting(0x605A, 0, QUICK_STOP_AND_STAY, "its quick stop follows its factory setting"),
         Setting(0x6065, 0, window, "only the controller supervises the following error"),
@@ -109,12 +114,17 @@ def drive_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
     ]
 
 
-def communication_settings(machine: MachineFile, cycle_s: float) -> list[Setting]:
-    """Return the settings of every node: SYNC period (1006h), heartbeat consumer (1016h) and producer (1017h)."""
+def communication_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> list[Setting]:
+    """Return the settings of every node: SYNC period (1006h), heartbeat consumer (1016h) and producer (1017h).
+
+    In lockstep (not `timed`) SYNC has no period, which is 0: a device that supervises another would report
+    communication errors (EMCY 8100h).
+    """
     can = machine.can_setup
+    period_us = round(cycle_s * 1e6) if timed else 0
     watched = CONTROLLER_NODE << 16 | can.heartbeat_consumer_ms
     return [
-        Setting(0x1006, 0, round(cycle_s * 1e6), "it does not know the SYNC period"),
+        Setting(0x1006, 0, period_us, "it does not know the SYNC period"),
         Setting(0x1016, 1, watched, "it does not detect the loss of the controller"),
         Setting(0x1017, 0, can.heartbeat_producer_ms, "its loss is detected by missing process data only"),
     ]
@@ -165,7 +175,7 @@ def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:
     Yields
     ------
     str
-        One line for each object that the EDS lacks, with the consequence.
+        One line for each object that the EDS lacks, or that is read-only with another value, with the consequence.
 
     Raises
     ------
@@ -173,12 +183,17 @@ def apply(device: RemoteDevice, settings: Iterable[Setting]) -> Iterator[str]:
         A required object is missing, or the node refuses a value or reads back another.
     """
     for setting in settings:
-        if device.has(setting.index, setting.subindex):
+        if device.writable(setting.index, setting.subindex):
             device.write(setting.index, setting.subindex, setting.value)
             continue
-        note = (
-            f"{device.label}: no object {name(setting.index, setting.subindex)} in {device.eds.name}: {setting.without}"
-        )
+        place = name(setting.index, setting.subindex)
+        if not device.has(setting.index, setting.subindex):
+            lack = f"no object {place} in {device.eds.path.name}"
+        elif (found := device.read(setting.index, setting.subindex)) != setting.value:
+            lack = f"object {place} is {found} and read-only (expected {setting.value})"
+        else:
+            continue
+        note = f"{device.label}: {lack}: {setting.without}"
         if setting.required:
             raise RunError(note)
         yield note
@@ -203,6 +218,8 @@ def expect(device: RemoteDevice, expected: Expected) -> None:
 def map_pdo(device: RemoteDevice, layout: PdoLayout, deadline_ms: int | None = None) -> Iterator[str]:
     """Configure one PDO in the order that CiA 301 prescribes, and read every value back.
 
+    Parameters that the device fixes are read only, and must be what would have been written.
+
     Parameters
     ----------
     device : RemoteDevice
@@ -221,27 +238,56 @@ def map_pdo(device: RemoteDevice, layout: PdoLayout, deadline_ms: int | None = N
         The node refuses a value or reads back another.
     """
     cob_id = layout.cob_id(device.node_id)
-    device.send(layout.communication, 1, cob_id | NOT_VALID)
-    device.write(layout.communication, 2, SYNCHRONOUS)
-    device.send(layout.mapping, 0, 0)
-    for subindex, mapped in enumerate(layout.objects, start=1):
-        device.write(layout.mapping, subindex, mapped.entry)
-    device.write(layout.mapping, 0, len(layout.objects))
+    fixed = not all(device.writable(layout.mapping, subindex) for subindex in layout.entries)
+    if device.writable(layout.communication, 1):
+        device.send(layout.communication, 1, cob_id | NOT_VALID)
+    write_or_expect(device, layout.communication, 2, SYNCHRONOUS)
+    if fixed:
+        for subindex, value in layout.entries.items():
+            expect_fixed(device, layout.mapping, subindex, value)
+    else:
+        device.send(layout.mapping, 0, 0)
+        for subindex, mapped in enumerate(layout.objects, start=1):
+            device.write(layout.mapping, subindex, mapped.entry)
+        device.write(layout.mapping, 0, len(layout.objects))
     if deadline_ms is not None:
-        without = "it does not detect missing targets"
-        yield from apply(device, [Setting(layout.communication, 5, deadline_ms, without)])
-    device.write(layout.communication, 1, cob_id)
+        yield from apply(device, [rpdo_deadline(deadline_ms)])
+    if device.writable(layout.communication, 1):
+        device.write(layout.communication, 1, cob_id)
+    else:
+        expect_fixed(device, layout.communication, 1, cob_id, ignored=WITHOUT_REMOTE)
 
 
-def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:
+def rpdo_deadline(deadline_ms: int) -> Setting:
+    """Return the setting of a drive's RPDO event timer (1400h:05)."""
+    return Setting(DRIVE_RPDO.communication, 5, deadline_ms, "it does not detect missing targets")
+
+
+def write_or_expect(device: RemoteDevice, index: int, subindex: int, value: int) -> None:
+    """Write an object and read it back, or check the value of one that is read-only."""
+    if device.writable(index, subindex):
+        device.write(index, subindex, value)
+    else:
+        expect_fixed(device, index, subindex, value)
+
+
+def expect_fixed(device: RemoteDevice, index: int, subindex: int, value: int, ignored: int = 0) -> None:
+    """Check the value of a read-only object; raises `RunError` if it differs in bits that are not `ignored`."""
+    found = int(device.read(index, subindex))
+    if (found ^ value) & ~ignored:
+        place = name(index, subindex)
+        raise RunError(f"{device.label}: object {place} is {found:X}h and read-only (expected {value:X}h)")
+
+
+def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float, timed: bool) -> Iterator[str]:
     """Write all settings and PDO mappings of a drive; yield one line for each object it lacks."""
-    yield from apply(device, drive_settings(machine, cycle_s))
+    yield from apply(device, drive_settings(machine, cycle_s, timed))
     yield from map_pdo(device, DRIVE_RPDO, machine.can_setup.rpdo_timeout_ms)
     yield from map_pdo(device, DRIVE_TPDO)
 
 
-def configure_gauge(device: RemoteDevice, machine: MachineFile, cycle_s: float) -> Iterator[str]:
+def configure_gauge(device: RemoteDevice, machine: MachineFile, cycle_s: float, timed: bool) -> Iterator[str]:
     """Check the unit of the gauge and write its settings and PDO mapping; yield one line for each object it lacks."""
     expect(device, GAUGE_UNIT)
-    yield from apply(device, communication_settings(machine, cycle_s))
+    yield from apply(device, communication_settings(machine, cycle_s, timed))
     yield from map_pdo(device, GAUGE_TPDO)

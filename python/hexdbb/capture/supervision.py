@@ -5,20 +5,18 @@ Source: CiA 301: EMCY 080h + node (error code, error register, five vendor bytes
 
 from __future__ import annotations
 
-import struct
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import itemgetter
 from typing import ClassVar
 
 from hexdbb.capture.exchange import SLOTS, Feedback
+from hexdbb.capture.frames import EMCY_BASE, HEARTBEAT_BASE, NMT, emergency_code, malformed, service_of
+from hexdbb.capture.pdo import SYNC_ID
 
-EMCY_BASE, HEARTBEAT_BASE = 0x080, 0x700
-"""CAN identifiers of node 0 (predefined connection set)."""
-NODE_MASK = 0x7F
-NMT_OPERATIONAL = 0x05
-"""NMT state as a heartbeat carries it."""
+NMT_OPERATIONAL, NMT_BOOT_UP = 0x05, 0x00
+"""NMT states as a heartbeat carries them."""
 NO_ERROR = 0x0000
 """EMCY code 'error reset or no error'."""
 SILENT_AFTER = 3
@@ -36,13 +34,25 @@ class Emergency:
         Node id.
     code : int
         Error code of CiA 301 and the device profiles.
-    register : int
-        Error register 1001h.
+    data : bytes
+        The whole message: error code, error register 1001h, vendor bytes; eight unless it was cut short.
+    reset : bool
+        Whether the node has since reported 'no error'.
     """
 
     node: int
     code: int
-    register: int
+    data: bytes
+    reset: bool = False
+
+    def __str__(self) -> str:
+        whole = malformed(EMCY_BASE + self.node, self.data) is None
+        rest = (
+            f"error register {self.data[2]:02X}h"
+            if whole
+            else f"cut short to {len(self.data)} bytes ({self.data.hex(' ').upper()})"
+        )
+        return f"EMCY {self.code:04X}h, {rest}" + (", since reset by the node" if self.reset else "")
 
 
 @dataclass
@@ -63,13 +73,17 @@ class Supervision:
     Attributes
     ----------
     emergencies : dict of int to Emergency
-        The last EMCY with a code other than 'no error', by node id.
+        The last EMCY with a code other than 'no error', by node id; 'no error' after it does not remove it.
     nmt_states : dict of int to int
-        NMT state of the last heartbeat, by node id.
+        NMT state of the last heartbeat, by node id; the first one that is not operational stays.
+    malformed : dict of int to str
+        The first frame of a node that its service does not allow, in words, by node id; 0 for NMT commands.
     heard_s : dict of int to float
         Monotonic time of the last heartbeat, by node id.
     missing_in_a_row : list of int
         Consecutive SYNCs without an answer, by slot.
+    foreign_syncs : int
+        SYNCs received: of another producer, since no bus returns this controller's own.
     """
 
     nodes: Sequence[int]
@@ -78,15 +92,23 @@ class Supervision:
     silent_after: int = SILENT_AFTER
     emergencies: dict[int, Emergency] = field(default_factory=dict)
     nmt_states: dict[int, int] = field(default_factory=dict)
+    malformed: dict[int, str] = field(default_factory=dict)
     heard_s: dict[int, float] = field(default_factory=dict)
     missing_in_a_row: list[int] = field(default_factory=lambda: [0] * SLOTS)
+    foreign_syncs: int = 0
 
     def on_frame(self, can_id: int, data: bytearray, timestamp: float) -> None:
         """Process a frame that is not process data."""
-        service, node = can_id & ~NODE_MASK, can_id & NODE_MASK
-        handler = self._HANDLERS.get(service)
-        if handler is not None and node in self.nodes:
-            handler(self, node, data)
+        if can_id == SYNC_ID:
+            self.foreign_syncs += 1
+        service, node = service_of(can_id)
+        if node in self.nodes or can_id == NMT:
+            wrong = malformed(can_id, data)
+            if wrong is not None:
+                self.malformed.setdefault(node, wrong)
+            handler = self._HANDLERS.get(service)
+            if handler is not None and can_id != NMT:
+                handler(self, node, data)
         self.passed_on(can_id, data, timestamp)
 
     def count_missing(self, feedback: Feedback) -> None:
@@ -108,6 +130,14 @@ class Supervision:
         emergency = self.emergencies.get(self.nodes[slot])
         return f", EMCY {emergency.code:04X}h" if emergency else ""
 
+    def forget_earlier(self) -> None:
+        """Forget what a fault reset has settled: EMCY messages that their nodes have since reset."""
+        self.emergencies = {node: each for node, each in self.emergencies.items() if not each.reset}
+
+    def forget_stale_states(self) -> None:
+        """Forget heartbeats sent before the nodes were started; a boot-up is no such heartbeat."""
+        self.nmt_states = {node: state for node, state in self.nmt_states.items() if state == NMT_BOOT_UP}
+
     def late_heartbeat(self) -> tuple[int, float] | None:
         """Return slot and age (s) of a lost heartbeat, or None.
 
@@ -120,17 +150,18 @@ class Supervision:
         return (self.nodes.index(node), age_s) if age_s > self.heartbeat_limit_s else None
 
     def _emergency(self, node: int, data: bytearray) -> None:
-        if len(data) < 3:
+        code = emergency_code(data)
+        if code is None:
             return
-        code, register = struct.unpack_from("<HB", data)
-        if code == NO_ERROR:
-            self.emergencies.pop(node, None)
-        else:
-            self.emergencies[node] = Emergency(node, code, register)
+        if code != NO_ERROR:
+            self.emergencies[node] = Emergency(node, code, bytes(data))
+        elif node in self.emergencies:
+            self.emergencies[node] = replace(self.emergencies[node], reset=True)
 
     def _heartbeat(self, node: int, data: bytearray) -> None:
         if data:
-            self.nmt_states[node] = data[0] & 0x7F
+            if self.nmt_states.get(node, NMT_OPERATIONAL) == NMT_OPERATIONAL:
+                self.nmt_states[node] = data[0] & 0x7F
             self.heard_s[node] = time.monotonic()
 
     _HANDLERS: ClassVar = {EMCY_BASE: _emergency, HEARTBEAT_BASE: _heartbeat}

@@ -1,18 +1,16 @@
 """Open the CAN bus that a user names as ``interface:channel``, with any interface of python-can.
 
-The address of a socketcand server is probed first: python-can would retry a refused connection for ten seconds without
-a message.
+A socketcand server is spoken to by a client of our own (`hexdbb.capture.socketcand`), which says why.
 """
 
 from __future__ import annotations
 
 import socket
-from collections.abc import Callable
-from contextlib import ExitStack
 from typing import Any
 
 import can
 
+from hexdbb.capture.socketcand import SocketcandBus
 from hexdbb.errors import InputError
 
 EXAMPLES = "socketcan:can0, pcan:PCAN_USBBUS1, kvaser:0, socketcand:127.0.0.1:29536"
@@ -47,40 +45,37 @@ def open_bus(spec: str, bitrate_bit_s: int) -> can.BusABC:
     interface, separator, channel = spec.partition(":")
     if not separator or not channel or interface not in can.VALID_INTERFACES:
         raise InputError(f"--bus {spec}: cannot be parsed (expected interface:channel, for example {EXAMPLES})")
-    with ExitStack() as until_open:
-        try:
-            arguments = ARGUMENTS.get(interface, _with_bitrate)(channel, bitrate_bit_s, until_open)
-            return can.Bus(interface=interface, **arguments)
-        except DRIVER_ERRORS as error:
-            raise InputError(
-                f"--bus {spec}: cannot be opened: {one_line(error)} (expected a bus, for example {EXAMPLES})"
-            ) from error
+    try:
+        if interface == "socketcand":
+            return _socketcand(channel)
+        return can.Bus(interface=interface, **_with_bitrate(channel, bitrate_bit_s))
+    except DRIVER_ERRORS as error:
+        raise InputError(
+            f"--bus {spec}: cannot be opened: {one_line(error)} (expected a bus, for example {EXAMPLES})"
+        ) from error
 
 
 def one_line(error: Exception) -> str:
-    """Return the first line of an exception's message; some of python-can's drivers append a traceback."""
-    text = str(error).strip()
-    return text.splitlines()[0] if text else type(error).__name__
+    """Return the first line of an error message without the traceback that some drivers of python-can append."""
+    text = str(error).partition("Traceback (most recent call last)")[0].strip()
+    return text.splitlines()[0].strip() if text else type(error).__name__
 
 
-def _with_bitrate(channel: str, bitrate_bit_s: int, until_open: ExitStack) -> dict[str, Any]:
+def _with_bitrate(channel: str, bitrate_bit_s: int) -> dict[str, Any]:
     """Parse ``channel[@bitrate]``."""
     name, _, bitrate = channel.partition("@")
     return {"channel": name, "bitrate": int(bitrate or bitrate_bit_s)}
 
 
-def _socketcand(channel: str, bitrate_bit_s: int, until_open: ExitStack) -> dict[str, Any]:
-    """Parse ``[channel@]host:port`` of a socketcand server, and check that it accepts connections.
-
-    The probe stays connected until the bus is open, because a server may end when its last client leaves.
-    """
+def _socketcand(channel: str) -> SocketcandBus:
+    """Open ``[channel@]host:port`` of a socketcand server."""
     remote, _, address = channel.rpartition("@")
     host, _, port = address.rpartition(":")
     if not host or not port.isdecimal():
         raise ValueError(f"address {address} is not host:port")
-    until_open.enter_context(socket.create_connection((host, int(port)), CONNECT_TIMEOUT_S))
-    return {"host": host, "port": int(port), "channel": remote or SOCKETCAND_CHANNEL, "tcp_tune": True}
-
-
-ARGUMENTS: dict[str, Callable[[str, int, ExitStack], dict[str, Any]]] = {"socketcand": _socketcand}
-"""Parser of the channel, for interfaces whose channel is not ``channel[@bitrate]``."""
+    connection = socket.create_connection((host, int(port)), CONNECT_TIMEOUT_S)
+    try:
+        return SocketcandBus(connection, remote or SOCKETCAND_CHANNEL)
+    except BaseException:
+        connection.close()
+        raise

@@ -11,6 +11,7 @@ from hexdbb.cli.exits import reports_errors
 
 COMMANDS = {
     "rig": "run the simulated rig as a process of its own",
+    "eds": "check whether drives and gauges can run the test, by their EDS files",
     "model": "create model files",
     "diagnose": "fit the model's effects to records",
     "effects": "list the effects a model can have; write their handbook",

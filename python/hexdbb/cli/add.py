@@ -9,7 +9,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from hexdbb.cli.consoles import output_console
+from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
@@ -63,7 +63,7 @@ def command(
         Learned.parse(name)
     else:
         model.info(name)  # an unknown name is refused before records are read
-    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
+    messages = message_console()
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
     require_usable_effects(samples, model, [name])
@@ -71,7 +71,7 @@ def command(
         found = add_effect(samples, model, effect, robust=robust)
     save_model(found.model, model_path)
     if as_json:
-        click.echo(json.dumps(added_json(found).to_json(), indent=2, allow_nan=False))
+        say(json.dumps(added_json(found).to_json(), indent=2, allow_nan=False))
     else:
         print_added(found, output_console())
     messages.print(f"{model_path}: {effect} added (step {found.model.ledger[-1].step})", markup=False)

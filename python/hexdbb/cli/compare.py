@@ -6,10 +6,9 @@ import json
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.progress import Progress
 
-from hexdbb.cli.consoles import output_console
+from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument
@@ -66,12 +65,12 @@ def command(
         raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")
     if not no_plot:
         refuse_existing(stem.with_name(f"{stem.name}.png"), overwrite=True)
-    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
+    messages = message_console()
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
         comparison = _comparison(records, model_path, effects_path, not no_cause, progress)
         written = [] if no_plot else _draw(comparison, stem, progress)
     if as_json:
-        click.echo(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
+        say(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
     else:
         output_console().print(comparison_text(comparison))
     if written:

@@ -9,6 +9,7 @@ import click
 import numpy as np
 
 from hexdbb import _core
+from hexdbb.cli.consoles import say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compensation import (
@@ -127,7 +128,7 @@ def command(
         write_compensation(data, output)
     if header is not None:
         write_text(header, data.header())
-    click.echo(json.dumps(summary, indent=2, allow_nan=False) if as_json else _table(summary))
+    say(json.dumps(summary, indent=2, allow_nan=False) if as_json else _table(summary))
 
 
 def _reference_temperature_c(model: Model, path: Path, stated_c: float | None) -> float:

@@ -1,12 +1,18 @@
-"""Console of command results: tables for people on stdout, as wide as the terminal."""
+"""Where commands print: tables on stdout, as wide as the terminal; lines of text; messages and progress on stderr.
+
+The progress of a run is printed to a stream that may go away.
+"""
 
 from __future__ import annotations
 
+import os
 import sys
+from typing import IO, Any, cast
 
+import click
 from rich.console import Console
 
-from hexdbb.files.plain_text import WIDTH
+from hexdbb.files.plain_text import WIDTH, TextConsole, printable
 
 REDIRECTED_WIDTH = WIDTH
 """Limits the line length, in characters, where stdout is not a terminal: rich would fold at its default of 80, and the
@@ -15,4 +21,49 @@ table of `hexdbb plan compare` is 103 wide."""
 
 def output_console() -> Console:
     """Return the console that a command prints its results to."""
-    return Console(width=None if sys.stdout.isatty() else REDIRECTED_WIDTH, highlight=False, emoji=False)
+    return TextConsole(width=None if sys.stdout.isatty() else REDIRECTED_WIDTH, highlight=False)
+
+
+def message_console() -> Console:
+    """Return the console for messages and progress, on stderr."""
+    return TextConsole(stderr=True, soft_wrap=True, highlight=False)
+
+
+def say(text: str, err: bool = False, nl: bool = True) -> None:
+    """Print text to stdout, or stderr, its control characters shown as escapes."""
+    click.echo(printable(text), err=err, nl=nl)
+
+
+def run_console() -> Console:
+    """Return the console that a run prints its progress to; a terminal that is closed does not end the run."""
+    stream = sys.stderr if sys.stderr is None else cast(IO[str], _Forgiving(sys.stderr))
+    return TextConsole(file=stream, stderr=stream is None)
+
+
+def drop_stdout() -> None:
+    """Send the rest of stdout to nowhere: it cannot be written, and the interpreter would fail once more at its end."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+
+
+class _Forgiving:
+    """A stream whose writing does not fail."""
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        try:
+            return self._stream.write(text)
+        except OSError:
+            return len(text)
+
+    def flush(self) -> None:
+        try:
+            self._stream.flush()
+        except OSError:
+            return
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from rich.console import Console
 
+from hexdbb.cli.consoles import message_console, say
 from hexdbb.record import read_record, write_record
 
 
@@ -25,7 +25,7 @@ def command(source: Path, target: Path, overwrite: bool) -> None:
       hexdbb convert demo.parquet demo.csv
       hexdbb convert measured.csv measured.parquet
     """
-    with Console(stderr=True).status(f"{source} to {target}"):
+    with message_console().status(f"{source} to {target}"):
         record = read_record(source)
         write_record(record, target, overwrite, checked=True)
-    click.echo(f"{target}: {len(record)} samples, {len(record.sweeps())} sweeps")
+    say(f"{target}: {len(record)} samples, {len(record.sweeps())} sweeps")

@@ -9,7 +9,7 @@ import click
 import numpy as np
 from rich.console import Console
 
-from hexdbb.cli.consoles import output_console
+from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option, own_effects
 from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
 from hexdbb.diagnosis import Diagnosis
@@ -64,7 +64,7 @@ def command(
     refuse_existing(model_path, overwrite=True)
     if folder is not None:
         require_folder(folder)
-    messages = Console(stderr=True, soft_wrap=True, highlight=False, emoji=False)
+    messages = message_console()
     with messages.status("reading records"):
         samples = Samples.of([read_record(path) for path in records])
     own = own_effects(effects_path)
@@ -78,7 +78,7 @@ def command(
         _ = found.place  # computed here: it takes a moment
     save_model(found.model.with_free(usual), model_path)
     if as_json:
-        click.echo(json.dumps(found.to_json(), indent=2, allow_nan=False))
+        say(json.dumps(found.to_json(), indent=2, allow_nan=False))
     else:
         output_console().print(diagnosis_text(found), soft_wrap=True)
     messages.print(f"{model_path}: values written")

@@ -9,7 +9,7 @@ import click
 from rich.console import Console
 
 from hexdbb.cli.add import print_added
-from hexdbb.cli.consoles import output_console
+from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.discovery_text import print_discovery
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
@@ -91,7 +91,7 @@ def command(
     if auto:
         refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
-    messages = Console(stderr=True, emoji=False)
+    messages = message_console()
     with messages.status("reading records") as status:
         samples = Samples.of([read_record(path) for path in records])
         if auto:
@@ -102,7 +102,7 @@ def command(
     closing = closing_sentence(steps, found) if auto else None
     if as_json:
         shown = found.to_json([each.diagnosis for each in steps], closing)
-        click.echo(json.dumps(shown, indent=2, allow_nan=False))
+        say(json.dumps(shown, indent=2, allow_nan=False))
     else:
         print_discovery(found, output_console(), " ".join(map(str, records)), model_path)
     if closing is not None and not as_json:

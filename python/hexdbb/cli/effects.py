@@ -6,9 +6,9 @@ import json
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.table import Table
 
+from hexdbb.cli.consoles import output_console, say
 from hexdbb.effects import load_effects
 from hexdbb.effects.handbook import effect_infos, shown_size
 
@@ -43,14 +43,14 @@ def command(context: click.Context, path: Path | None, as_json: bool) -> None:
             }
             for info in infos
         ]
-        click.echo(json.dumps({"effects": rows}, indent=2))
+        say(json.dumps({"effects": rows}, indent=2))
         return
     table = Table("effect", "group", "elements", "parameters, prior standard deviation", "physics", box=None)
     for info in infos:
         sizes = "\n".join(f"{each.name} {shown_size(each)}" for each in info.parameters)
         elements = f"{len(info.elements)} x {info.element_kind}"
         table.add_row(info.name, info.group, elements, sizes, info.physics)
-    Console().print(table)
+    output_console().print(table)
 
 
 @command.command()
@@ -65,4 +65,4 @@ def handbook(output: Path) -> None:
     from hexdbb.effects.signature import write_handbook  # matplotlib takes a second to import
 
     written = write_handbook(output)
-    click.echo(f"{output}: {len(written)} files", err=True)
+    say(f"{output}: {len(written)} files", err=True)

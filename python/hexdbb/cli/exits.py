@@ -3,16 +3,34 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 
 import click
 
+from hexdbb.cli.consoles import drop_stdout
 from hexdbb.errors import HexdbbError
+from hexdbb.files.plain_text import printable
 
 
 def reports_errors(command: click.Command) -> None:
-    """Run a click command as a program; report an error of hexdbb as one line and exit with its status."""
+    """Run a click command as a program; report an error as one line and exit with its status."""
     try:
         command.main()
     except HexdbbError as error:
-        click.echo(f"error: {error}", err=True)
-        sys.exit(error.exit_status)
+        _end(printable(str(error), kept=""), error.exit_status)
+    except OSError as error:
+        # Files are written by functions that raise HexdbbError: without a file it is the program's own output.
+        if error.filename is None:
+            drop_stdout()
+        _end(f"{error.filename or 'stdout'}: {unwritable(error)}", 1)
+
+
+def unwritable(error: OSError) -> str:
+    """Return the reason why a stream or file cannot be written, as part of a message."""
+    return f"cannot be written: {error.strerror or type(error).__name__}"
+
+
+def _end(message: str, status: int) -> None:
+    with suppress(OSError):
+        click.echo(f"error: {message}", err=True)
+    sys.exit(status)

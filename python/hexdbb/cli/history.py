@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hexdbb.cli.consoles import say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option
@@ -26,4 +27,4 @@ def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
       hexdbb history -m model.toml --json
     """
     found = history(existing_model(model_path, effects_path))
-    click.echo(json.dumps(found.to_json(), indent=2, allow_nan=False) if as_json else found.text)
+    say(json.dumps(found.to_json(), indent=2, allow_nan=False) if as_json else found.text)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from hexdbb.cli.consoles import say
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.machine import SHIPPED_MACHINE, load_machine, shipped_machine
 from hexdbb.model import new_model, save_model
@@ -37,4 +38,4 @@ def new(machine: str, output: Path, effects: str | None, overwrite: bool) -> Non
     dimensions = shipped_machine() if machine == SHIPPED_MACHINE else load_machine(machine)
     model = new_model(dimensions, names)
     save_model(model, output)
-    click.echo(f"{output}: {len(model.terms)} effects, {len(model.values)} values", err=True)
+    say(f"{output}: {len(model.terms)} effects, {len(model.values)} values", err=True)

@@ -9,6 +9,7 @@ from typing import Any
 import click
 import numpy as np
 
+from hexdbb.cli.consoles import say
 from hexdbb.identifiability import (
     Expectation,
     Observability,
@@ -73,7 +74,7 @@ def plan_noise_mm(plan: Plan, noise_um: float | None) -> float:
         return noise_um / 1000.0
     stated = plan.gauge.stated_noise_mm
     if stated is None:
-        click.echo(f"the gauge has no stated noise: {ASSUMED_NOISE_UM} µm assumed (state it with --noise)", err=True)
+        say(f"the gauge has no stated noise: {ASSUMED_NOISE_UM} µm assumed (state it with --noise)", err=True)
         return ASSUMED_NOISE_UM / 1000.0
     return stated
 

@@ -10,6 +10,7 @@ import click
 import numpy as np
 
 from hexdbb.capture.bus_load import check_load
+from hexdbb.cli.consoles import say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option
 from hexdbb.cli.plan_tables import LIMITED, print_assessment, print_clearances, print_motion
 from hexdbb.errors import InputError
@@ -59,7 +60,7 @@ def check(
         programme = plan_programme(plan, machine, 1.0 / rate_hz, plan_name)
     except InputError as error:
         if as_json:
-            click.echo(json.dumps({"reachable": False, "reason": str(error)}, indent=2))
+            say(json.dumps({"reachable": False, "reason": str(error)}, indent=2))
         raise
     runs = [
         {**_run_json(programme, index), **_margins(programme, index, machine)} for index in range(len(programme.runs))
@@ -67,9 +68,10 @@ def check(
     clearances = _clearances(plan, machine, plan_name)
     assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
     if as_json:
-        summary = {"reachable": True, "duration_s": programme.duration_s, "bus_load": load, "runs": runs}
+        extent = {"rows": len(programme.table), "memory_bytes": int(programme.extent.memory_bytes)}
+        motion = {"reachable": True, "duration_s": programme.duration_s, **extent, "bus_load": load, "runs": runs}
         circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
-        click.echo(json.dumps({**summary, "circles": circles, **assessment.to_json()}, indent=2))
+        say(json.dumps({**motion, "circles": circles, **assessment.to_json()}, indent=2))
         return
     _print(plan_name, programme, load, runs, clearances, assessment, machine)
 
@@ -84,7 +86,7 @@ def _print(
     machine: MachineFile,
 ) -> None:
     print_motion(f"plan {plan_name}: within reach and limits", runs, machine.can_setup.limits)
-    click.echo(f"{programme.duration_s:.0f} s at {1.0 / programme.cycle_s:g} Hz, bus load at most {load:.0%}\n")
+    say(f"{programme.extent.words()} at {1.0 / programme.cycle_s:g} Hz, bus load at most {load:.0%}\n")
     print_clearances(clearances)
     print_assessment(assessment)
 

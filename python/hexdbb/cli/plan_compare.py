@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hexdbb.cli.consoles import say
 from hexdbb.cli.plan_assessment import assess_plan, noise_option
 from hexdbb.cli.plan_tables import print_comparison
 from hexdbb.errors import InputError
@@ -46,13 +47,13 @@ def compare(plan_names: tuple[str, ...], noise_um: float | None, plot: Path | No
         assessment = assess_plan(plan, new_model(machine), machine.can_setup.cycle_rate_hz, noise_um, name)
         plans[name] = (plan, assessment)
     if as_json:
-        click.echo(json.dumps({name: assessment.to_json() for name, (_, assessment) in plans.items()}, indent=2))
+        say(json.dumps({name: assessment.to_json() for name, (_, assessment) in plans.items()}, indent=2))
     else:
         print_comparison(plans)
     if plot is not None:
         spectra = {Path(name).stem: assessment.observability for name, (_, assessment) in plans.items()}
         (drawn,) = save_figure(spectrum_figure(spectra), plot.with_suffix(""), [plot.suffix])
-        click.echo(f"{drawn}: picture written", err=True)
+        say(f"{drawn}: picture written", err=True)
 
 
 def _check_picture(path: Path) -> None:

@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 import click
-from rich.console import Console
 
+from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option, plan_noise_mm
 from hexdbb.cli.plan_tables import print_circles, print_comparison
 from hexdbb.errors import InputError
@@ -94,7 +94,7 @@ def propose_command(
         required=RequiredClearances(bar_angle_deg=bar_angle_deg),
         grid=GRIDS[grid],
     )
-    with Console(stderr=True).status("planning") as status:
+    with message_console().status("planning") as status:
         plan = propose(request, status.update)
     _write(
         plan, f"{circles} circles that determine most of {aim or 'all errors of the machine'}, by {criterion}", output
@@ -104,11 +104,11 @@ def propose_command(
     try:
         found = {like: (template, assess_plan(template, model, rate_hz, noise_um, like)), **found}
     except InputError as error:
-        click.echo(f"not compared with {like}, which this machine cannot follow: {error}", err=True)
+        say(f"not compared with {like}, which this machine cannot follow: {error}", err=True)
     print_comparison(found)
     if aim is not None:
         _print_aim(aim, {name: each for name, (_, each) in found.items()})
-    click.echo(f"{output}: plan written", err=True)
+    say(f"{output}: plan written", err=True)
 
 
 def _write(plan: Plan, what: str, output: Path) -> None:
@@ -123,7 +123,7 @@ def _print_aim(aim: str, found: dict[str, PlanAssessment]) -> None:
         shown = "not detectable alone"
         if size.size is not None:
             shown = f"detectable from {size.size:.3g} {readable_unit(size.unit)}"
-        click.echo(f"{aim}: {shown} with {name}")
+        say(f"{aim}: {shown} with {name}")
 
 
 def _machine_name(template: Plan, machine_path: Path | None, output: Path) -> str:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-import click
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from hexdbb.cli.consoles import output_console
+from hexdbb.cli.consoles import output_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment
 from hexdbb.identifiability import Expectation
 from hexdbb.machine import Limits
@@ -31,9 +30,7 @@ def print_motion(title: str, runs: Iterable[Mapping[str, float]], limits: Limits
         rows.append((*named, *left, *(f"{share:.1f}" for share in shares)))
     print_table(headings, rows, title=title)
     of = ", ".join(f"{getattr(limits, f'{name}_{unit}'):g} {unit.replace('_', '/')}" for name, unit in LIMITED)
-    click.echo(
-        f"travel: mm to its ends; gap: mm between two sliders above the smallest gap; % of the sliders' limits, {of}"
-    )
+    say(f"travel: mm to its ends; gap: mm between two sliders above the smallest gap; % of the sliders' limits, {of}")
 
 
 def print_clearances(clearances: Mapping[int, Clearances]) -> None:
@@ -50,7 +47,7 @@ def print_clearances(clearances: Mapping[int, Clearances]) -> None:
         for identity, each in clearances.items()
     ]
     print_table(headings, rows, title="clearances, feed-in included")
-    click.echo(
+    say(
         "bar: largest angle of the bar out of the plane of cup or platform; pose condition: largest condition of the"
         " machine's Jacobian, 1 is best\n"
     )
@@ -59,7 +56,7 @@ def print_clearances(clearances: Mapping[int, Clearances]) -> None:
 def print_assessment(assessment: PlanAssessment) -> None:
     """Print what a plan determines, how well, and which combinations it does not identify."""
     seen = assessment.observability
-    click.echo(
+    say(
         f"rank {seen.rank} of {seen.values} errors of the machine (set-up unknowns eliminated), condition"
         f" {seen.condition:.0f}, O1 {seen.o1:.2e}, O3 {seen.o3:.2e}, O4 {seen.o4:.2e}"
     )
@@ -73,14 +70,14 @@ def print_assessment(assessment: PlanAssessment) -> None:
         rows.append((effect, *known, shown, readable_unit(size.unit), _digits(100.0 * size.kept, 2)))
     title = f"expected at {assessment.noise_um:.2f} µm of noise, {assessment.readings:,.0f} readings"
     print_table(("effect", "identified", "± 1 sigma", "detectable", "unit", "own %"), rows, title=title, names=1)
-    click.echo(
+    say(
         "identified: values determined on their own; own %: part of an effect that no other value explains;\n"
         "detectable: smallest size at which that part has an RMS of three times the noise; never: it has no such part"
     )
     if seen.unidentifiable:
-        click.echo("\nNot identifiable with this plan, to first order:")
+        say("\nNot identifiable with this plan, to first order:")
         for sentence in seen.unidentifiable:
-            click.echo(f"  {sentence}")
+            say(f"  {sentence}")
 
 
 def print_comparison(plans: Mapping[str, tuple[Plan, PlanAssessment]]) -> None:
@@ -93,9 +90,7 @@ def print_comparison(plans: Mapping[str, tuple[Plan, PlanAssessment]]) -> None:
         counts = (str(len(plan.circles)), str(len({each.mount for each in plan.circles})), str(seen.rank))
         rows.append((name, *counts, f"{seen.condition:.0f}", *indices, f"{assessment.readings:,.0f}"))
     print_table(headings, rows, names=1)
-    click.echo(
-        "condition: smaller is better; O1, O3, O4 (per reading, mm per prior standard deviation): larger is better"
-    )
+    say("condition: smaller is better; O1, O3, O4 (per reading, mm per prior standard deviation): larger is better")
 
 
 def print_circles(plan: Plan) -> None:

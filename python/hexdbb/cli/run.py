@@ -12,12 +12,14 @@ from pathlib import Path
 import click
 from rich.console import Console
 
+from hexdbb.capture import Interrupts
 from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.display import LIVE_PERIOD_S, display
 from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
-from hexdbb.cli.exits import reports_errors
+from hexdbb.cli.consoles import drop_stdout, run_console
+from hexdbb.cli.exits import reports_errors, unwritable
 from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
@@ -108,7 +110,7 @@ def command(
     # Their warnings about silent nodes and torn frames duplicate the messages of hexdbb.
     for library in ("can", "canopen"):
         logging.getLogger(library).setLevel(logging.CRITICAL)
-    console = Console(stderr=True)
+    console, interrupts = run_console(), Interrupts()
     simulated = bus_spec is None
     rig = SimulatedRig(truth, seed, faults)
     if rig.options and not simulated:
@@ -134,13 +136,18 @@ def command(
     with console.status("computing and checking all targets"):
         programme = prepare(request)
     with (
+        interrupts.watched(),
         opened_bus(rig if bus_spec is None else bus_spec, request.machine) as bus,
         running_clock(lockstep, request.cycle_s, progress) as clock,
     ):
         console.print(_announcement(programme, lockstep, request), highlight=False, soft_wrap=True)
         with display(progress, console):
-            recorded = measure(request, programme, bus, clock, progress)
-    _print_summary(recorded, programme, progress)
+            recorded = measure(request, programme, bus, clock, progress, interrupts)
+    try:
+        _print_summary(recorded, programme, progress)
+    except OSError as error:  # the record is what the command is for, and it is safe
+        drop_stdout()
+        console.print(f"note: stdout: {unwritable(error)}; {recorded.path} is whole", highlight=False, soft_wrap=True)
 
 
 def main() -> None:
@@ -167,7 +174,7 @@ def _ask(console: Console, progress: RunProgress) -> Confirm:
         time.sleep(2 * LIVE_PERIOD_S)  # until the display is out of the way
         try:
             console.input(f"{text}, then press Enter ")
-        except EOFError:
+        except (EOFError, OSError):  # the latter from a terminal that was closed
             raise RunError("stdin closed: the operator has not confirmed that the bar is mounted") from None
         finally:
             progress.paused = False

@@ -11,6 +11,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from hexdbb.capture.json_form import EdsCheckJson
 from hexdbb.comparison.json_form import ComparisonJson
 from hexdbb.diagnosis.json_form import DiagnosisJson
 from hexdbb.discovery.json_form import DiscoveryJson
@@ -26,6 +27,7 @@ DECLARED: dict[str, type[JsonResult]] = {
     "add": AddedJson,
     "undo": UndoneJson,
     "history": HistoryJson,
+    "eds": EdsCheckJson,
 }
 """Declared result of each command that has a schema."""
 COMMANDS = tuple(DECLARED)

@@ -8,9 +8,9 @@ from typing import Any
 
 import click
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
+from hexdbb.cli.consoles import output_console, say
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.plan import load_plan
@@ -70,7 +70,7 @@ def contours(
         from hexdbb.studies.thesis.pictures import contours_figure
 
         written += save_figure(contours_figure(found), stem)
-    click.echo(f"{len(found.unknowns)} contours: {', '.join(str(path) for path in written)}", err=True)
+    say(f"{len(found.unknowns)} contours: {', '.join(str(path) for path in written)}", err=True)
 
 
 @command.command("estimate")
@@ -90,7 +90,7 @@ def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) 
     """
     found = thesis_estimate_record(read_record(record_path), _names(errors), minimum_norm=minimum_norm)
     if as_json:
-        click.echo(json.dumps(_to_json(found), indent=2, allow_nan=False))
+        say(json.dumps(_to_json(found), indent=2, allow_nan=False))
         return
     sheet = Table(box=SIMPLE_HEAD, pad_edge=False)
     for heading in ("error", "value", "unit", "determined"):
@@ -99,11 +99,11 @@ def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) 
         sheet.add_row(
             row["error"], f"{row['value']:.2f}", readable_unit(row["unit"]), "yes" if row["determined"] else "no"
         )
-    Console(highlight=False).print(sheet)
+    output_console().print(sheet)
     for sentence in found.dependent:
-        click.echo(f"dependent contours, in unit errors: {sentence}")
-    click.echo(f"contour {1e3 * found.rms_before_mm:.2f} µm RMS, residual {1e3 * found.rms_after_mm:.2f} µm RMS")
-    click.echo("valid only if no other error exists and the cup is where planned; hexdbb diagnose assumes neither")
+        say(f"dependent contours, in unit errors: {sentence}")
+    say(f"contour {1e3 * found.rms_before_mm:.2f} µm RMS, residual {1e3 * found.rms_after_mm:.2f} µm RMS")
+    say("valid only if no other error exists and the cup is where planned; hexdbb diagnose assumes neither")
 
 
 @command.command("tables")
@@ -116,7 +116,7 @@ def tables() -> None:
     """
     from hexdbb.studies.thesis.tables_page import tables_page
 
-    click.echo(tables_page(), nl=False)
+    say(tables_page(), nl=False)
 
 
 @command.command("pages")
@@ -137,7 +137,7 @@ def pages(directory: Path) -> None:
     """
     from hexdbb.studies.thesis.pages import write_pages
 
-    click.echo(f"written: {', '.join(str(path) for path in write_pages(directory))}", err=True)
+    say(f"written: {', '.join(str(path) for path in write_pages(directory))}", err=True)
 
 
 def _test(plan_name: str | None, identity: int | None) -> CircularTest:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from hexdbb.cli.consoles import say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.shared_options import json_option, model_option
@@ -38,7 +39,7 @@ def command(model_path: Path, effects_path: Path | None, as_json: bool) -> None:
     last = model.ledger[-1]
     if as_json:
         undone = UndoneJson(step_json(last), len(earlier.ledger))
-        click.echo(json.dumps(undone.to_json(), indent=2, allow_nan=False))
+        say(json.dumps(undone.to_json(), indent=2, allow_nan=False))
         return
-    click.echo(f"undone: step {last.step}, which {deed(last)}")
-    click.echo(f"{len(earlier.ledger)} step{'' if len(earlier.ledger) == 1 else 's'} left in the ledger")
+    say(f"undone: step {last.step}, which {deed(last)}")
+    say(f"{len(earlier.ledger)} step{'' if len(earlier.ledger) == 1 else 's'} left in the ledger")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
+from hexdbb.files.delimited import read_rows, require_cells
+from hexdbb.files.validation import format_name, format_value
 
 Floats = NDArray[np.float64]
 
@@ -36,19 +37,19 @@ def read_poses(path: Path) -> Floats:
     InputError
         Naming file, line and column.
     """
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read: {error} (expected a CSV table of poses)") from None
-    header = [name.strip() for name in rows[0]] if rows else []
+    rows = list(read_rows(path))
+    header = [name.strip() for name in rows[0][1]] if rows else []
     missing = [name for name in POSE_COLUMNS if name not in header]
     if missing or len(set(header)) != len(header):
-        raise InputError(f"{path}: columns {','.join(header)} (expected {','.join(POSE_COLUMNS)}, each once)")
+        raise InputError(
+            f"{path}: columns {','.join(map(format_name, header))} (expected {','.join(POSE_COLUMNS)}, each once)"
+        )
     columns = [header.index(name) for name in POSE_COLUMNS]
-    body = [(line, row) for line, row in enumerate(rows[1:], start=2) if row]
+    body = rows[1:]
     if not body:
         raise InputError(f"{path}: no poses (expected at least one row)")
+    for line, row in body:
+        require_cells(path, line, row, len(header))
     return np.array([_pose(path, line, row, columns) for line, row in body])
 
 
@@ -61,12 +62,12 @@ def sliders_csv(sliders_mm: Floats) -> str:
 def _pose(path: Path, line: int, row: Sequence[str], columns: Sequence[int]) -> list[float]:
     values = []
     for name, column in zip(POSE_COLUMNS, columns, strict=True):
-        text = row[column] if column < len(row) else ""
+        text = row[column]
         try:
             value = float(text)
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            raise InputError(f'{path}: line {line}: {name}: "{text}" (expected a finite number)')
+            raise InputError(f"{path}: line {line}: {name}: {format_value(text)} (expected a finite number)")
         values.append(value)
     return values

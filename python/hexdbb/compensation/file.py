@@ -56,7 +56,8 @@ def make_compensation(
     Returns
     -------
     CompensationData
-        `effects` lists the corrected effects, `left_out` the others with the reason.
+        `effects` lists the corrected effects, `left_out` the others with the reason; `model_sha256` and
+        `record_sha256` state its origin, in a file and in a C header too.
     """
     content = model.path.read_bytes() if model.path is not None and model.path.is_file() else b""
     known = replace(model, terms=tuple(term for term in model.terms if model.own(term.effect) is None))
@@ -70,7 +71,13 @@ def make_compensation(
         reference_temperature_c=math.nan if reference_temperature_c is None else reference_temperature_c,
         tables=tables,
         left_out=left_out,
+        record_sha256=_record_hashes(model),
     )
+
+
+def _record_hashes(model: Model) -> list[str]:
+    """Return the content hashes of the records that the model's present values were fitted to; none if never fitted."""
+    return list(next((step.record_hashes for step in reversed(model.ledger) if step.record_hashes), ()))
 
 
 def _tables(model: Model) -> tuple[list[_core.CompensationTable], list[tuple[str, str]]]:

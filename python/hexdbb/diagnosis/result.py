@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -125,7 +126,7 @@ class Diagnosis:
 
     def _repr_html_(self) -> str:
         fall = f"reading error {self.rms_before_um:.2f} → {self.rms_after_um:.2f} µm RMS"
-        noise = f"noise {self.noise.sigma_mm * 1e3:.2f} µm ({self.noise.source})"
+        noise = f"noise {self.noise.sigma_mm * 1e3:.2f} µm ({escape(self.noise.source)})"
         return f"<p>{fall}, {noise}</p>{values_html(self.columns())}"
 
     def to_json(self) -> dict[str, Any]:

@@ -20,6 +20,8 @@ class Checked:
     heldout: Mapping[str, HeldOut]
     share: float
     reasons: tuple[str, ...]
+    excused: bool = False
+    """Whether something that is not predicted was put down to its form."""
 
 
 def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
@@ -34,19 +36,21 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
-    reasons = []
+    reasons, excused = [], False
     if any(
         isinstance(each.hypothesis, Learned) and each.hypothesis.variable.column == "time_s" for each in trial.members
     ):
         return Checked(predicted, share, ())
     for grouping, held in predicted.items():
+        expected = held.expected * max(trial.left, 1.0) ** 0.5
+        if held.share >= criteria.heldout_share_min * share or held.after <= criteria.heldout_ratio * expected:
+            continue
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
         if extrapolates and _bends_geometry(trial, share, criteria):
-            continue
-        expected = held.expected * max(trial.left, 1.0) ** 0.5
-        if held.share < criteria.heldout_share_min * share and held.after > criteria.heldout_ratio * expected:
+            excused = True
+        else:
             reasons.append(f"does not predict {WORDS[grouping]}")
-    return Checked(predicted, share, tuple(reasons))
+    return Checked(predicted, share, tuple(reasons), excused)
 
 
 def _bends_geometry(trial: Trial, share: float, criteria: Criteria) -> bool:

@@ -111,6 +111,9 @@ class Criteria:
         Part of the unexplained that the causes named must explain together.
     form_limit : float
         Relative difference of form above which a catalogue effect is not called the cause.
+    form_named : float
+        The same from which what explains nearly as much (`same_kind_share`) is named beside the effect: forms 20 % off,
+        the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
     same_kind_share : float
         Part of the unexplained by which a known effect may lag behind the learned function that contains it.
     secondary : float
@@ -162,6 +165,7 @@ class Criteria:
     form_explains: float = 0.9
     explained_min: float = 0.75
     form_limit: float = 0.5
+    form_named: float = 0.3
     same_kind_share: float = 0.05
     secondary: float = 2.0
 

@@ -16,11 +16,11 @@ from scipy import stats
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.homes import Home, Homes, discrepancy
-from hexdbb.evidence.marginal import marginal
+from hexdbb.evidence.marginal import Marginal, marginal
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.signatures import signature_of
-from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.signatures import Signature, signature_of
+from hexdbb.evidence.sums import Block, Projected, Sums
 from hexdbb.learned import Learned
 from hexdbb.model import Parameter
 
@@ -34,6 +34,17 @@ class Form:
     fraction: float
     deviation: float
     functions: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Functions beside an effect: their spaces, prior, sums, and evidence."""
+
+    spaces: Sequence[Signature]
+    factor: Floats
+    block: Block
+    projected: Projected
+    found: Marginal
 
 
 class Forms:
@@ -52,38 +63,26 @@ class Forms:
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
-        size_mm, functions = self._size(fitted, known)
-        if not functions or size_mm <= 0.0:
+        size_mm, groups = self._size(fitted, known)
+        best = self._chosen(linear, groups, size_mm) if groups and size_mm > 0.0 else None
+        if best is None:
             return linear, Form(0.0, 0.0, ())
-        spaces = [signature_of(each, self.engine.readings) for each in functions]
-        signature = np.hstack([each.table for each in spaces])
-        roughness = self.criteria.roughness[1]
-        parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
-        factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
-        sums = Sums(linear, self.engine.readings, ())
-        block = sums.block(signature)
-        projected = sums.whole.project(block)
-        factor = _visible(factor, projected.information, block.own[0], self.criteria.form_visible)
-        if not factor.shape[1]:
-            return linear, Form(0.0, 0.0, ())
-        grid = np.array(self.criteria.form_grid)
-        weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
-        found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
+        spaces, factor, found = best.spaces, best.factor, best.found
+        functions = tuple(each.hypothesis.name for each in spaces)
         if found.size <= 0.0:
-            return linear, Form(0.0, 0.0, tuple(each.name for each in functions))
+            return linear, Form(0.0, 0.0, functions)
         at, squares = 0, []
         for space in spaces:
             width = space.table.shape[1]
             squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
             at += width
-        deviation = (
-            float(np.sqrt(sum(squares) * _seen(found.coefficients, projected.information, block.own[0]))) / size_mm
-        )
+        seen = _seen(found.coefficients, best.projected.information, best.block.own[0])
+        deviation = float(np.sqrt(sum(squares) * seen)) / size_mm
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
-        form = Form(found.size, deviation, tuple(each.name for each in functions))
-        columns = signature @ (factor * found.size)
+        form = Form(found.size, deviation, functions)
+        columns = np.hstack([each.table for each in spaces]) @ (factor * found.size)
         wider = replace(
             linear,
             own=np.hstack([linear.own, columns]),
@@ -91,11 +90,47 @@ class Forms:
         )
         return wider, form
 
-    def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[Learned]]:
-        """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy."""
+    def _chosen(self, linear: Linear, groups: Sequence[tuple[Learned, ...]], size_mm: float) -> Beside | None:
+        """Choose functions by evidence, a variable at a time: one more only where the readings ask for it."""
+        sums = Sums(linear, self.engine.readings, ())
+        left, best = list(groups), None
+        chosen: tuple[Learned, ...] = ()
+        for _ in range(self.criteria.most_homes):
+            tried = [(group, self._beside(sums, (*chosen, *group), size_mm)) for group in left]
+            seen = [(group, each) for group, each in tried if each is not None]
+            if not seen:
+                break
+            group, found = max(seen, key=lambda each: each[1].found.log_evidence)
+            if best is not None and found.found.log_evidence < best.found.log_evidence + self.criteria.detect_nats:
+                break
+            best, chosen = found, (*chosen, *group)
+            left.remove(group)
+            if found.found.size <= 0.0:
+                break
+        return best
+
+    def _beside(self, sums: Sums, functions: Sequence[Learned], size_mm: float) -> Beside | None:
+        """Weigh the evidence for some functions beside an effect; None where nothing of them can be seen."""
+        spaces = [signature_of(each, self.engine.readings) for each in functions]
+        roughness = self.criteria.roughness[1]
+        parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
+        factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
+        block = sums.block(np.hstack([each.table for each in spaces]))
+        projected = sums.whole.project(block)
+        factor = _visible(factor, projected.information, block.own[0], self.criteria.form_visible)
+        if not factor.shape[1]:
+            return None
+        grid = np.array(self.criteria.form_grid)
+        weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
+        found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
+        return Beside(spaces, factor, block, projected, found)
+
+    def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[tuple[Learned, ...]]]:
+        """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy by variable."""
         model, readings = fitted.model, self.engine.readings
         sigmas = model.prior_sigma
-        square, functions = 0.0, []
+        square = 0.0
+        groups: list[tuple[Learned, ...]] = []
         for place, column in enumerate(fitted.free):
             parameter = model.parameters()[column]
             if parameter.effect != known.effect or parameter.element not in known.elements or parameter.is_shape:
@@ -104,9 +139,9 @@ class Forms:
             homes = self._homes_of(parameter, fitted.linear.own[:, place])
             if homes:
                 square += (homes[0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
-                functions += [each for each in discrepancy(homes, self.criteria.most_homes) if each not in functions]
+                groups += [each for each in discrepancy(homes) if each not in groups]
         assert len(readings) > 0
-        return float(np.sqrt(square)), functions
+        return float(np.sqrt(square)), groups
 
     def _homes_of(self, parameter: Parameter, signature: Floats) -> list[Home]:
         """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""

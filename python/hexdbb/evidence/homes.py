@@ -102,16 +102,23 @@ class Homes:
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
 
-def discrepancy(homes: Sequence[Home], most: int = DEFAULT.most_homes) -> list[Learned]:
-    """Return the functions in which an effect's form may be wrong: of its own variables, and element by element."""
-    chosen: list[Learned] = []
+def discrepancy(homes: Sequence[Home]) -> list[tuple[Learned, ...]]:
+    """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
+
+    Returns
+    -------
+    list of tuple of Learned
+        One variable each, the nearest to the effect first.
+    """
     ranked = [each.hypothesis for each in sorted(homes, key=lambda each: -each.explained)]
     there = {(each.place, each.element) for each in ranked[:1]}
     near = [each for each in ranked if each.variable.columns > 1 and (each.place, each.element) in there]
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
-    useful = [each for each in near if each.variable.columns <= MOST_COLUMNS][:most] or near[:1]
-    for each in useful:
-        chosen.append(each)
-        if each.element == ALL and each.place in ("slider", "leg"):
-            chosen += [replace(each, element=element) for element in range(1, 7)]
-    return chosen
+    useful = [each for each in near if each.variable.columns <= MOST_COLUMNS] or near[:1]
+    return [_by_element(each) for each in useful]
+
+
+def _by_element(each: Learned) -> tuple[Learned, ...]:
+    if each.element == ALL and each.place in ("slider", "leg"):
+        return (each, *(replace(each, element=element) for element in range(1, 7)))
+    return (each,)

@@ -132,7 +132,8 @@ class Search:
                 break
             best = max([best, *beam], key=lambda each: each.score)
             if self._is_complete(best):
-                break
+                # A free function of time explains any drift: known effects beside each other are looked at further.
+                beam = [each for each in beam if _is_known(each)] if _is_free_in_time(best) else []
         return best
 
     def expand(self, node: Node) -> list[Node]:
@@ -243,7 +244,7 @@ class Search:
             alike = any(_alike(self, child, other) for other in kept)
             if len(kept) < self.criteria.beam and not alike and not self.checked(child).reasons:
                 kept.append(child)
-        known = [each for each in children if all(isinstance(h, Known) for h in each.hypotheses)]
+        known = [each for each in children if _is_known(each)]
         for child in known:
             if any(child is each for each in kept):
                 break
@@ -270,6 +271,14 @@ class Search:
 def _alike(search: Search, one: Node, other: Node) -> bool:
     """Check whether every hypothesis of one set has one of its kind in another."""
     return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
+
+
+def _is_known(node: Node) -> bool:
+    return all(isinstance(each, Known) for each in node.hypotheses)
+
+
+def _is_free_in_time(node: Node) -> bool:
+    return all(isinstance(each, Learned) and each.variable.column == "time_s" for each in node.hypotheses)
 
 
 def _best(scored: list[Scored], count: int, of_one_effect: int) -> list[Scored]:

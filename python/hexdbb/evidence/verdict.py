@@ -74,7 +74,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before)
-    node = _in_known_words(search, search.run())
+    node = _in_known_words(search, _predicting(search, search.run()))
     if node is search.root:
         return Verdict("unknown", (), node, None, before)
     node = _settled(search, node)
@@ -85,6 +85,22 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if search.checked(node).share < search.criteria.explained_min:
         grade = "unknown"
     return Verdict(grade, found, node, search.checked(node), before)
+
+
+def _predicting(search: Search, node: Node) -> Node:
+    """Prefer a set of another kind that explains nearly all and predicts to one that is excused from predicting."""
+    if not search.checked(node).excused:
+        return node
+    others = [
+        each
+        for each in search.nodes
+        if len(each.members) <= len(node.members)
+        and not each.trial.refused
+        and not any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses)
+        and search.checked(each).share > search.criteria.form_explains
+        and not (search.checked(each).reasons or search.checked(each).excused)
+    ]
+    return max(others, key=lambda each: each.score, default=node)
 
 
 def _settled(search: Search, node: Node) -> Node:
@@ -131,7 +147,9 @@ def _in_known_words(search: Search, node: Node) -> Node:
                 others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
         others.sort(key=lambda each: -each.score)
         search.nodes += others
-        node = next((each for each in others if not search.checked(each).reasons), node)
+        # What predicts is not exchanged for what is excused from predicting.
+        excused = search.checked(node).excused
+        node = next((e for e in others if not search.checked(e).reasons and excused >= search.checked(e).excused), node)
     return node
 
 
@@ -211,7 +229,21 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
         if lead < search.criteria.margin_nats and other is not search.root:
             rivals.append(" + ".join(other.trial.names))
     form = node.trial.forms[node.hypotheses.index(cause)]
+    if form is not None and form.deviation > search.criteria.form_named:
+        rivals += [name for name in _nearly_as_good(search, node, cause) if name not in rivals]
     return Found(cause, tuple(rivals), margin, tuple(alike), refinements, form.deviation if form is not None else 0.0)
+
+
+def _nearly_as_good(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return sets without a cause that explain nearly as much, at once or better than with so different a form."""
+    excess = search.root.trial.left - 1.0
+    return [
+        " + ".join(other.trial.names)
+        for other in search.nodes
+        if not any(search.same_kind(each, cause) for each in other.hypotheses)
+        and other.trial.left - node.trial.left < search.criteria.same_kind_share * excess
+        and not (other.trial.refused or search.checked(other).reasons)
+    ]
 
 
 def _bent(search: Search, node: Node) -> bool:

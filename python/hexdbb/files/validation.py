@@ -49,10 +49,10 @@ EXPECTED = {
     "dict_type": "a table",
     "model_type": "a table",
     "model_attributes_type": "a table",
-    "greater_than": "a number > {gt:g}",
-    "greater_than_equal": "a number >= {ge:g}",
-    "less_than": "a number < {lt:g}",
-    "less_than_equal": "a number <= {le:g}",
+    "greater_than": "a number > {gt:.10g}",
+    "greater_than_equal": "a number >= {ge:.10g}",
+    "less_than": "a number < {lt:.10g}",
+    "less_than_equal": "a number <= {le:.10g}",
     "too_short": "a list of at least {min_length}, not {actual_length}",
     "too_long": "a list of at most {max_length}, not {actual_length}",
     "string_too_short": "a text that is not empty",
@@ -159,6 +159,10 @@ def parse_toml(text: str, model: type[ModelT], origin: str) -> ModelT:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{origin}: not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{origin}: not valid TOML: nested too deep (expected a few levels)") from None
+    except ValueError:  # of Python's own limit on the digits of an integer
+        raise InputError(f"{origin}: not valid TOML: a number with too many digits (expected a number)") from None
     _check_schema(data, model, origin)
     try:
         return model.model_validate(data)

@@ -22,7 +22,8 @@ Direction = Literal[1, -1]
 """+1 counter-clockwise seen from above the circle's plane, -1 clockwise."""
 Feeds = Annotated[tuple[Positive, ...], Field(strict=False, min_length=1)]
 Directions = Annotated[tuple[Direction, ...], Field(strict=False, min_length=1)]
-Laps = Annotated[int, Field(ge=1)]
+Laps = Annotated[int, Field(ge=1, le=2**31 - 1)]
+"""Captured turns; a record holds the number of a turn as int32."""
 
 
 class Circle(StrictModel):

@@ -21,7 +21,7 @@ from hexdbb.identifiability.redundancy import LEVER_MM
 from hexdbb.kinematics import engine_machine, inverse, rotation_from_rpy
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle
-from hexdbb.trajectory.runs import FEED_IN_MM
+from hexdbb.trajectory.extent import FEED_IN_MM
 
 Floats = NDArray[np.float64]
 

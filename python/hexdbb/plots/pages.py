@@ -16,9 +16,11 @@ import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
+from matplotlib.text import Text
 
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison, iso230
 from hexdbb.files.atomic_file import replacing, require_folder
+from hexdbb.files.plain_text import printable
 from hexdbb.plan import Circle
 from hexdbb.plots.magnification import choose_scale
 from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
@@ -26,6 +28,8 @@ from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
 from hexdbb.plots.residual_pages import directions_page, harmonics_page, predictors_page
 
 OVERVIEW_COLUMNS = 4
+TICK_FORMULA = "\\mathdefault"
+"""Part of the formulas that matplotlib itself makes, for tick labels of powers."""
 FORMATS: dict[str, dict[str, Any]] = {".png": {"dpi": 150}, ".svg": {"metadata": {"Date": None}}}
 """Suffix of a picture's file to the options it is drawn with."""
 
@@ -144,6 +148,7 @@ def save_figure(figure: Figure, stem: Path, suffixes: Sequence[str] = tuple(FORM
         A file cannot be written; what stood in its place is untouched.
     """
     FigureCanvasAgg(figure)
+    _show_names_as_they_are(figure)
     written = []
     for suffix in suffixes:
         drawn = io.BytesIO()
@@ -154,6 +159,15 @@ def save_figure(figure: Figure, stem: Path, suffixes: Sequence[str] = tuple(FORM
             temporary.write_bytes(drawn.getvalue())
         written.append(path)
     return written
+
+
+def _show_names_as_they_are(figure: Figure) -> None:
+    """Turn off formulas in all texts but tick labels, so that "$" in the name of a record is shown as it is."""
+    for text in figure.findobj(Text):
+        # Tick labels are empty until they are drawn.
+        if isinstance(text, Text) and text.get_text() and TICK_FORMULA not in text.get_text():
+            text.set_parse_math(False)
+            text.set_text(printable(text.get_text()))
 
 
 def save_pages(pages: Sequence[Page], folder: Path) -> list[Path]:

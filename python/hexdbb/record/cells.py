@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Iterator
 from pathlib import Path
 
 from hexdbb.errors import InputError
+from hexdbb.files.delimited import expected_cells, read_rows
 from hexdbb.files.validation import format_value
 from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, RowSource
 
@@ -21,7 +21,7 @@ def line_of_row(path: Path, row: int) -> int:
 
 
 def first_bad_cell(path: Path, names: list[str], reason: Exception) -> InputError:
-    """Return the error that names the first row with too few cells or with a cell that is not a number.
+    """Return the error that names the first row with too few or too many cells or with a cell that is not a number.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def first_bad_cell(path: Path, names: list[str], reason: Exception) -> InputErro
     source = RowSource(str(path), lambda row: line_of_row(path, row))
     for row, (_, cells) in enumerate(_rows(path)):
         if len(cells) != len(names):
-            return source.bad_row(row, "cells", str(len(cells)), f"{len(names)}, as the first line has")
+            return source.bad_row(row, "cells", str(len(cells)), expected_cells(len(cells), len(names)))
         for name, cell in zip(names, cells, strict=True):
             if name in COLUMN_TYPES and not _is_number(cell, may_be_empty=name not in REQUIRED_COLUMNS):
                 return source.bad_row(row, name, format_value(cell), "a number")
@@ -44,12 +44,9 @@ def first_bad_cell(path: Path, names: list[str], reason: Exception) -> InputErro
 
 def _rows(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Yield line number and cells of each data row."""
-    with path.open(encoding="utf-8-sig", errors="replace", newline="") as file:
-        reader = csv.reader(file)
-        next(reader, None)
-        for cells in reader:
-            if cells:
-                yield reader.line_num, cells
+    rows = read_rows(path)
+    next(rows, None)
+    yield from rows
 
 
 def _is_number(cell: str, may_be_empty: bool) -> bool:

@@ -1,4 +1,4 @@
-"""Check of a record's samples: finite, known ids, within travel and gauge range, ordered in time, constant per sweep.
+"""Check of a record: circles fit bar and machine; samples finite, ordered, within limits, constant per sweep.
 
 The check runs over all samples, and therefore once for each record read or written.
 """
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, RowSource
+from hexdbb.record.geometry import check_geometry
 from hexdbb.record.record import Record
 
 TRAVEL_MARGIN_MM = 1.0
@@ -26,7 +27,7 @@ Finding = tuple[str, NDArray[np.bool_], str]
 
 
 def check_record(record: Record, source: RowSource) -> None:
-    """Check every sample of a record.
+    """Check the circles and every sample of a record.
 
     Parameters
     ----------
@@ -37,12 +38,13 @@ def check_record(record: Record, source: RowSource) -> None:
     Raises
     ------
     InputError
-        There are no samples.
+        There are no samples, or a circle does not fit bar, gauge and machine.
     BadRowError
         Names the first wrong row, its column, its value and what was expected.
     """
     if len(record) == 0:
         raise InputError(f"{source.name}: holds no samples (expected at least one)")
+    check_geometry(record, source.name)
     failed = [(int(np.argmax(bad)), column, expected) for column, bad, expected in _findings(record) if bad.any()]
     if not failed:
         return

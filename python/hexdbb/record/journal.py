@@ -8,6 +8,7 @@ more than that: whole batches are read back, and a torn tail is dropped.
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import threading
 from collections.abc import Mapping
@@ -23,8 +24,10 @@ from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing, sync_directory
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Gauge, Mount
+from hexdbb.record.abandoned import make_way
 from hexdbb.record.columns import REQUIRED_COLUMNS, BadRowError, Columns, RowSource, normalise
-from hexdbb.record.parquet import write_parquet
+from hexdbb.record.journal_stream import write_batch
+from hexdbb.record.parquet import SUFFIX, write_parquet
 from hexdbb.record.record import Record
 from hexdbb.record.recovery import read_journal
 from hexdbb.record.tables import to_table
@@ -49,12 +52,17 @@ class Journal:
     machine, gauge, mounts, circles, metadata
         As in `Record`.
     overwrite : bool
-        Whether an existing record or journal may be replaced.
+        Whether an existing record may be replaced, and a journal set aside.
+
+    Attributes
+    ----------
+    set_aside : Path or None
+        Where the journal of an earlier, interrupted capture is kept now.
 
     Raises
     ------
     InputError
-        The record exists, or the journal of an interrupted capture does.
+        The record exists, or the journal of an interrupted capture with samples does.
     """
 
     def __init__(
@@ -70,18 +78,17 @@ class Journal:
     ) -> None:
         self.path, self.journal_path = Path(path), journal_path(path)
         self._overwrite = overwrite
-        if self.path.suffix != ".parquet":
-            raise InputError(f"{path}: suffix {self.path.suffix!r} (expected .parquet)")
+        if self.path.suffix != SUFFIX:
+            raise InputError(f"{path}: suffix {self.path.suffix!r} (expected {SUFFIX})")
         refuse_existing(self.path, overwrite)
-        if self.journal_path.exists() and not overwrite:
-            expected = f"none; make a record of it with: hexdbb recover {self.journal_path}"
-            raise InputError(f"{self.journal_path}: left by an interrupted capture (expected {expected})")
+        self.set_aside = make_way(self.journal_path, overwrite)
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
         self._header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
         to_table(self._header)  # raises here, not in the writing thread, for metadata that JSON cannot hold
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
+        self._rows_written = 0
         self._queued: list[Columns] = []
         self._lock, self._stop = threading.Lock(), threading.Event()
         self._failure: Exception | None = None
@@ -133,7 +140,7 @@ class Journal:
         if self._stream is None:
             self.journal_path.unlink()
 
-    def finish(self, complete: bool = True, reason: str | None = None) -> Record:
+    def finish(self, complete: bool = True, reason: str | None = None, until_s: float = math.inf) -> Record:
         """Write the Parquet record and remove the journal; the samples are checked once.
 
         Parameters
@@ -142,6 +149,8 @@ class Journal:
             Whether the capture ran to its end.
         reason : str, optional
             Why it did not; kept in the record's metadata as ``incomplete_because``.
+        until_s : float
+            Time (``t_s``) from which samples are left out.
 
         Raises
         ------
@@ -154,11 +163,19 @@ class Journal:
         if self._stream is None:
             raise RunError(f"{self.path}: not written: no samples were captured")
         try:
-            record, dropped = read_journal(self.journal_path, complete, reason)
+            record, dropped = read_journal(self.journal_path, complete, reason, self._rows_written)
         except BadRowError as error:
             raise RunError(f"{self.path}: not written: {error}; the journal is kept") from None
         record.path = self.path
-        write_parquet(record, self.path, self._overwrite)
+        before = record.columns["t_s"] < until_s
+        if not before.any():
+            self.journal_path.unlink()
+            raise RunError(f"{self.path}: not written: no certain samples were captured")
+        record.columns = {name: column[before] for name, column in record.columns.items()}
+        try:
+            write_parquet(record, self.path, self._overwrite)
+        except RunError as error:
+            raise RunError(f"{error}; the samples are kept: hexdbb recover {self.journal_path}") from None
         if not dropped:
             self.journal_path.unlink()
         return record
@@ -189,7 +206,9 @@ class Journal:
         table = to_table(replace(self._header, columns=columns))
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
-        self._stream.write_table(table)
+        for batch in table.to_batches():
+            write_batch(self._stream, batch, self._rows_written)
+            self._rows_written += batch.num_rows
         self._sync()
 
     def _sync(self) -> None:

@@ -1,4 +1,9 @@
-"""Parquet file of a record, zstd-compressed and complete in itself; pandas, polars, DuckDB and MATLAB read it."""
+"""Parquet file of a record, zstd-compressed and complete in itself; pandas, polars, DuckDB and MATLAB read it.
+
+A file proves itself twice: each page has the checksum of the Parquet format (CRC-32), and the metadata hold a digest of
+every column of every row group and of every other metadata entry (`digests`), which covers what page checksums do not:
+the file's index, types and names. Files of versions before digests, and of other programs, are read without.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +16,17 @@ from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, replacing
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import RowSource
+from hexdbb.record.digests import DIGESTS_KEY, digests_of, stated_digests, text_keys
 from hexdbb.record.record import Record
-from hexdbb.record.tables import from_table, to_table
+from hexdbb.record.tables import KEY, from_table, read_header, to_table
+
+SUFFIX = ".parquet"
+ROWS_PER_GROUP = 4096
+"""Limits what one damaged place can cost: the rows of one row group, 16 s at 250 Hz. Fewer rows would compress worse
+and make the file's index, of 200 bytes a column and row group, larger than a hundredth of the data."""
+
+DAMAGE = (pa.ArrowException, OSError, ValueError, KeyError, OverflowError, MemoryError)
+"""What pyarrow raises for damaged files; `UnicodeDecodeError` of a name that is not text is a `ValueError`."""
 
 
 def read_parquet(path: Path) -> Record:
@@ -21,23 +35,65 @@ def read_parquet(path: Path) -> Record:
     Raises
     ------
     InputError
-        The file is damaged, not a record, of a later format, or holds a wrong sample.
+        The file is damaged (names column and row group), not a record, of a later format, or holds a wrong sample.
     """
     try:
-        table = pq.read_table(path)
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:
+            table = file.read()
         table.validate(full=True)
         # A damaged file may hold column names that are not text; pyarrow decodes them only on access.
         table.column_names  # noqa: B018
-    except (pa.ArrowException, OSError, UnicodeDecodeError) as error:
-        reason = next(iter(str(error).splitlines()), "damaged")
-        raise InputError(f"{path}: not a whole Parquet file: {reason} (expected a record of hexdbb)") from None
+    except DAMAGE as error:
+        raise _damage(path, error) from None
+    metadata = text_keys(table.schema.metadata)
+    if KEY in metadata:
+        read_header(metadata[KEY], path)  # a later format may state its digests in another way
+    digests = stated_digests(metadata, path)
+    if digests is not None and (keys := digests.damaged_metadata(metadata)):
+        raise InputError(f"{path}: metadata {', '.join(keys)}: damaged or changed (expected what was written)")
     record = from_table(table, path)
+    if digests is not None and (parts := list(digests.damaged_parts(record.columns))):
+        raise damaged_parts_error(path, parts)
     check_record(record, RowSource(str(path)))
     return record
 
 
+def damaged_parts_error(path: Path, parts: list[tuple[str, int]]) -> InputError:
+    """Return the error that names the first damaged part, and how to save the others."""
+    column, group = parts[0]
+    more = f" and {len(parts) - 1} more" if len(parts) > 1 else ""
+    return InputError(
+        f"{path}: column {column}, row group {group + 1}{more}: damaged or changed"
+        f" (expected what was written; save the rest with: hexdbb recover {path} -o NEW{SUFFIX})"
+    )
+
+
+def unreadable_parts(path: Path) -> list[tuple[str, int]]:
+    """Return column and row group (from 0) of all that cannot be read; raises one of `DAMAGE` for a damaged index."""
+    parts = []
+    with pq.ParquetFile(path, page_checksum_verification=True) as file:
+        for group in range(file.num_row_groups):
+            for name in file.schema_arrow.names:
+                try:
+                    file.read_row_group(group, columns=[name]).validate(full=True)
+                except DAMAGE:
+                    parts.append((name, group))
+    return parts
+
+
+def _damage(path: Path, error: BaseException) -> InputError:
+    """Return the error of a file that cannot be read whole: the part that is damaged, or the reader's reason."""
+    try:
+        if parts := unreadable_parts(path):
+            return damaged_parts_error(path, parts)
+    except DAMAGE:
+        pass
+    reason = next(iter(str(error).splitlines()), "damaged")
+    return InputError(f"{path}: not a whole Parquet file: {reason} (expected a record of hexdbb)")
+
+
 def write_parquet(record: Record, path: Path, overwrite: bool) -> None:
-    """Write a Parquet record, whole or not at all; its samples are not checked.
+    """Write a Parquet record with its digests, whole or not at all; its samples are not checked.
 
     Raises
     ------
@@ -47,5 +103,17 @@ def write_parquet(record: Record, path: Path, overwrite: bool) -> None:
         The file could not be written.
     """
     refuse_existing(path, overwrite)
+    table = to_table(record)
+    metadata = text_keys(table.schema.metadata)
+    digests = digests_of(record.columns, metadata, ROWS_PER_GROUP)
+    table = table.replace_schema_metadata(metadata | {DIGESTS_KEY: digests.model_dump_json().encode()})
     with replacing(path) as temporary:
-        pq.write_table(to_table(record), temporary, compression="zstd")
+        pq.write_table(
+            table,
+            temporary,
+            compression="zstd",
+            row_group_size=ROWS_PER_GROUP,
+            write_page_checksum=True,
+            # Measured values hardly repeat: a dictionary of them would make the file a sixth larger.
+            use_dictionary=[name for name, values in record.columns.items() if values.dtype.kind != "f"],
+        )

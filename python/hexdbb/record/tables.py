@@ -1,7 +1,7 @@
 """Records as Arrow tables: samples as columns, everything else as schema metadata; used by Parquet file and journal.
 
 Metadata keys: `hexdbb` (JSON: format, software version, completeness, further metadata), `hexdbb.measurement` and
-`hexdbb.machine` (TOML, in the form of the files of these kinds).
+`hexdbb.machine` (TOML, in the form of the files of these kinds). The Parquet file adds `hexdbb.digests` (`digests`).
 """
 
 from __future__ import annotations
@@ -53,6 +53,11 @@ def to_columns(table: pa.Table) -> Columns:
     return {name: table.column(name).to_numpy() for name in table.column_names}
 
 
+def batch_columns(batch: pa.RecordBatch) -> Columns:
+    """Return the columns of one batch as NumPy arrays of shape (n,)."""
+    return to_columns(pa.Table.from_batches([batch]))
+
+
 def from_table(table: pa.Table, path: Path) -> Record:
     """Build a record from an Arrow table read from `path`; its samples are not checked.
 
@@ -64,7 +69,7 @@ def from_table(table: pa.Table, path: Path) -> Record:
     metadata = {key.decode(errors="replace"): value for key, value in (table.schema.metadata or {}).items()}
     if not {KEY, MEASUREMENT_KEY, MACHINE_KEY} <= metadata.keys():
         raise InputError(f'{path}: not a record (expected metadata "{KEY}"; bring data of other programs as .csv)')
-    header = _read_header(metadata[KEY], path)
+    header = read_header(metadata[KEY], path)
     measurement = parse_toml(metadata[MEASUREMENT_KEY].decode(errors="replace"), Measurement, f"{path}: measurement")
     return Record(
         columns=to_columns(table),
@@ -78,7 +83,8 @@ def from_table(table: pa.Table, path: Path) -> Record:
     )
 
 
-def _read_header(content: bytes, path: Path) -> RecordHeader:
+def read_header(content: bytes, path: Path) -> RecordHeader:
+    """Parse the JSON under `KEY`; raise `InputError` for another or a later format."""
     try:
         return RecordHeader.model_validate_json(content)
     except ValidationError as error:

@@ -7,13 +7,17 @@ A missing column `lap` is counted from the angle.
 from __future__ import annotations
 
 import csv
+import io
+from collections.abc import Iterable
 from pathlib import Path
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv
 
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, replacing
+from hexdbb.files.delimited import read_rows
 from hexdbb.files.validation import dump_toml, format_name, load_toml
 from hexdbb.machine import machine_beside
 from hexdbb.record.cells import first_bad_cell, line_of_row
@@ -66,16 +70,20 @@ def _read_columns(path: Path) -> Columns:
     except pa.ArrowInvalid as error:
         # Arrow's message names the fault, not its place.
         raise first_bad_cell(path, names, error) from None
+    if any(_holds_line_end(column) for column in table.columns):
+        raise first_bad_cell(path, names, ValueError("a cell holds a line end"))
     return to_columns(table)
+
+
+def _holds_line_end(column: pa.ChunkedArray) -> bool:
+    """Whether a text of the column has a line end: two stray quotes make one cell of all between them."""
+    return pa.types.is_string(column.type) and bool(pc.any(pc.match_substring_regex(column, "[\r\n]")).as_py())
 
 
 def _header(path: Path) -> list[str]:
     """Read the column names; raise `InputError` where the first line does not hold them."""
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            names = [name.strip() for name in next(csv.reader(file), [])]
-    except UnicodeDecodeError as error:
-        raise InputError(f"{path}: byte {error.start} is not UTF-8 (expected UTF-8 text)") from None
+    _, cells = next(read_rows(path), (1, []))
+    names = [name.strip() for name in cells]
     if not names:
         raise InputError(f"{path}: empty file (expected a first line of column names: {', '.join(REQUIRED_COLUMNS)})")
     for index, name in enumerate(names):
@@ -84,6 +92,13 @@ def _header(path: Path) -> list[str]:
     if len(names) == 1 and any(mark in names[0] for mark in ";\t"):
         raise InputError(f"{path}: line 1: one column {names[0]!r} (expected columns separated by commas)")
     return names
+
+
+def _line(cells: Iterable[str]) -> str:
+    """Return cells as a line of CSV, quoted where they hold commas or quotes."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue()
 
 
 def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
@@ -104,6 +119,6 @@ def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
     with replacing(measurement_path) as temporary:
         temporary.write_text(dump_toml(record.measurement(machine_path.name)), encoding="utf-8")
     with replacing(path) as temporary, temporary.open("wb") as stream:
-        stream.write((",".join(record.columns) + "\n").encode())
+        stream.write(_line(record.columns).encode())
         options = pa.csv.WriteOptions(include_header=False)
         pa.csv.write_csv(pa.table({name: pa.array(values) for name, values in record.columns.items()}), stream, options)

@@ -164,15 +164,22 @@ class Rig:
         return None if self.enabled_s is None else self.plant.time_s - self.enabled_s
 
     def _advance(self) -> None:
-        period_us = self.drives[0].dictionary.number(0x1006)
-        if period_us:
-            self.dt_s = period_us * 1e-6
+        self.dt_s = self._period_s()
         for node in self.nodes.values():
             node.apply(self.dt_s)
         self._step_plant(self.dt_s)
         if self.enabled_s is None and all(drive.enabled for drive in self.drives):
             self.enabled_s = self.plant.time_s
         self._inject()
+
+    def _period_s(self) -> float:
+        """Return the time that one SYNC stands for, s: its period, or the interpolation period where it has none."""
+        dictionary = self.drives[0].dictionary
+        if period_us := dictionary.number(0x1006):
+            return period_us * 1e-6
+        if (0x60C2, 1) in dictionary and (0x60C2, 2) in dictionary:
+            return dictionary.number(0x60C2, 1) * 10.0 ** dictionary.number(0x60C2, 2) or self.dt_s
+        return self.dt_s
 
     def _step_plant(self, dt_s: float) -> None:
         try:

@@ -8,7 +8,8 @@ Source: CiA 301 (data types, SDO abort codes), CiA 306 (EDS).
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Mapping, Sequence
+import warnings
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import canopen
@@ -36,6 +37,8 @@ ABORT_VALUE_HIGH = 0x06090031
 ABORT_VALUE_LOW = 0x06090032
 ABORT_DEVICE_STATE = 0x08000022
 
+DEVICE_NAME: Key = (0x1008, 0)
+"""The one object used here that is text."""
 _STRUCT_CODES = {1: "?", 2: "b", 3: "h", 4: "i", 5: "B", 6: "H", 7: "I", 8: "f", 0x11: "d", 0x15: "q", 0x1B: "Q"}
 """struct code of each CiA 301 data type; other types (strings, domains) are kept as bytes."""
 
@@ -58,6 +61,8 @@ class Entry:
         self.size: int = self._codec.size if self._codec else 0
         default = variable.default if variable.default is not None else (0 if self.code else b"")
         self.value: Value = float(default) if self.code in ("f", "d") else default
+        if self._codec is not None:
+            self._codec.pack(self.value)  # raises here, not in a PDO, for a default that its type cannot hold
 
     @property
     def readable(self) -> bool:
@@ -73,7 +78,10 @@ class Entry:
         """Return the value as bytes on the bus (little-endian)."""
         if self._codec is None:
             return self.value if isinstance(self.value, bytes) else b""
-        return self._codec.pack(self.value)
+        try:
+            return self._codec.pack(self.value)
+        except struct.error:
+            raise SdoAbortedError(ABORT_VALUE_RANGE) from None
 
     def decode(self, data: bytes) -> Value:
         """Return the value of bytes from the bus.
@@ -105,8 +113,8 @@ class Dictionary:
         The EDS file.
     node_id : int
         Resolves ``$NODEID`` in the defaults.
-    required : tuple of (index, sub-index)
-        Objects that a device of this kind must have.
+    required : mapping of (index, sub-index) to str
+        Objects that a device of this kind must have, each with the struct codes of the types it may have.
     assumed : mapping of (index, sub-index) to value
         Objects that a device may lack. If the EDS lacks one, the device works with this value, which is not visible on
         the bus.
@@ -114,28 +122,46 @@ class Dictionary:
     Raises
     ------
     InputError
-        The file does not exist, or lacks a required object.
+        The file does not exist, is no EDS, or lacks a required object.
     """
 
     def __init__(
-        self, eds: Path, node_id: int, required: Sequence[Key] = (), assumed: Mapping[Key, int] | None = None
+        self,
+        eds: Path,
+        node_id: int,
+        required: Mapping[Key, str] | None = None,
+        assumed: Mapping[Key, int] | None = None,
     ) -> None:
-        if not eds.is_file():
-            raise InputError(f"{eds}: no such file (expected the EDS of node {node_id})")
-        with eds.open(encoding="latin-1") as file:
-            self.od = canopen.import_od(file, node_id)
+        self.eds = eds
+        self.od = _imported(eds, node_id)
         self.hooks: dict[Key, WriteHook] = {}
         self._entries: dict[Key, Entry] = {}
         for item in self.od.values():
             for variable in [item] if isinstance(item, ODVariable) else item.values():
-                self._entries[variable.index, variable.subindex] = Entry(variable)
+                self._entries[variable.index, variable.subindex] = self._made(variable)
         self._indices = {index for index, _ in self._entries}
-        for index, subindex in required:
-            if (index, subindex) not in self._entries:
-                raise InputError(f"{eds}: object {index:04X}h:{subindex:02X} is missing (expected for node {node_id})")
+        for key, codes in (required or {}).items():
+            self._require(key, codes, node_id)
         self._inner = dict(self._entries)
         for key, value in (assumed or {}).items():
-            self._inner.setdefault(key, _unseen(key, value))
+            if self._inner.setdefault(key, _unseen(key, value)).code is None and key != DEVICE_NAME:
+                raise InputError(f"{eds}: object {shown(key)} is no number (expected one)")
+
+    def _made(self, variable: ODVariable) -> Entry:
+        try:
+            return Entry(variable)
+        except (struct.error, ValueError, TypeError, OverflowError):
+            key = (variable.index, variable.subindex)
+            value = f"DefaultValue={variable.default_raw}"
+            raise InputError(f"{self.eds}: object {shown(key)}: {value} (expected a value of its type)") from None
+
+    def _require(self, key: Key, codes: str, node_id: int) -> None:
+        entry = self._entries.get(key)
+        if entry is None:
+            raise InputError(f"{self.eds}: object {shown(key)} is missing (expected for node {node_id})")
+        if entry.code is None or entry.code not in codes:
+            expected = f"expected one of {8 * struct.calcsize('<' + codes[0])} bits"
+            raise InputError(f"{self.eds}: object {shown(key)} has another data type ({expected})")
 
     def __contains__(self, key: Key) -> bool:
         return key in self._entries
@@ -175,6 +201,27 @@ class Dictionary:
         if found is None:
             raise SdoAbortedError(ABORT_NO_SUBINDEX if index in self._indices else ABORT_NO_OBJECT)
         return found
+
+
+def shown(key: Key) -> str:
+    """Return index and sub-index as messages show them: 1018h:01."""
+    return f"{key[0]:04X}h:{key[1]:02X}"
+
+
+def _imported(eds: Path, node_id: int) -> canopen.ObjectDictionary:
+    """Let `canopen` parse an EDS."""
+    expected = f"expected the EDS of node {node_id}"
+    if not eds.is_file():
+        raise InputError(f"{eds}: no such file ({expected})")
+    try:
+        with eds.open(encoding="latin-1") as file, warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of canopen about itself
+            return canopen.import_od(file, node_id)
+    except OSError as error:
+        raise InputError(f"{eds}: cannot be read: {error.strerror} ({expected})") from None
+    except Exception as error:  # the parser raises what its conversions raise
+        reason = next(iter(str(error).splitlines()), type(error).__name__)
+        raise InputError(f"{eds}: not an EDS: {reason} ({expected})") from None
 
 
 def _unseen(key: Key, value: int) -> Entry:

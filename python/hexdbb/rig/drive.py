@@ -74,11 +74,17 @@ class DriveNode(Node):
     """
 
     device_name = b"simulated CiA 402 drive"
-    required = (
-        *Node.required,
-        *((0x1400, 1), (0x1600, 0)),
-        *((index, 0) for index in (0x6040, 0x6041, 0x6060, 0x6061, 0x6064, 0x607A)),
-    )
+    required: ClassVar[dict[Key, str]] = {
+        **Node.required,
+        (0x1400, 1): "I",
+        (0x1600, 0): "B",
+        (0x6040, 0): "Hh",
+        (0x6041, 0): "Hh",
+        (0x6060, 0): "bB",
+        (0x6061, 0): "bB",
+        (0x6064, 0): "iI",
+        (0x607A, 0): "iI",
+    }
     assumed: ClassVar[dict[Key, int]] = {
         **Node.assumed,
         (0x6007, 0): ABORT_QUICK_STOP,

@@ -69,7 +69,13 @@ class GaugeNode(Node):
     """
 
     device_name = b"simulated CiA 404 ball bar gauge"
-    required = (*Node.required, *((0x2100, subindex) for subindex in range(1, 9)), (0x6130, 1), (0x6150, 1))
+    required: ClassVar[dict[Key, str]] = {
+        **Node.required,
+        (0x2100, 1): "BHI",
+        **{(0x2100, subindex): "f" for subindex in range(2, 9)},
+        (0x6130, 1): "f",
+        (0x6150, 1): "B",
+    }
     assumed: ClassVar[dict[Key, int]] = {
         **Node.assumed,
         (0x2101, 1): 0,

@@ -14,9 +14,10 @@ from enum import IntEnum
 from pathlib import Path
 from typing import ClassVar
 
-from canopen.sdo import SdoServer
+from canopen.sdo import SdoAbortedError, SdoServer
 
-from hexdbb.rig.dictionary import Dictionary, Key
+from hexdbb.errors import InputError
+from hexdbb.rig.dictionary import DEVICE_NAME, Dictionary, Key
 from hexdbb.rig.frame import EMCY_BASE, HEARTBEAT_BASE, SDO_REQUEST_BASE, SDO_RESPONSE_BASE
 from hexdbb.rig.pdo import MAX_SYNC_TYPE, Pdo
 
@@ -99,8 +100,8 @@ class Node:
     """
 
     device_name = b"simulated node"
-    required: tuple[Key, ...] = ((0x1000, 0), (0x1800, 1), (0x1A00, 0))
-    """Objects that the EDS must have."""
+    required: ClassVar[dict[Key, str]] = {(0x1000, 0): "I", (0x1800, 1): "I", (0x1A00, 0): "B"}
+    """Objects that the EDS must have, with the struct codes of their types."""
     assumed: ClassVar[dict[Key, int]] = {
         (0x1001, 0): 0,
         (0x1006, 0): 0,
@@ -125,7 +126,8 @@ class Node:
     def _power_up(self) -> None:
         """Set everything to its state at power-on (also after an NMT reset)."""
         self.dictionary = Dictionary(self._eds, self.node_id, self.required, self.assumed)
-        self.dictionary.entry(0x1008).value = self.device_name
+        if self.dictionary.entry(*DEVICE_NAME).code is None:
+            self.dictionary.entry(*DEVICE_NAME).value = self.device_name
         self.dictionary.entry(0x1018, 4).value = self.node_id
         self.dictionary.hooks[0x1016, 1] = self._restart_heartbeat_consumer
         self.nmt_state = NmtState.PRE_OPERATIONAL
@@ -144,14 +146,18 @@ class Node:
         self.on_power_up()
 
     def _make_pdo(self, communication: int, mapping: int, *, receive: bool) -> Pdo:
-        return Pdo(
-            self.dictionary,
-            communication,
-            mapping,
-            receive=receive,
-            may_change=lambda: self.nmt_state is NmtState.PRE_OPERATIONAL,
-            on_change=lambda: self.on_routes_changed(),
-        )
+        try:
+            return Pdo(
+                self.dictionary,
+                communication,
+                mapping,
+                receive=receive,
+                may_change=lambda: self.nmt_state is NmtState.PRE_OPERATIONAL,
+                on_change=lambda: self.on_routes_changed(),
+            )
+        except (KeyError, SdoAbortedError):
+            expected = "expected objects that exist and can be mapped, or none"
+            raise InputError(f"{self._eds}: default mapping in {mapping:04X}h cannot be used ({expected})") from None
 
     def send(self, cob_id: int, data: bytes) -> None:
         """Send a frame, if the node is on the bus."""

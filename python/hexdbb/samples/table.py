@@ -12,6 +12,7 @@ again for them. For the engine the table takes the form of `block`: mounts are t
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -242,7 +243,7 @@ class Samples:
     def _repr_html_(self) -> str:
         flat = self.columns()
         rows = [[_cell(flat[name][row]) for name in SHOWN] for row in range(min(SHOWN_ROWS, len(self)))]
-        return f"<p>{len(self)} samples; columns {', '.join(self.column_names)}</p>{html_table(SHOWN, rows)}"
+        return f"<p>{len(self)} samples; columns {escape(', '.join(self.column_names))}</p>{html_table(SHOWN, rows)}"
 
     def _tabulated(self, effect: OwnEffect, values: Floats) -> Tabulated:
         """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs."""

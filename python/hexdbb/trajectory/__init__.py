@@ -5,11 +5,14 @@ slider. Time laws are computed by ruckig, kinematics by the engine; `Targets` ma
 """
 
 from hexdbb.trajectory.approach import approach
+from hexdbb.trajectory.extent import ROWS_MAX, Extent
 from hexdbb.trajectory.programme import Phase, Programme, Table
 from hexdbb.trajectory.runs import plan_programme
 from hexdbb.trajectory.targets import NominalTargets, TargetRows, Targets
 
 __all__ = [
+    "ROWS_MAX",
+    "Extent",
     "NominalTargets",
     "Phase",
     "Programme",

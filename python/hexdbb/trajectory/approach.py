@@ -12,10 +12,11 @@ import numpy as np
 
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
+from hexdbb.trajectory.extent import SETTLE_S
 from hexdbb.trajectory.limits import LIMIT_FRACTIONS, fastest_within_limits, path_limits
 from hexdbb.trajectory.poses import Array, Poses, straight_path
 from hexdbb.trajectory.programme import Phase, Programme, Segment, Table, Tabulator
-from hexdbb.trajectory.runs import SAME_POSE_MM, SETTLE_S
+from hexdbb.trajectory.runs import SAME_POSE_MM
 from hexdbb.trajectory.time_law import rest_to_rest
 
 START_TOLERANCE_MM = 1e-3
@@ -62,8 +63,9 @@ def approach(sliders_mm: Array, programme: Programme, machine: MachineFile, plan
     def approach_at(limit_fraction: float) -> Table:
         poses = here
         if path.length_mm > SAME_POSE_MM:
-            limits = path_limits(path, machine, limit_fraction, lambda _: f"{plan_name}: approach")
-            poses = path.poses(rest_to_rest(path.length_mm, limits, programme.cycle_s))
+            where = f"{plan_name}: approach"
+            limits = path_limits(path, machine, limit_fraction, lambda _: where)
+            poses = path.poses(rest_to_rest(path.length_mm, limits, programme.cycle_s, where))
         move = Segment.uncaptured(Phase.APPROACH, -1, poses)
         segments = [_rest(here, programme.cycle_s), move, _rest(move.end, programme.cycle_s)]
         return tabulator.tabulate(segments, before=UNKNOWN_TRAVEL, after=programme.first_travel)[0]

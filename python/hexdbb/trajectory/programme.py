@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import CircleRun
+from hexdbb.trajectory.extent import Extent
 from hexdbb.trajectory.limits import TooFastError, check_motion
 from hexdbb.trajectory.poses import Array, Poses
 from hexdbb.trajectory.targets import TargetRows, Targets
@@ -131,6 +132,11 @@ class Programme:
     def duration_s(self) -> float:
         """Time from the first to the last row, s."""
         return (len(self.table) - 1) * self.cycle_s
+
+    @property
+    def extent(self) -> Extent:
+        """Machine time, rows and memory of the table."""
+        return Extent(len(self.table) * self.cycle_s, self.cycle_s)
 
     def after(self, approach: Table) -> Programme:
         """Return this programme with an approach before it."""

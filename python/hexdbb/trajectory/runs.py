@@ -13,20 +13,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import CircleRun, Plan
+from hexdbb.trajectory.extent import FEED_IN_MM, ROWS_MAX, SETTLE_S, Extent, require_extent, too_long
 from hexdbb.trajectory.limits import LIMIT_FRACTIONS, PROBE_DEG, fastest_within_limits, path_limits
 from hexdbb.trajectory.poses import PosePath, circle_poses, constant_bar_path, radial_path, straight_path
 from hexdbb.trajectory.programme import Phase, Programme, Segment, Tabulator, describe
 from hexdbb.trajectory.targets import NominalTargets, Targets
 from hexdbb.trajectory.time_law import feed_law, rest_to_rest
 
-FEED_IN_MM = 0.5
-"""Radial distance between the point where the bar is mounted and the circle: half the range of a usual gauge (±1 mm),
-so that the bar can be mounted with a margin of 0.5 mm to either side."""
-SETTLE_S = 0.4
-"""Rest after every stop, in which the position loops settle: eight time constants of a slow loop (gain 20 /s),
-after which 0.03 % of the following error are left."""
 SAME_POSE_MM = 1e-9
 """Limits the path length below which two poses count as one: a picometre, above the rounding of 100 mm (1e-14 mm)."""
 
@@ -56,9 +52,10 @@ def plan_programme(
     Raises
     ------
     InputError
-        The plan is out of reach or too fast: names plan, circle, angle and the limit.
+        The plan takes more than `ROWS_MAX` rows, is out of reach or too fast: names plan, circle, angle and the limit.
     """
     runs = tuple(plan.runs())
+    require_extent(runs, plan.overshoot_deg, machine.can_setup.limits, cycle_s, plan_name)
     targets = NominalTargets(machine) if targets is None else targets
     tabulator = Tabulator(runs, machine, cycle_s, plan_name, targets)
 
@@ -93,6 +90,9 @@ class _SegmentBuilder:
             if segments:
                 segments += self.transfer(index, segments[-1], own[0])
             segments += own
+            rows = sum(len(each.capture) for each in segments)
+            if rows > ROWS_MAX:
+                raise InputError(f"{self.plan_name}: {too_long(Extent(rows * self.cycle_s, self.cycle_s))}")
         return segments
 
     def run(self, index: int) -> Iterator[Segment]:
@@ -122,7 +122,8 @@ class _SegmentBuilder:
         )
         limits = replace(limits, velocity_mm_s=run.feed_mm_min / 60.0)
         overshoot_mm = radius_mm * math.radians(self.overshoot_deg)
-        law = feed_law(overshoot_mm, run.laps * turn_mm, limits, self.cycle_s)
+        where = describe(self.plan_name, self.runs, Phase.ARC, index, math.nan)
+        law = feed_law(overshoot_mm, run.laps * turn_mm, limits, self.cycle_s, where)
         angle_rad = run.direction * law.u_mm / radius_mm
         poses = circle_poses(run, angle_rad, np.full_like(angle_rad, radius_mm))
         lap = np.where(law.capture, np.floor((law.u_mm + SAME_POSE_MM) / turn_mm).astype(np.int64), -1)
@@ -145,13 +146,9 @@ class _SegmentBuilder:
 
     def move(self, index: int, phase: Phase, path: PosePath) -> Segment:
         """Return a segment along a path from rest to rest, as fast as the fraction of the sliders' limits allows."""
-        limits = path_limits(
-            path,
-            self.machine,
-            self.limit_fraction,
-            lambda _: describe(self.plan_name, self.runs, phase, index, math.nan),
-        )
-        u_mm = rest_to_rest(path.length_mm, limits, self.cycle_s)
+        where = describe(self.plan_name, self.runs, phase, index, math.nan)
+        limits = path_limits(path, self.machine, self.limit_fraction, lambda _: where)
+        u_mm = rest_to_rest(path.length_mm, limits, self.cycle_s, where)
         return Segment.uncaptured(phase, index, path.poses(u_mm))
 
     def settle(self, after: Segment) -> Segment:

@@ -13,7 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from ruckig import ControlInterface, InputParameter, Ruckig, Trajectory
+from ruckig import ControlInterface, InputParameter, Ruckig, RuckigError, Trajectory
+
+from hexdbb.errors import InputError
+from hexdbb.trajectory.extent import ROWS_MAX, Extent, too_long
 
 ROUNDING = 1e-9
 """Limits what counts as rounding, in cycles and in mm: above the rounding of double precision over 1e6 cycles, far
@@ -45,14 +48,20 @@ class FeedLaw:
     lead_mm: float
 
 
-def rest_to_rest(length_mm: float, limits: PathLimits, cycle_s: float) -> NDArray[np.float64]:
-    """Compute the path coordinate per cycle from rest at 0 to rest at `length_mm`, both ends included; (n,) mm."""
-    trajectory = _fastest(length_mm, limits)
-    cycles = math.ceil(trajectory.duration / cycle_s)
-    return _sampled(trajectory, cycles, cycle_s)
+def rest_to_rest(length_mm: float, limits: PathLimits, cycle_s: float, where: str = "path") -> NDArray[np.float64]:
+    """Compute the path coordinate per cycle from rest at 0 to rest at `length_mm`, both ends included; (n,) mm.
+
+    Raises
+    ------
+    InputError
+        There is no time law within the limits, or it has more than `ROWS_MAX` rows; begins with `where`.
+    """
+    return _sampled(_fastest(length_mm, limits, where), cycle_s, where)
 
 
-def feed_law(overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s: float) -> FeedLaw:
+def feed_law(
+    overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s: float, where: str = "path"
+) -> FeedLaw:
     """Compute the time law of a capture: rest to feed, constant over overshoot, capture and overshoot, then to rest.
 
     Parameters
@@ -61,14 +70,20 @@ def feed_law(overshoot_mm: float, capture_mm: float, limits: PathLimits, cycle_s
     capture_mm : captured length, driven at exactly `limits.velocity_mm_s`
     limits : the feed, and the acceleration and jerk of the ramps
     cycle_s : time between two samples
+    where : name of the path in errors
+
+    Raises
+    ------
+    InputError
+        There is no time law within the limits, or it has more than `ROWS_MAX` rows.
     """
     feed_mm_s = limits.velocity_mm_s
-    ramp_mm, ramp_s = _ramp(limits)
+    ramp_mm, ramp_s = _ramp(limits, where)
     to_capture_s = ramp_s + overshoot_mm / feed_mm_s
     lead_cycles = math.ceil(to_capture_s / cycle_s - ROUNDING)
     lead_mm = ramp_mm + overshoot_mm + (lead_cycles * cycle_s - to_capture_s) * feed_mm_s
-    trajectory = _fastest(capture_mm + 2 * lead_mm, limits)
-    u_mm = _sampled(trajectory, math.ceil(trajectory.duration / cycle_s), cycle_s) - lead_mm
+    trajectory = _fastest(capture_mm + 2 * lead_mm, limits, where)
+    u_mm = _sampled(trajectory, cycle_s, where) - lead_mm
     u_mm[lead_cycles] = 0.0  # exact but for rounding
     capture = (np.arange(len(u_mm)) >= lead_cycles) & (u_mm < capture_mm - ROUNDING)
     return FeedLaw(u_mm, capture, lead_mm)
@@ -82,29 +97,36 @@ def _input(limits: PathLimits) -> InputParameter:
     return parameter
 
 
-def _fastest(length_mm: float, limits: PathLimits) -> Trajectory:
+def _fastest(length_mm: float, limits: PathLimits, where: str) -> Trajectory:
     parameter = _input(limits)
     parameter.target_position = [length_mm]
-    return _calculated(parameter)
+    return _calculated(parameter, limits, where)
 
 
-def _ramp(limits: PathLimits) -> tuple[float, float]:
+def _ramp(limits: PathLimits, where: str) -> tuple[float, float]:
     """Return length (mm) and time (s) from rest to the limit velocity."""
     parameter = _input(limits)
     parameter.control_interface = ControlInterface.Velocity
     parameter.target_velocity = [limits.velocity_mm_s]
-    trajectory = _calculated(parameter)
+    trajectory = _calculated(parameter, limits, where)
     (length_mm,), _, _ = trajectory.at_time(trajectory.duration)
     return length_mm, trajectory.duration
 
 
-def _calculated(parameter: InputParameter) -> Trajectory:
+def _calculated(parameter: InputParameter, limits: PathLimits, where: str) -> Trajectory:
     trajectory = Trajectory(1)
-    Ruckig(1).calculate(parameter, trajectory)
+    try:
+        Ruckig(1).calculate(parameter, trajectory)
+    except RuckigError:
+        found = f"{limits.velocity_mm_s:.3g} mm/s, {limits.acceleration_mm_s2:.3g} mm/s², {limits.jerk_mm_s3:.3g} mm/s³"
+        expected = "a feed and limits of the sliders that a path can be driven with"
+        raise InputError(f"{where}: no time law with {found} along the path (expected {expected})") from None
     return trajectory
 
 
-def _sampled(trajectory: Trajectory, cycles: int, cycle_s: float) -> NDArray[np.float64]:
-    """Return the position at cycles 0 .. `cycles`, (n,) mm; beyond its end the trajectory rests."""
+def _sampled(trajectory: Trajectory, cycle_s: float, where: str) -> NDArray[np.float64]:
+    """Return the position at every cycle, (n,) mm, up to the first one at or after the end, where it rests."""
     end_s = trajectory.duration
-    return np.array([trajectory.at_time(min(k * cycle_s, end_s))[0][0] for k in range(cycles + 1)])
+    if end_s > ROWS_MAX * cycle_s:
+        raise InputError(f"{where}: {too_long(Extent(end_s, cycle_s))}")
+    return np.array([trajectory.at_time(min(k * cycle_s, end_s))[0][0] for k in range(math.ceil(end_s / cycle_s) + 1)])

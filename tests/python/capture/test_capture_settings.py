@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -50,6 +51,13 @@ def test_every_setting_is_in_the_node_afterwards(drive: tuple[RemoteDevice, cano
     assert node.sdo[0x1016][1].raw >> 16 == 127
 
 
+def test_sync_has_no_period_in_lockstep() -> None:
+    def period(timed: bool) -> list[int]:
+        return [each.value for each in drive_settings(shipped_machine(), CYCLE_S, timed) if each.index == 0x1006]
+
+    assert (period(True), period(False)) == ([4000], [0])
+
+
 def test_a_node_that_keeps_another_value_is_refused(drive: tuple[RemoteDevice, canopen.LocalNode]) -> None:
     device, node = drive
     node.add_read_callback(lambda index, subindex, od: 1000 if index == 0x6065 else None)
@@ -90,10 +98,50 @@ def test_silent_node_is_named(drive: tuple[RemoteDevice, canopen.LocalNode]) -> 
         device.read(0x6041)
 
 
+@pytest.mark.parametrize(
+    ("answer", "why"),
+    [
+        (b"\x43\x00\x10", r"SDO answer of 3 bytes \(43 00 10\) \(expected 8\)"),
+        (b"\x43\x18\x10\x01\x92\x01\x02\x00", "returned index|returned a value for"),
+        (b"\xe0\x00\x10\x00\x92\x01\x02\x00", "response|Unexpected"),
+    ],
+)
+def test_answer_that_is_none_is_named(answer: bytes, why: str) -> None:
+    name = f"answers{answer.hex()}"
+    with can.Bus(interface="virtual", channel=name) as ours, can.Bus(interface="virtual", channel=name) as theirs:
+        link = Link(ours)
+        finished = threading.Event()
+
+        def serve() -> None:
+            while not finished.is_set():
+                if theirs.recv(0.02) is not None:
+                    theirs.send(can.Message(arbitration_id=0x583, data=answer, is_extended_id=False))
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        try:
+            with link.threaded(), pytest.raises(RunError, match=r"^node 3 \(slider 3\): .*1000:00.*") as caught:
+                RemoteDevice(link, 3, "slider 3", EDS).read(0x1000)
+        finally:
+            finished.set()
+            thread.join()
+    assert re.search(why, str(caught.value))
+
+
+@pytest.mark.parametrize("index", [0x1000, 0x1400, 0x1600, 0x1800, 0x1A00, 0x6131])
+def test_object_missing_from_the_eds_is_named_with_node_and_file(index: int, tmp_path: Path) -> None:
+    eds = tmp_path / "lean.eds"
+    eds.write_text(without(f"{index:04X}"))
+    with can.Bus(interface="virtual", channel=f"missing{index}") as bus:
+        device = RemoteDevice(Link(bus), 3, "slider 3", eds)
+        with pytest.raises(RunError, match=rf"^node 3 \(slider 3\): no object {index:04X}:01 in .*lean\.eds"):
+            device.read(index, 1)
+
+
 def without(index: str) -> str:
     """The drive's EDS without one object."""
     text = EDS.read_text()
-    text = re.sub(rf"\[{index}(sub\w+)?\]\n(?:[^\[].*\n|\n)*", "", text)
+    text = re.sub(rf"\[{index}(sub\w+)?\]\n(?:[^\[\n].*\n|\n)*", "", text)
     return re.sub(rf"(?m)^\d+=0x{index}\n", "", text)
 
 

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 import os
 import re
+import select
 import signal
 import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
 
+import can
 import pyarrow as pa
 import pytest
 
@@ -153,9 +155,21 @@ def holds_a_batch(journal: Path) -> bool:
         return False
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize(
+    ("number", "cause"),
+    [
+        (signal.SIGINT, "interrupted by the user"),
+        (signal.SIGTERM, "interrupted by the user"),
+        (signal.SIGQUIT, r"interrupted by the user \(SIGQUIT\)"),
+        (signal.SIGHUP, r"interrupted, the terminal was closed \(SIGHUP\)"),
+    ],
+)
 def test_interrupted_run_stops_and_keeps(
-    number: signal.Signals, start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+    number: signal.Signals,
+    cause: str,
+    start_rig: Callable[..., object],
+    command: Callable[..., list[str]],
+    tmp_path: Path,
 ) -> None:
     with start_rig() as rig:
         line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
@@ -167,10 +181,25 @@ def test_interrupted_run_stops_and_keeps(
         assert rig.velocities(DRIVES) == [0] * 6
         assert "no client on the bus" not in rig.log.read_text()
     assert process.returncode == 1
-    assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
+    assert re.match(f"error: hexdbb-run: {cause} at t = .*; {STOPPED}; ", said.splitlines()[-1])
     record = read_record(tmp_path / "run.parquet")
     assert not record.complete
     assert len(record) > 10
+
+
+def test_impatient_user_still_sees_the_cause_and_what_was_kept(
+    command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    line = command("--plan", "thesis", "--seed", 1)
+    process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+    wait_for_samples(process, tmp_path / "run.parquet")
+    while process.poll() is None and process.stderr is not None:
+        process.send_signal(signal.SIGINT)
+        if select.select([process.stderr], [], [], 0.05)[0] and "error: " in (said := process.stderr.readline()):
+            break
+    process.communicate(timeout=30)
+    kept = r"\d+ samples kept in .*run\.parquet, marked incomplete"
+    assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; {kept}", said)
 
 
 def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
@@ -183,6 +212,22 @@ def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
     _, said = process.communicate(timeout=30)
     assert process.returncode == 1
     assert re.match(f"error: hexdbb-run: interrupted by the user at t = .*; {STOPPED}; ", said.splitlines()[-1])
+
+
+def test_emergency_cut_short_stops_the_axes_and_keeps_cause_and_record(
+    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+) -> None:
+    with start_rig() as rig:
+        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+        wait_for_samples(process, tmp_path / "run.parquet")
+        rig.observer.send(can.Message(arbitration_id=0x083, data=b"\x10\x23", is_extended_id=False))
+        _, said = process.communicate(timeout=60)
+        assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
+    assert process.returncode == 1
+    cause = rf"node 3 \(slider 3\): EMCY 2310h, cut short to 2 bytes \(10 23\) \(expected none\) at t = .*; {STOPPED}; "
+    assert re.match(f"error: {cause}", said.splitlines()[-1])
+    assert re.match(cause, incomplete(tmp_path / "run.parquet").metadata["incomplete_because"] + "; ")
 
 
 def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(

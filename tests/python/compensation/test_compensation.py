@@ -173,7 +173,11 @@ def test_the_file_of_another_machine_is_refused(tmp_path: Path) -> None:
         (",".join(POSE_COLUMNS) + "\n", "no poses"),
         (",".join(POSE_COLUMNS) + "\n1,2,3,4,5,six\n", 'line 2: yaw_deg: "six"'),
         (",".join(POSE_COLUMNS) + "\n1,2,285,0,0,0\n1,nan,285,0,0,0\n", 'line 3: y_mm: "nan"'),
-        (",".join(POSE_COLUMNS) + "\n1,2,285,0,0\n", 'line 2: yaw_deg: ""'),
+        (",".join(POSE_COLUMNS) + "\n1,2,285,0,0,\n", 'line 2: yaw_deg: ""'),
+        (",".join(POSE_COLUMNS) + "\n1,2,285,0,0\n", r"line 2: cells: 5 \(expected 6, as the first line has\)"),
+        (",".join(POSE_COLUMNS) + "\n10,5,20,285,0,0,0\n", "line 2: cells: 7 .*the decimal mark is a point"),
+        (",".join(POSE_COLUMNS) + "\n10,20,285,0,0,0\n11,20,285,0,0,0,5\n", "line 3: cells: 7"),
+        (",".join(POSE_COLUMNS) + '\n10,20,285,0,0,"0\n', "line 2: a stray quote"),
     ],
 )
 def test_a_wrong_table_of_poses_is_refused(tmp_path: Path, text: str, expected: str) -> None:

@@ -183,3 +183,15 @@ def test_written_and_read_again_to_the_last_bit(thickness: float, place: tuple[f
     again = parse_toml(dump_toml(plate), Plate, "dumped")
     assert again == plate
     assert repr(again) == repr(plate), "also the sign of zero"
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ("[" * 3000 + "]" * 3000, "plate.toml: not valid TOML: nested too deep"),
+        ("{a=" * 3000 + "1" + "}" * 3000, "plate.toml: not valid TOML: nested too deep"),
+        ("9" * 5000, "plate.toml: not valid TOML: a number with too many digits"),
+    ],
+)
+def test_what_the_toml_reader_itself_gives_up_on_is_one_line(value: str, message: str) -> None:
+    assert error_of(f"extra = {value}\n{GOOD}").startswith(message)

@@ -84,9 +84,12 @@ def test_recovered_record_may_have_another_name_and_form(record: Record, tmp_pat
 
 def test_file_that_is_no_journal_is_refused(record: Record, tmp_path: Path) -> None:
     write_record(record, tmp_path / "a.parquet")
+    (tmp_path / "plain.journal").write_text("no journal")
     for arguments, message in [
         ((tmp_path / "a.parquet",), "not named RECORD.journal"),
-        ((tmp_path / "a.parquet", "-o", tmp_path / "b.parquet"), "holds no samples"),
+        ((tmp_path / "a.parquet", "-o", tmp_path / "b.parquet"), "is whole (expected a damaged record"),
+        ((tmp_path / "a.parquet", "-o", tmp_path / "a.parquet", "--overwrite"), "is the file to recover"),
+        ((tmp_path / "plain.journal", "-o", tmp_path / "b.parquet"), "holds no samples"),
         ((tmp_path / "none.parquet.journal",), "no such file"),
     ]:
         done = hexdbb("recover", *arguments)

@@ -189,6 +189,40 @@ def test_journal_of_an_interrupted_capture_is_not_lost(record: Record, tmp_path:
     assert len(recover(journal.journal_path)) == len(record)
 
 
+def test_capture_killed_before_its_first_samples_is_no_dead_end(record: Record, tmp_path: Path) -> None:
+    place = journal_path(tmp_path / "a.parquet")
+    for begun, kept in ((b"", []), (b"\xff\xff\xff\xff\x40", [b"\xff\xff\xff\xff\x40"])):
+        place.write_bytes(begun)
+        with journal_of(record, tmp_path / "a.parquet", overwrite=True) as journal:
+            journal.append(record.columns)
+            assert len(journal.finish()) == len(record)
+        assert [path.read_bytes() for path in tmp_path.glob("a.parquet.journal*")] == kept
+
+
+def test_overwriting_sets_a_journal_with_samples_aside(record: Record, tmp_path: Path) -> None:
+    for number in (1, 2):
+        with journal_of(record, tmp_path / "a.parquet", overwrite=True) as journal:
+            journal.append(part(record, slice(0, 10 * number)))
+        again = journal_of(record, tmp_path / "a.parquet", overwrite=True)
+        assert again.set_aside == tmp_path / f"a.parquet.journal.{number}"
+        assert len(recover(again.set_aside)) == 10 * number
+        again.close()
+
+
+def test_disk_full_at_the_end_names_the_journal(
+    record: Record, tmp_path: Path, disk_full_after: Callable[[int], AbstractContextManager[None]]
+) -> None:
+    with journal_of(record, tmp_path / "a.parquet") as journal:
+        journal.append(record.columns)
+        journal.close()
+        with (
+            disk_full_after(100),
+            pytest.raises(RunError, match=r"a\.parquet: cannot be written.*hexdbb recover .*journal$"),
+        ):
+            journal.finish()
+    assert len(recover(journal.journal_path)) == len(record)
+
+
 def test_places_that_cannot_be_written_are_refused(record: Record, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such directory"):
         journal_of(record, tmp_path / "none" / "a.parquet")

@@ -118,6 +118,14 @@ BAD_CELLS = [
     ("-1.5,1.5", "-1.5,1.0", "a.csv: row 4 (line 5): t_s: 1 (expected a time after 1.0, the row before)"),
     ("-1.5,1.5", "-1.5", "a.csv: row 4 (line 5): cells: 14 (expected 15, as the first line has)"),
     ("-1.5,1.5", "-1.5,1.5,,", "a.csv: row 4 (line 5): cells: 17 (expected 15"),
+    (
+        "-1.5,1.5",
+        "-1,5,1.5",
+        "a.csv: row 4 (line 5): cells: 16 (expected 15, as the first line has; the decimal mark is a point)",
+    ),
+    ("-1.5,1.5", '"-1.5,1.5', "a.csv: line 5: a stray quote (expected every quote closed in its line"),
+    ("-1.5,1.5", '-1.5","1.5', "a.csv: line 5: a stray quote"),
+    ("reading_um", '"reading_um', "a.csv: line 1: a stray quote"),
     ("-1.5,1.5", "-1.5,1;5", 'a.csv: row 4 (line 5): t_s: "1;5" (expected a number)'),
     (",600,on", ",6000,on", "a.csv: row 1 (line 2): s6_mm: 6000 (expected within the travel"),
     ("0.5,0,0", "0.5,1e99,0", "a.csv: row 2 (line 3): circle: 1e+99 (expected a whole number from"),
@@ -126,6 +134,28 @@ BAD_CELLS = [
     ("lap", "t_s", "a.csv: column t_s: occurs twice"),
     (",", ";", "a.csv: line 1: one column 'reading_um;t_s;"),
 ]
+
+
+def test_a_stray_quote_in_a_long_file_is_named_by_its_line(place: Path) -> None:
+    """The standard library gives up after 131,072 characters of one cell, with an exception of its own."""
+    rows = [f"-1.5,{row},0,0,1,0,0.0,754,100,200,300,400,500,600,on" for row in range(5000)]
+    rows[70] = '"' + rows[70]
+    write(place, [HEADER, *rows])
+    assert error_of(place).startswith("a.csv: line 72: a stray quote")
+
+
+def test_two_stray_quotes_do_not_swallow_the_rows_between_them(place: Path) -> None:
+    """In a column of text the rows would become one cell, and no number would be wrong."""
+    rows = [ROWS[0].removesuffix("on") + '"on', ROWS[1] + '"', *ROWS[2:]]
+    write(place, [HEADER, *rows])
+    assert error_of(place).startswith("a.csv: line 2: a stray quote")
+
+
+def test_names_with_commas_and_quotes_are_written_so_that_they_are_read_again(place: Path) -> None:
+    record = read_record(place / "a.csv")
+    record.columns['load, "N"'] = np.arange(4.0)
+    write_record(record, place / "b.csv")
+    assert read_record(place / "b.csv").columns['load, "N"'].tolist() == [0.0, 1.0, 2.0, 3.0]
 
 
 @pytest.mark.parametrize(("old", "new", "message"), BAD_CELLS)

@@ -13,7 +13,7 @@ from hexdbb.errors import InputError
 from hexdbb.kinematics import forward, inverse, rotation_from_rpy, rpy_from_rotation
 from hexdbb.plan import Plan, load_plan
 from hexdbb.trajectory import Phase, Programme, approach, plan_programme
-from hexdbb.trajectory.runs import FEED_IN_MM
+from hexdbb.trajectory.extent import FEED_IN_MM
 from hexdbb.trajectory.time_law import PathLimits, feed_law, rest_to_rest
 
 CYCLE_S = 0.004

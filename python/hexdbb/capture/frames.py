@@ -1,0 +1,137 @@
+"""What a frame from the bus must be like before anything else looks at it.
+
+One guard for all readers: a bus hands on data frames with 11-bit identifiers only, and a frame of a CANopen service is
+examined for its length before its service is processed. Nothing that a device or another computer sends raises behind
+this guard.
+Source: CiA 301, predefined connection set and frame lengths of NMT, EMCY, SDO and error control.
+"""
+
+from __future__ import annotations
+
+import struct
+import time
+from collections import deque
+from typing import Protocol
+
+import can
+
+from hexdbb.capture.transport import one_line
+
+NODE_MASK = 0x7F
+NMT, EMCY_BASE, SDO_ANSWER_BASE, HEARTBEAT_BASE = 0x000, 0x080, 0x580, 0x700
+"""CAN identifiers of node 0 (predefined connection set)."""
+LENGTHS = {
+    NMT: ("NMT command", 2),
+    EMCY_BASE: ("EMCY", 8),
+    SDO_ANSWER_BASE: ("SDO answer", 8),
+    HEARTBEAT_BASE: ("heartbeat", 1),
+}
+"""Name and number of data bytes of a service, by its identifier for node 0."""
+MAX_FOREIGN = 1000
+"""Frames of another kind to skip in one read: twenty times what a bus carries in a cycle of 4 ms, and a flood of them
+cannot hold up the loop."""
+KEPT_FOREIGN = 16
+"""Number of foreign frames kept as text; memory does not grow."""
+
+
+class FrameSource(Protocol):
+    """What `GuardedBus` needs of a bus."""
+
+    def recv(self, timeout: float | None = None) -> can.Message | None:
+        """Return the next frame, or None after `timeout` seconds."""
+
+    def send(self, msg: can.Message, timeout: float | None = None) -> None:
+        """Send a frame."""
+
+
+class GuardedBus:
+    """A bus of which nothing but data frames with 11-bit identifiers is seen, and that raises `can.CanError` only.
+
+    Parameters
+    ----------
+    bus : can.BusABC
+        An open bus; the caller closes it.
+
+    Attributes
+    ----------
+    foreign : deque of str
+        The last frames that were skipped: error frames of the controller, remote and extended frames.
+    """
+
+    def __init__(self, bus: FrameSource) -> None:
+        self._bus = bus
+        self.foreign: deque[str] = deque(maxlen=KEPT_FOREIGN)
+
+    def recv(self, timeout: float | None = None) -> can.Message | None:
+        """Return the next data frame with an 11-bit identifier, or None after `timeout` seconds.
+
+        Raises
+        ------
+        can.CanError
+            The bus cannot receive.
+        """
+        end_s = None if timeout is None else time.monotonic() + timeout
+        left_s = timeout
+        for _ in range(MAX_FOREIGN):
+            message = self._receive(left_s)
+            if message is None:
+                return None
+            if not (message.is_extended_id or message.is_error_frame or message.is_remote_frame or message.is_fd):
+                return message
+            self.foreign.append(str(message).strip())
+            left_s = None if end_s is None else max(end_s - time.monotonic(), 0.0)
+        return None
+
+    def send(self, msg: can.Message, timeout: float | None = None) -> None:
+        """Send a frame; raises `can.CanError` if the bus cannot."""
+        try:
+            self._bus.send(msg, timeout)
+        except (can.CanError, OSError):
+            raise
+        except Exception as error:
+            raise can.CanOperationError(f"cannot send: {one_line(error)}") from error
+
+    def notes(self) -> list[str]:
+        """Return one line for each kind of thing that was skipped, with the last of them."""
+        skipped = {"frame other than data with an 11-bit identifier": self.foreign}
+        skipped["message that cannot be parsed"] = getattr(self._bus, "dropped", deque())
+        return [f"bus: skipped, {what}: {last[-1]}" for what, last in skipped.items() if last]
+
+    def _receive(self, timeout: float | None) -> can.Message | None:
+        try:
+            return self._bus.recv(timeout)
+        except (can.CanError, OSError):
+            raise
+        except Exception as error:
+            # Drivers parse what comes from outside, and raise what their parsers raise.
+            raise can.CanOperationError(f"cannot receive: {one_line(error)}") from error
+
+
+def service_of(can_id: int) -> tuple[int, int]:
+    """Return service (its identifier for node 0) and node of an 11-bit identifier."""
+    return can_id & ~NODE_MASK, can_id & NODE_MASK
+
+
+def malformed(can_id: int, data: bytes | bytearray) -> str | None:
+    """Return what is wrong with a frame of a CANopen service as part of a message, or None.
+
+    Parameters
+    ----------
+    can_id : int
+        Its 11-bit identifier.
+    data : bytes
+        Its data, 0 to 8 bytes.
+    """
+    service, node = service_of(can_id)
+    if service not in LENGTHS or (service == NMT) != (node == 0):
+        return None
+    what, length = LENGTHS[service]
+    if len(data) == length:
+        return None
+    found = f"{len(data)} bytes ({data.hex(' ').upper()})" if data else "0 bytes"
+    return f"{what} of {found} (expected {length})"
+
+
+def emergency_code(data: bytes | bytearray) -> int | None:
+    """Return the error code of an EMCY, also of one cut short; None if its first two bytes are missing."""
+    return int(struct.unpack_from("<H", data)[0]) if len(data) >= 2 else None

@@ -1,0 +1,176 @@
+"""Are the answers to successive SYNCs such as a machine can give? History of positions and readings, and their limits.
+
+An answer may be well-formed and wrong: a gauge that repeats its last reading, an encoder that jumps and comes back, a
+reading disturbed once. Each would be recorded as an error of the machine.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass, field
+
+from hexdbb.capture.exchange import Feedback
+from hexdbb.plan import Gauge
+
+SLOWEST_LOOP_S = 0.1
+"""Largest time constant of a position loop, s: twice that of a gain of 1 m/min per mm (17 /s, 60 ms), the lowest in use
+on machine tools. By it a change of the commanded velocity becomes a change of the following error."""
+DISTURBANCE_MM = 0.1
+"""Change of the following error between two SYNCs that friction and load may cause beside, mm: twenty times that of a
+reversal with stiction (some micrometres), far below what a lost or doubled encoder word makes."""
+COMMANDED_SYNCS = 50
+"""SYNCs over which a change of the commanded velocity acts on: 0.2 s at 250 Hz, two of the slowest time constants."""
+SPIKE_UM = 40.0
+"""A reading that differs from both its neighbours by this is a disturbance, µm: reversal spikes last longer than one
+sample at 250 Hz and reach some 10 to 30 µm on worn machines."""
+NOISE_SIGMAS = 12.0
+"""The same in standard deviations of a gauge noisier than usual: never reached by chance."""
+CHANCE = 1e-12
+"""Probability that a working gauge repeats a reading as often as a frozen one is allowed to: none in 1000 years of
+runs."""
+FEWEST_REPEATS, MOST_REPEATS = 10, 250
+"""Bounds of these repetitions, SYNCs: a driver may deliver a few readings twice; one second at 250 Hz bounds what is
+lost of a gauge whose noise is small beside its resolution or not stated."""
+
+
+def frozen_after(gauge: Gauge) -> int:
+    """Return the number of SYNCs after which an unchanged reading is a frozen one.
+
+    A reading rounded to steps of q stays the same with a probability of at most erf(q / (2 sqrt(2) sigma)).
+    """
+    if not gauge.noise_um:
+        return MOST_REPEATS
+    same = math.erf(gauge.resolution_um / (2.0 * math.sqrt(2.0) * gauge.noise_um))
+    if same <= 0.0:
+        return FEWEST_REPEATS
+    if same >= 1.0:
+        return MOST_REPEATS
+    return min(max(math.ceil(math.log(CHANCE) / math.log(same)), FEWEST_REPEATS), MOST_REPEATS)
+
+
+@dataclass
+class Plausibility:
+    """History of the answers, as far as the checks need it.
+
+    Attributes
+    ----------
+    counts_per_mm : float
+        Encoder scale.
+    cycle_s : float
+        SYNC period, s.
+    velocity_mm_s : float
+        Largest velocity of a slider.
+    ball_mm_s : float
+        Largest velocity of the ball: no reading changes faster.
+    noise_um : float
+        Standard deviation of one reading; 0 where it is not stated.
+    repeats : int
+        Unchanged readings from which the gauge is frozen.
+    same : int
+        Unchanged readings so far.
+    """
+
+    counts_per_mm: float
+    cycle_s: float
+    velocity_mm_s: float
+    ball_mm_s: float
+    noise_um: float
+    repeats: int
+    same: int = 0
+    _before: tuple[list[int], list[int]] | None = None
+    _position_steps: list[int] = field(default_factory=list)
+    _error_steps: list[int] = field(default_factory=list)
+    _targets: list[int] | None = None
+    _target_steps: list[int] | None = None
+    _accelerations: deque[float] = field(default_factory=lambda: deque(maxlen=COMMANDED_SYNCS))
+    _readings: deque[float] = field(default_factory=lambda: deque(maxlen=3))
+
+    def update(self, feedback: Feedback, expected: list[int], missed: int, gauge_watched: bool) -> None:
+        """Take in the answers to a SYNC.
+
+        Parameters
+        ----------
+        feedback : Feedback
+        expected : list of int
+            Targets that the positions belong to, counts, shape (6,).
+        missed : int
+            Cycles missed before the SYNC.
+        gauge_watched : bool
+            Whether the bar is mounted and the ball on its circle.
+        """
+        self._command(expected, missed)
+        self._position_steps, self._error_steps = [], []
+        if not feedback.settled or missed:
+            self._before = None
+            self._readings.clear()
+            if missed:
+                self.same = 0
+                return
+        errors = [target - position for target, position in zip(expected, feedback.position, strict=True)]
+        if feedback.settled:
+            if self._before is not None:
+                positions, before = self._before
+                self._position_steps = [a - b for a, b in zip(feedback.position, positions, strict=True)]
+                self._error_steps = [a - b for a, b in zip(errors, before, strict=True)]
+            self._before = (list(feedback.position), errors)
+            self._read(feedback.reading_um, gauge_watched)
+
+    def _command(self, expected: list[int], missed: int) -> None:
+        if self._targets is not None:
+            steps = [a - b for a, b in zip(expected, self._targets, strict=True)]
+            if missed:
+                # The target stood still for the cycles missed: the drives stopped and started again.
+                self._accelerations.append(max(map(abs, steps)) / self.cycle_s)
+            if self._target_steps is not None:
+                changes = [abs(a - b) for a, b in zip(steps, self._target_steps, strict=True)]
+                self._accelerations.append(max(changes) / self.cycle_s)
+            self._target_steps = steps
+        self._targets = list(expected)
+
+    def _read(self, reading_um: float, gauge_watched: bool) -> None:
+        if not gauge_watched:
+            self._readings.clear()
+            self.same = 0
+            return
+        self.same = self.same + 1 if self._readings and self._readings[-1] == reading_um else 0
+        self._readings.append(reading_um)
+
+    def jump(self) -> tuple[int, float, float] | None:
+        """Return the slot of a position that jumped, its step and the limit (mm), or None."""
+        scale = abs(self.counts_per_mm)
+        limit = 1.1 * self.velocity_mm_s * self.cycle_s * scale + 2.0
+        for slot, step in enumerate(self._position_steps):
+            if abs(step) > limit:
+                return slot, step / self.counts_per_mm, limit / scale
+        # The commanded acceleration acts on for a while; its sum bounds what any loop makes of it.
+        follows = SLOWEST_LOOP_S * max(self._accelerations, default=0.0) + DISTURBANCE_MM * scale + 2.0
+        for slot, (step, moved) in enumerate(zip(self._error_steps, self._position_steps, strict=True)):
+            # A slider that jams lags behind more and more; one that jumps moves.
+            if abs(step) > follows and abs(moved) > follows:
+                return slot, step / self.counts_per_mm, follows / scale
+        return None
+
+    def spike(self) -> tuple[float, float] | None:
+        """Return the size of a reading's jump that no motion makes and its limit, µm, or None.
+
+        The last reading but one against its neighbours, or the last against what the ball can have moved.
+        """
+        if len(self._readings) < 2:
+            return None
+        step = self._readings[-1] - self._readings[-2]
+        fastest = 1.1e3 * self.ball_mm_s * self.cycle_s + NOISE_SIGMAS * self.noise_um
+        if abs(step) > fastest:
+            return step, fastest
+        if len(self._readings) < 3:
+            return None
+        first, middle, last = self._readings
+        limit = max(SPIKE_UM, NOISE_SIGMAS * self.noise_um)
+        off = middle - 0.5 * (first + last)
+        if abs(off) > limit and abs(last - first) < 0.5 * abs(off):
+            return off, limit
+        return None
+
+    def is_frozen(self) -> bool:
+        """Return whether the reading has not changed for longer than noise allows."""
+        return self.same >= self.repeats
