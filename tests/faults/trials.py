@@ -19,7 +19,7 @@ ATTEMPTS = 3
 three SYNCs that a node may leave unanswered, which says nothing about the fault."""
 STALLED = "this computer stalled every run before the fault"
 TRACEBACK = 70
-LONGEST_STOP_MS = 3000.0
+LONGEST_STOP_MS = 5000.0
 """Wall-clock time from a fault to the quick stop, ms: in lockstep a node is silent after three waits of 0.25 s, and the
 computer may be busy."""
 
