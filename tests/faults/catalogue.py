@@ -293,7 +293,12 @@ FAULTS: list[Fault] = [
     _rig("gauge out of range", "gauge-out-of-range", r"node 7 .*6150"),
     _rig("sensor break", "gauge-break", r"node 7 .*6150"),
     _rig("drive fault", "drive-fault:3", r"node 3 .*EMCY 2310h"),
-    _rig("slider jammed", "following-error:1", r"node 1 .*(following error|from its target|EMCY 8611h)", moves_machine=True),
+    _rig(
+        "slider jammed",
+        "following-error:1",
+        r"node 1 .*(following error|from its target|EMCY 8611h)",
+        moves_machine=True,
+    ),
     _rig("limit switch", "limit-switch:6", r"node 6 .*EMCY 8612h", moves_machine=True),
     _rig("enable lost", "enable-lost:1", r"node 1 .*switch on disabled", moves_machine=True),
     _rig("mode lost", "mode-lost:4", r"node 4 .*6061"),
