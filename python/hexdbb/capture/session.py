@@ -151,7 +151,9 @@ class _Run:
                 ball_mm_s=max(run.feed_mm_min for run in programme.runs) / 60.0,
                 noise_um=request.plan.gauge.noise_um or 0.0,
                 repeats=frozen_after(request.plan.gauge),
+                reading_step_um=can_setup.limits.gauge_step_um,
             ),
+            real_time=clock.real_time,
             late_s=exchange.late_s,
             interrupts=interrupts,
         )
