@@ -23,7 +23,7 @@ from hexdbb.capture.cia402 import (
 )
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
 from hexdbb.capture.interrupts import Interrupts
-from hexdbb.capture.lag import MEMORY
+from hexdbb.capture.lag import EVERY, MEMORY
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 
@@ -275,7 +275,8 @@ def _shifted(watch: Watch) -> Fault | None:
 
 
 def _lost_reading(watch: Watch) -> Fault | None:
-    if watch.real_time or not watch.gauge_watched or GAUGE_SLOT not in watch.feedback.missing:
+    missing = watch.feedback.missing
+    if watch.real_time or not watch.gauge_watched or GAUGE_SLOT not in missing or len(missing) == len(watch.labels):
         return None
     what = "TPDO1 missing after a SYNC in lockstep, where a later answer could be the one to it"
     return Fault(watch.labels[GAUGE_SLOT], f"{what} (expected one after every SYNC)")
@@ -288,7 +289,13 @@ def _reading_changes(watch: Watch) -> Fault | None:
     spike = plausibility.spike()
     if spike is not None:
         off_um, limit_um = spike
-        return Fault(label, f"object 6130:01 jumped by {off_um:+.1f} µm (expected at most {limit_um:.1f} µm)", 1)
+        jumped = f"jumped by {off_um:+.1f} µm (expected at most {limit_um:.1f} µm)"
+        stuck = plausibility.left_behind()
+        if stuck is not None:
+            slot, behind_mm = stuck
+            what = f"object 6064:00 fell {behind_mm:.3f} mm behind its target in one SYNC, and the reading {jumped}"
+            return Fault(watch.labels[slot], what, 1)
+        return Fault(label, f"object 6130:01 {jumped}", 1)
     if plausibility.is_frozen():
         same = plausibility.same
         what = f"object 6130:01 is {watch.feedback.reading_um:.1f} µm, unchanged for {same} SYNCs"

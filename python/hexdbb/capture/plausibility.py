@@ -63,6 +63,7 @@ class Plausibility:
     _before: tuple[list[int], list[int]] | None = None
     _position_steps: list[int] = field(default_factory=list)
     _error_steps: list[int] = field(default_factory=list)
+    _recent: deque[list[int]] = field(default_factory=lambda: deque(maxlen=3))
     _targets: list[int] | None = None
     _target_steps: list[int] | None = None
     _accelerations: deque[float] = field(default_factory=lambda: deque(maxlen=COMMANDED_SYNCS))
@@ -99,6 +100,7 @@ class Plausibility:
                 positions, before = self._before
                 self._position_steps = [a - b for a, b in zip(feedback.position, positions, strict=True)]
                 self._error_steps = [a - b for a, b in zip(errors, before, strict=True)]
+                self._recent.append(self._error_steps)
             self._before = (list(feedback.position), errors)
             if not gauge_watched:
                 self.lag.pause()
@@ -142,6 +144,12 @@ class Plausibility:
             if abs(step) > follows and abs(moved) > follows:
                 return slot, step / self.counts_per_mm, follows / scale
         return None
+
+    def left_behind(self) -> tuple[int, float] | None:
+        """Return the slot of the axis that fell behind its target most in the last SYNCs, and by how much, mm; or None."""
+        scale = abs(self.counts_per_mm)
+        worst = max(((abs(step), slot) for steps in self._recent for slot, step in enumerate(steps)), default=(0, 0))
+        return (worst[1], worst[0] / scale) if worst[0] > DISTURBANCE_MM * scale else None
 
     def spike(self) -> tuple[float, float] | None:
         """Return the size of a reading's jump that no motion makes and its limit, µm, or None.

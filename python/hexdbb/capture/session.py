@@ -170,7 +170,7 @@ class _Run:
         )
         with journal:
             samples = SampleBuffer(programme, journal, self.counts_per_mm)
-            cause = self._move(programme, samples) or _too_few(samples, programme)
+            cause = self._move(programme, samples) or self._too_few(samples, programme)
             try:
                 samples.flush()
                 record = journal.finish(complete=cause is None, reason=cause, until_s=samples.until_s)
@@ -253,14 +253,15 @@ class _Run:
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"
         return f"{cause} at t = {time_s:.3f} s; {outcome}"
 
-
-def _too_few(samples: SampleBuffer, programme: Programme) -> str | None:
-    """Return what is missing of a run that came to its end, if it is more than a record may lack."""
-    planned = int(programme.table.capture.sum())
-    lost = planned - samples.count
-    if lost <= MAX_LOST * planned:
-        return None
-    return (
-        f"{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired with their "
-        f"SYNC (expected at most {MAX_LOST:.0%})"
-    )
+    def _too_few(self, samples: SampleBuffer, programme: Programme) -> str | None:
+        """Return what is missing of a run that came to its end, if it is more than a record may lack."""
+        planned = int(programme.table.capture.sum())
+        lost = planned - samples.count
+        if lost <= MAX_LOST * planned:
+            return None
+        repeated, slot = self.loop.repeated
+        why = "" if slot is None else f"{self.watch.labels[slot]}: {repeated} answers too many: "
+        return (
+            f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "
+            f"with their SYNC (expected at most {MAX_LOST:.0%})"
+        )
