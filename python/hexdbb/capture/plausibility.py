@@ -146,7 +146,7 @@ class Plausibility:
         return None
 
     def left_behind(self) -> tuple[int, float] | None:
-        """Return the slot of the axis that fell behind its target most in the last SYNCs, and by how much, mm; or None."""
+        """Return the slot of the axis that fell behind its target most of late, and by how much, mm; or None."""
         scale = abs(self.counts_per_mm)
         worst = max(((abs(step), slot) for steps in self._recent for slot, step in enumerate(steps)), default=(0, 0))
         return (worst[1], worst[0] / scale) if worst[0] > DISTURBANCE_MM * scale else None
