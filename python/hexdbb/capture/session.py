@@ -172,8 +172,9 @@ class _Run:
                 samples.flush()
                 record = journal.finish(complete=cause is None, reason=cause, until_s=samples.until_s)
             except RunError as error:
-                known = cause is not None and str(error) in cause
-                raise RunError(cause if known else "; ".join(filter(None, (cause, str(error))))) from None
+                if cause is not None and str(error) in cause:
+                    raise RunError(cause) from None
+                raise RunError("; ".join(filter(None, (cause, str(error))))) from None
         if cause is not None:
             raise RunError(f"{cause}; {len(record)} samples kept in {record.path}, marked incomplete")
         return record
