@@ -74,6 +74,11 @@ test-python: setup  ## Python tests
 	@echo "==> Python tests"
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
+.PHONY: foreign
+foreign: setup  ## the controller against a CANopen stack that is not ours (needs node and npm)
+	@$(STEP) "CANopen stack of npm" npm install --silent --no-save --prefix build/foreign canopen@6.2.1
+	@HEXDBB_FOREIGN=ON $(BIN)/python -m pytest tests/python/capture/test_foreign_stack.py
+
 .PHONY: sanitize
 sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(STEP) "Configure the C++ tests (sanitize)" cmake --preset sanitize

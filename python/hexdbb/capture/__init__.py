@@ -1,8 +1,10 @@
 """`hexdbb-run`: the CANopen controller that drives the circles of a plan and records them.
 
-Modules from the bus upwards: `transport` opens the bus and `link` shares it between threads; `sdo`, `settings` and
-`boot` configure the nodes; `exchange` and `loop` run the communication cycles; `motion` moves the axes while `checks`
-examines every answer; `sample_buffer` turns answers into rows of the record; `session` is one measurement.
+Modules from the bus upwards: `transport` opens the bus, `frames` examines what comes from it and `link` shares it
+between threads; `eds` reads what devices are, `fitness` decides whether they can run the test; `sdo`, `settings`,
+`configuration` and `boot` configure the nodes; `exchange` and `loop` run the communication cycles; `motion` moves the
+axes while `checks` examines every answer; `sample_buffer` turns answers into rows of the record; `session` is one
+measurement.
 
 Source: CiA 301 (application layer), CiA 402-2 (drives), CiA 404 (measuring devices).
 """

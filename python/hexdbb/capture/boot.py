@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import canopen
 
 from hexdbb.capture.cia402 import CYCLIC_SYNCHRONOUS_POSITION
+from hexdbb.capture.configuration import configure_drive, configure_gauge
 from hexdbb.capture.fitness import DRIVE_PROFILE, GAUGE_PROFILE, Level, findings
 from hexdbb.capture.link import Link
 from hexdbb.capture.sdo import RemoteDevice, name
-from hexdbb.capture.settings import configure_drive, configure_gauge
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
 

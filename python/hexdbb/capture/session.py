@@ -24,7 +24,7 @@ from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
-from hexdbb.capture.plausibility import Plausibility, frozen_after
+from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
@@ -32,6 +32,7 @@ from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
+from hexdbb.record.plausibility import frozen_after
 from hexdbb.trajectory import Phase, Programme, approach
 
 log = logging.getLogger(__name__)
@@ -150,7 +151,9 @@ class _Run:
                 ball_mm_s=max(run.feed_mm_min for run in programme.runs) / 60.0,
                 noise_um=request.plan.gauge.noise_um or 0.0,
                 repeats=frozen_after(request.plan.gauge),
+                reading_step_um=can_setup.limits.gauge_step_um,
             ),
+            real_time=clock.real_time,
             late_s=exchange.late_s,
             interrupts=interrupts,
         )

@@ -14,12 +14,14 @@ from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup
+from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import Supervision
 
 DRIVES, GAUGE = (1, 2, 3, 4, 5, 6), 7
 LABELS = (*(f"node {node} (slider {node})" for node in DRIVES), "node 7 (gauge)")
+CYCLE_S = 0.004
 HOMED = 0x8000
-STATUSWORDS = {0x00: 0x0240, 0x80: 0x0240, 0x06: 0x0221, 0x07: 0x0223, 0x0F: 0x0227, 0x02: 0x0207}
+STATUSWORDS = {0x00: 0x0240, 0x80: 0x0240, 0x06: 0x0221, 0x07: 0x0223, 0x0F: 0x1227, 0x02: 0x0207}
 """Statusword after each controlword, of a drive that obeys."""
 
 
@@ -86,5 +88,13 @@ def axes_on(bus: ScriptedBus) -> AxisGroup:
         max_stall=25,
         max_missed=250,
         expected=loop.counts,
+        plausibility=Plausibility(
+            counts_per_mm=1000.0,
+            cycle_s=CYCLE_S,
+            velocity_mm_s=250.0,
+            ball_mm_s=150.0,
+            noise_um=0.0,
+            repeats=1_000_000,
+        ),
     )
-    return AxisGroup(loop, watch, LABELS, cycle_s=0.004)
+    return AxisGroup(loop, watch, LABELS, cycle_s=CYCLE_S)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from tests.python.capture.scripted_bus import DRIVES, GAUGE, ScriptedBus, axes_on
 
-from hexdbb.capture.exchange import MAX_BACKLOG, Exchange
+from hexdbb.capture.exchange import MAX_BACKLOG, Exchange, Feedback
 from hexdbb.capture.frames import GuardedBus
 from hexdbb.capture.link import Link
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
@@ -26,12 +26,23 @@ FAULT_SYNC = 5
 """SYNC of the capture before whose answers a test puts its frames."""
 
 
+class Kept:
+    """Counts rows."""
+
+    count = 0
+
+    def keep(self, row: int, feedback: Feedback) -> None:
+        self.count += 1
+
+    def settle(self, paired: bool, held: int) -> None:
+        assert paired
+
+
 def follow(axes: AxisGroup) -> int:
     """Follow a table of standing targets; return the number of rows kept."""
-    kept: list[int] = []
-    table = np.zeros((ROWS, 6), dtype=np.int32)
-    axes.follow(table, np.zeros(ROWS, dtype=bool), lambda row, _: kept.append(row), {})
-    return len(kept)
+    kept = Kept()
+    axes.follow(np.zeros((ROWS, 6), dtype=np.int32), np.zeros(ROWS, dtype=bool), kept, {})
+    return kept.count
 
 
 def moving(bus: ScriptedBus, *frames: tuple[int, bytes]) -> AxisGroup:

@@ -12,10 +12,11 @@ import canopen
 import pytest
 
 from hexdbb.capture.boot import DRIVE_PROFILE, GAUGE_PROFILE, identify
+from hexdbb.capture.configuration import map_pdo
 from hexdbb.capture.link import Link
 from hexdbb.capture.pdo import DRIVE_RPDO
 from hexdbb.capture.sdo import RemoteDevice
-from hexdbb.capture.settings import Setting, apply, drive_settings, map_pdo
+from hexdbb.capture.settings import Setting, apply, drive_settings
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import shipped, shipped_machine
 

@@ -13,12 +13,13 @@ from click.testing import CliRunner
 from tests.python.capture.eds_mutations import DRIVE, GAUGE, mutated, with_key, without
 
 from hexdbb.capture.boot import Devices, refuse_unfit
+from hexdbb.capture.configuration import map_pdo
 from hexdbb.capture.eds import read_eds
 from hexdbb.capture.fitness import Fitness, Level, examine
 from hexdbb.capture.link import Link
 from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO
 from hexdbb.capture.sdo import RemoteDevice
-from hexdbb.capture.settings import Setting, apply, drive_settings, map_pdo
+from hexdbb.capture.settings import Setting, apply, drive_settings
 from hexdbb.cli import cli
 from hexdbb.cli.schemas import json_schema
 from hexdbb.errors import HexdbbError, InputError, RunError
