@@ -126,6 +126,7 @@ class Exchange:
         self.last_repeated: int | None = None
         self._given_up: set[int] = set()
         self._outstanding: set[int] = set()
+        self._owed = [0] * SLOTS
         self._sync_s = 0.0
 
     def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
@@ -150,7 +151,7 @@ class Exchange:
 
     def send_sync(self) -> None:
         """Send the SYNC; raises `can.CanError` if the bus cannot send."""
-        self.feedback.settled = not self._outstanding
+        self.feedback.settled = not any(self._owed)
         self._bus.send(self._sync)
         self._sync_s = time.monotonic()
         self.feedback.cycle += 1
@@ -209,8 +210,19 @@ class Exchange:
         return not self._outstanding <= self._given_up
 
     def end_waiting(self) -> None:
-        """Count the missing answers as lost: the answers to the next SYNC are its own."""
+        """Wait no longer for the missing answers: they are owed, and may come instead of those to a later SYNC."""
+        for slot in self._outstanding:
+            self._owed[slot] += 1
         self._outstanding = set()
+
+    @property
+    def owed(self) -> int:
+        """Number of answers that no SYNC waits for any more but that may still come."""
+        return sum(self._owed)
+
+    def forget_owed(self) -> None:
+        """Count the answers owed as lost: those to the next SYNC are its own."""
+        self._owed = [0] * SLOTS
 
     def give_up(self, slots: Iterable[int]) -> None:
         """Stop waiting for the answers of some slots; they count as missing."""
@@ -230,8 +242,12 @@ class Exchange:
         if slot is None:
             self._other(message.arbitration_id, message.data, message.timestamp)
         elif slot not in self._outstanding:
-            self.doubtful, self.last_repeated = True, slot
-            self.repeated += 1
+            self.doubtful = True
+            if self._owed[slot]:
+                self._owed[slot] -= 1
+            else:
+                self.last_repeated = slot
+                self.repeated += 1
         elif late:
             self._outstanding.discard(slot)
             self.late_s[slot] = time.monotonic() - self._sync_s

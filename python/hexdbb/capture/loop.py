@@ -25,6 +25,9 @@ T = TypeVar("T")
 QUIET_S = 0.001
 """Silence on the bus after which, in lockstep, no answer is on its way, s: some five round trips of a socketcand server
 on the same computer (0.1 to 0.3 ms). What comes later still is found by the next look."""
+OWED_S = 0.08
+"""Time after which, in real time, an answer that has not come is looked for once more, s: below the time without
+targets after which drives stop (100 ms), which bounds how long a node may be held up."""
 PAUSE_POLL_S = 0.005
 """Time between two repetitions of the targets during a pause in lockstep: well below the RPDO timeout (100 ms)."""
 STALL_PATIENCE = 8
@@ -45,6 +48,8 @@ class Loop:
         Pace.
     heartbeat_s : float
         Period of the controller's heartbeat, s.
+    cycle_s : float
+        SYNC period, s.
 
     Attributes
     ----------
@@ -58,7 +63,7 @@ class Loop:
         Targets sent last, counts, shape (6,).
     """
 
-    def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float) -> None:
+    def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float, cycle_s: float) -> None:
         self._link, self._exchange, self.clock = link, exchange, clock
         self._heartbeat_s, self._heartbeat_due_s = heartbeat_s, 0.0
         self._heartbeat = can.Message(
@@ -69,6 +74,7 @@ class Loop:
         self.last_missed = 0
         self.counts: list[int] = [0] * 6
         self._incomplete = False
+        self._owing, self._owed_cycles = 0, max(2, round(OWED_S / cycle_s))
         clock.start()
 
     @property
@@ -104,10 +110,7 @@ class Loop:
         self.last_missed = self.clock.wait()
         self.missed += self.last_missed
         self._exchange.drain()
-        if self._incomplete and self._exchange.is_waiting():
-            # Were another SYNC sent now, a late answer would be taken for one to it, and so would all that follow.
-            self.last_missed += self.clock.let_pass(self._exchange.await_late)
-        self._exchange.end_waiting()
+        self._settle_answers()
         self.cycle_index += 1 + self.last_missed
         self._exchange.send_sync()
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
@@ -115,6 +118,30 @@ class Loop:
             self._wait_for_any(controlwords, counts)
         self._incomplete = bool(feedback.missing)
         return feedback
+
+    def _settle_answers(self) -> None:
+        """Leave a SYNC out where answers to earlier ones are missing.
+
+        Were another sent, a late answer would be taken for one to it, and so would all that follow. Where none came
+        in a cycle it may be later still: some cycles on, another SYNC is left out. What comes then was asked before;
+        where nothing comes, the answer was lost.
+        """
+        exchange = self._exchange
+        if self._incomplete and exchange.is_waiting():
+            self.last_missed += self.clock.let_pass(exchange.await_late)
+            self._owing = 0
+        exchange.end_waiting()
+        if not exchange.owed:
+            return
+        self._owing += 1
+        if not self.clock.real_time:
+            exchange.forget_owed()  # a node of lockstep had half a second
+        elif self._owing > self._owed_cycles:
+            owed = exchange.owed
+            self.last_missed += self.clock.let_pass(exchange.listen)
+            self._owing = 0
+            if exchange.owed == owed:
+                exchange.forget_owed()
 
     def confirm(self) -> bool:
         """Look whether every answer belonged to its SYNC since this was last called.

@@ -133,7 +133,7 @@ class _Run:
         limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
         supervision = Supervision([device.node_id for device in devices], link.notify, limit_s, request.silent_after)
         exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
-        self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0)
+        self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0, cycle_s)
         self.watch = Watch(
             feedback=exchange.feedback,
             supervision=supervision,

@@ -36,6 +36,10 @@ SYNC_PERIOD_S = 0.5
 half for the write itself."""
 
 
+REHEARSED_ROWS = 250
+"""Rows of the batch that is written to memory beforehand: a second at 250 Hz, more than a batch holds."""
+
+
 def journal_path(record_path: Path | str) -> Path:
     """Return the path of a record's journal, beside the record: `demo.parquet.journal`."""
     return Path(f"{record_path}.journal")
@@ -85,6 +89,7 @@ class Journal:
         header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
         # Once and here: it takes milliseconds, and raises for metadata that JSON cannot hold.
         self._metadata = to_table(header).schema.metadata
+        self._rehearse()
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
@@ -184,6 +189,14 @@ class Journal:
         if self._failure is not None:
             kept = f"what was written before is kept: hexdbb recover {self.journal_path}"
             raise RunError(f"{self.journal_path}: cannot be written: {self._failure} ({kept})")
+
+    def _rehearse(self) -> None:
+        """Write a batch to memory: what a first one costs must not be paid while axes move."""
+        columns = {name: np.zeros(REHEARSED_ROWS, kind) for name, kind in REQUIRED_COLUMNS.items()}
+        table = pa.table({name: pa.array(values) for name, values in columns.items()}, metadata=self._metadata)
+        with pa.ipc.new_stream(pa.BufferOutputStream(), table.schema) as stream:
+            for batch in table.to_batches():
+                write_batch(stream, batch, 0)
 
     def _write_until_stopped(self) -> None:
         try:

@@ -77,7 +77,7 @@ def axes_on(bus: ScriptedBus) -> AxisGroup:
     link = Link(bus)
     supervision = Supervision([*DRIVES, GAUGE], link.notify, heartbeat_limit_s=60.0)
     exchange = Exchange(link.bus, DRIVES, GAUGE, supervision.on_frame)
-    loop = Loop(link, exchange, Lockstep(patience_s=0.01), heartbeat_s=60.0)
+    loop = Loop(link, exchange, Lockstep(patience_s=0.01), heartbeat_s=60.0, cycle_s=0.004)
     watch = Watch(
         feedback=exchange.feedback,
         supervision=supervision,
