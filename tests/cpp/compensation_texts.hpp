@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <random>
 #include <string>
@@ -61,7 +62,8 @@ inline std::string noisy(std::string text, std::size_t begin, std::size_t length
   const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
   const std::string part = text.substr(begin, length);
   for (std::size_t change = 0; change <= below(4); ++change) {
-    const std::size_t at = begin + below(length), span = 1 + below(8);
+    const std::size_t left = std::min(length, text.size() - begin);  // erasing has made the text shorter
+    const std::size_t at = begin + below(left), span = 1 + below(8);
     switch (below(4)) {
       case 0:
         text[at] = alphabet[below(alphabet.size())];
@@ -73,7 +75,7 @@ inline std::string noisy(std::string text, std::size_t begin, std::size_t length
         text.insert(at, part.substr(below(length), span));
         break;
       default:
-        std::swap(text[at], text[begin + below(length)]);
+        std::swap(text[at], text[begin + below(left)]);
     }
   }
   return text;

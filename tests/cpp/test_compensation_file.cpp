@@ -160,5 +160,26 @@ TEST(CompensationFile, HeaderHoldsEveryValue) {
   EXPECT_NE(header.find("    " + std::to_string(values) + ", /* values */"), std::string::npos);
 }
 
+TEST(CompensationFile, RecordsOfTheModelAreReadBackFromTheirComments) {
+  CompensationData data = everything();
+  data.record_sha256 = {"0123abcd", "a \"quoted\" one"};
+  const CompensationData again = parse_compensation(compensation_text(data), "a.hexcomp");
+  EXPECT_EQ(again.record_sha256, data.record_sha256);
+  EXPECT_NE(compensation_header(again).find("0123abcd"), std::string::npos);
+}
+
+TEST(CompensationFile, NoNameLeavesTheCommentOfTheHeader) {
+  CompensationData data = everything();
+  for (const std::string name :
+       {"x */ int evil = 1; /*", "x *\\\n/ int evil = 1; /*", "*\n/ int evil = 1;", "x \\", "\xc2"}) {
+    data.name = data.model_sha256 = name;
+    data.record_sha256 = {name};
+    const std::string header = compensation_header(data);
+    const std::size_t end = header.find("*/");
+    EXPECT_EQ(header.compare(end, 32, "*/\n#ifndef HEXDBB_COMPENSATION_C"), 0) << name;
+    EXPECT_EQ(header.substr(2, end).find("/*"), std::string::npos) << name;
+  }
+}
+
 }  // namespace
 }  // namespace hexdbb::testing

@@ -124,11 +124,11 @@ class BusLog:
         return max(stopped_at - begin - 1, 0), max(stopped_s - self.cycles[begin].time_s, 0.0)
 
     def standing(self) -> bool:
-        """Return whether every drive that answered the last SYNCs stood still."""
+        """Return whether every drive that answered the last SYNC stood still."""
         last = self.cycles[-STANDING_SYNCS:]
-        for node in DRIVES:
+        for node in last[-1].positions if last else ():
             positions = [cycle.positions[node] for cycle in last if node in cycle.positions]
-            if positions and max(positions) - min(positions) > STANDING_COUNTS:
+            if max(positions) - min(positions) > STANDING_COUNTS:
                 return False
         return True
 

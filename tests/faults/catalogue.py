@@ -160,7 +160,8 @@ def _reading(change: Callable[[float], float]) -> Transformation:
 
 
 def _silent_node_in_a_flood(lockstep: bool) -> list[Rule]:
-    flood = flooded(Frame(0x555, bytes(8)), per_second=300_000, seconds=4.0, silent=True)
+    """Send as many frames as a bus of 1 Mbit/s can carry, while a node is silent."""
+    flood = flooded(Frame(0x555, bytes(8)), per_second=20_000, seconds=4.0, silent=True)
     return [Rule(tpdo(3), IN, flood, AT_S), Rule(tpdo(3), IN, drop, AT_S, FOREVER)]
 
 
@@ -243,7 +244,7 @@ FAULTS: list[Fault] = [
     Fault(
         "flood of other frames, a node silent",
         CAPTURING,
-        "300000 a second for 4 s",
+        "20000 a second for 4 s",
         r"node 3 ",
         _silent_node_in_a_flood,
     ),
@@ -292,7 +293,12 @@ FAULTS: list[Fault] = [
     _rig("gauge out of range", "gauge-out-of-range", r"node 7 .*6150"),
     _rig("sensor break", "gauge-break", r"node 7 .*6150"),
     _rig("drive fault", "drive-fault:3", r"node 3 .*EMCY 2310h"),
-    _rig("slider jammed", "following-error:1", r"node 1 .*(following error|from its target)", moves_machine=True),
+    _rig(
+        "slider jammed",
+        "following-error:1",
+        r"node 1 .*(following error|from its target|EMCY 8611h)",
+        moves_machine=True,
+    ),
     _rig("limit switch", "limit-switch:6", r"node 6 .*EMCY 8612h", moves_machine=True),
     _rig("enable lost", "enable-lost:1", r"node 1 .*switch on disabled", moves_machine=True),
     _rig("mode lost", "mode-lost:4", r"node 4 .*6061"),

@@ -16,6 +16,7 @@ from hexdbb.capture.boot import add_devices
 from hexdbb.capture.checks import Watch, find_fault
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.link import Link
+from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 from hexdbb.machine import shipped_machine
 
@@ -84,7 +85,19 @@ def read(path: Path) -> object:
     bus, nodes = ScriptedBus(frames_of(path.read_text(errors="replace"))), list(range(1, 8))
     supervision = Supervision(nodes, link().notify, 0.3)
     exchange = Exchange(bus, nodes[:6], 7, supervision.on_frame)  # type: ignore[arg-type]
-    watch = Watch(exchange.feedback, supervision, LABELS, 30_000, 1000.0, 10_000.0, 25, 250, [100_000] * 6, True)
+    watch = Watch(
+        feedback=exchange.feedback,
+        supervision=supervision,
+        labels=LABELS,
+        window=30_000,
+        range_um=1000.0,
+        counts_per_mm=10_000.0,
+        max_stall=25,
+        max_missed=250,
+        expected=[100_000] * 6,
+        plausibility=Plausibility(10_000.0, 0.004, 250.0, 12.5, 0.5, 50),
+        gauge_watched=True,
+    )
     for node in nodes:  # the network is made once; every input finds it as nodes that are operational leave it
         link().notify(0x700 + node, bytearray([NMT_OPERATIONAL]), 0.0)
     messages = []

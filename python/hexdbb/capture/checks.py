@@ -23,6 +23,7 @@ from hexdbb.capture.cia402 import (
 )
 from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
 from hexdbb.capture.interrupts import Interrupts
+from hexdbb.capture.lag import EVERY, MEMORY
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 
@@ -84,6 +85,8 @@ class Watch:
         Targets (counts) that the positions of the last SYNC belong to, shape (6,).
     plausibility : Plausibility
         History of positions and readings, and their limits.
+    real_time : bool
+        Whether SYNCs are sent at fixed times.
     repeated : int
         Answers too many so far.
     last_repeated : int or None
@@ -110,6 +113,7 @@ class Watch:
     max_missed: int
     expected: list[int]
     plausibility: Plausibility
+    real_time: bool = False
     repeated: int = 0
     last_repeated: int | None = None
     gauge_watched: bool = False
@@ -261,6 +265,23 @@ def _jump(watch: Watch) -> Fault | None:
     return Fault(watch.labels[slot], what)
 
 
+def _shifted(watch: Watch) -> Fault | None:
+    found = watch.plausibility.lag.shifted()
+    if found is None:
+        return None
+    slot, lag, expected = found
+    what = f"object 6064:00 lags {lag:.1f} cycles behind its targets (expected {expected:.1f}, as at first)"
+    return Fault(watch.labels[slot], f"{what}: its answers are another SYNC's", MEMORY + EVERY)
+
+
+def _lost_reading(watch: Watch) -> Fault | None:
+    missing = watch.feedback.missing
+    if watch.real_time or not watch.gauge_watched or GAUGE_SLOT not in missing or len(missing) == len(watch.labels):
+        return None
+    what = "TPDO1 missing after a SYNC in lockstep, where a later answer could be the one to it"
+    return Fault(watch.labels[GAUGE_SLOT], f"{what} (expected one after every SYNC)")
+
+
 def _reading_changes(watch: Watch) -> Fault | None:
     if not watch.gauge_watched:
         return None
@@ -268,7 +289,13 @@ def _reading_changes(watch: Watch) -> Fault | None:
     spike = plausibility.spike()
     if spike is not None:
         off_um, limit_um = spike
-        return Fault(label, f"object 6130:01 jumped by {off_um:+.1f} µm (expected at most {limit_um:.1f} µm)", 1)
+        jumped = f"jumped by {off_um:+.1f} µm (expected at most {limit_um:.1f} µm)"
+        stuck = plausibility.left_behind()
+        if stuck is not None:
+            slot, behind_mm = stuck
+            what = f"object 6064:00 fell {behind_mm:.3f} mm behind its target in one SYNC, and the reading {jumped}"
+            return Fault(watch.labels[slot], what, 1)
+        return Fault(label, f"object 6130:01 {jumped}", 1)
     if plausibility.is_frozen():
         same = plausibility.same
         what = f"object 6130:01 is {watch.feedback.reading_um:.1f} µm, unchanged for {same} SYNCs"
@@ -320,6 +347,7 @@ CHECKS: list[Check] = [
     Check("length of answers", _wrong_length),
     Check("answers", _answers),
     Check("SYNC of others", _foreign_sync),
+    Check("lost reading", _lost_reading),
     Check("drive states", _drive_states),
     Check("modes", _modes),
     Check("emergencies", _emergencies),
@@ -330,6 +358,7 @@ CHECKS: list[Check] = [
     Check("lasting bits", _lasting_bits),
     Check("following error", _following),
     Check("jump of a position", _jump),
+    Check("lag of a position", _shifted),
     Check("gauge", _gauge),
     Check("changes of the reading", _reading_changes),
     Check("answers too many", _repeated),

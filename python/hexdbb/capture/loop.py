@@ -22,9 +22,9 @@ from hexdbb.capture.settings import CONTROLLER_NODE
 from hexdbb.capture.supervision import NMT_OPERATIONAL
 
 T = TypeVar("T")
-QUIET_S = 0.002
-"""Silence on the bus after which, in lockstep, no answer is on its way, s: some ten round trips of a socketcand server
-on the same computer (0.1 to 0.3 ms)."""
+QUIET_S = 0.001
+"""Silence on the bus after which, in lockstep, no answer is on its way, s: some five round trips of a socketcand server
+on the same computer (0.1 to 0.3 ms). What comes later still is found by the next look."""
 PAUSE_POLL_S = 0.005
 """Time between two repetitions of the targets during a pause in lockstep: well below the RPDO timeout (100 ms)."""
 STALL_PATIENCE = 8

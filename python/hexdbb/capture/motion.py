@@ -42,9 +42,9 @@ STOPPED_STATES = (
     DriveState.READY_TO_SWITCH_ON,
 )
 
-VERIFY_SYNCS = 100
-"""SYNCs in lockstep between two looks for answers too many: 2 ms of silence each, a twentieth of the time that so many
-cycles take. What is not verified is dropped if there is one."""
+VERIFY_SYNCS = 25
+"""SYNCs in lockstep between two looks for answers too many: 1 ms of silence each, a tenth of the time that so many
+cycles take. What is not verified is dropped if there is one: of a circle of 2,500 samples one in a hundred."""
 
 
 class Rows(Protocol):

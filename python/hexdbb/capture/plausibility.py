@@ -6,12 +6,12 @@ reading disturbed once. Each would be recorded as an error of the machine.
 
 from __future__ import annotations
 
-import math
 from collections import deque
 from dataclasses import dataclass, field
 
 from hexdbb.capture.exchange import Feedback
-from hexdbb.plan import Gauge
+from hexdbb.capture.lag import LagWatch
+from hexdbb.record.plausibility import NOISE_SIGMAS, SPIKE_UM
 
 SLOWEST_LOOP_S = 0.1
 """Largest time constant of a position loop, s: twice that of a gain of 1 m/min per mm (17 /s, 60 ms), the lowest in use
@@ -19,34 +19,10 @@ on machine tools. By it a change of the commanded velocity becomes a change of t
 DISTURBANCE_MM = 0.1
 """Change of the following error between two SYNCs that friction and load may cause beside, mm: twenty times that of a
 reversal with stiction (some micrometres), far below what a lost or doubled encoder word makes."""
+AFTER_REVERSAL = 5
+"""SYNCs after a reversal of any slider in which the reading may step: play is taken up, stiction ends."""
 COMMANDED_SYNCS = 50
 """SYNCs over which a change of the commanded velocity acts on: 0.2 s at 250 Hz, two of the slowest time constants."""
-SPIKE_UM = 40.0
-"""A reading that differs from both its neighbours by this is a disturbance, µm: reversal spikes last longer than one
-sample at 250 Hz and reach some 10 to 30 µm on worn machines."""
-NOISE_SIGMAS = 12.0
-"""The same in standard deviations of a gauge noisier than usual: never reached by chance."""
-CHANCE = 1e-12
-"""Probability that a working gauge repeats a reading as often as a frozen one is allowed to: none in 1000 years of
-runs."""
-FEWEST_REPEATS, MOST_REPEATS = 10, 250
-"""Bounds of these repetitions, SYNCs: a driver may deliver a few readings twice; one second at 250 Hz bounds what is
-lost of a gauge whose noise is small beside its resolution or not stated."""
-
-
-def frozen_after(gauge: Gauge) -> int:
-    """Return the number of SYNCs after which an unchanged reading is a frozen one.
-
-    A reading rounded to steps of q stays the same with a probability of at most erf(q / (2 sqrt(2) sigma)).
-    """
-    if not gauge.noise_um:
-        return MOST_REPEATS
-    same = math.erf(gauge.resolution_um / (2.0 * math.sqrt(2.0) * gauge.noise_um))
-    if same <= 0.0:
-        return FEWEST_REPEATS
-    if same >= 1.0:
-        return MOST_REPEATS
-    return min(max(math.ceil(math.log(CHANCE) / math.log(same)), FEWEST_REPEATS), MOST_REPEATS)
 
 
 @dataclass
@@ -67,8 +43,12 @@ class Plausibility:
         Standard deviation of one reading; 0 where it is not stated.
     repeats : int
         Unchanged readings from which the gauge is frozen.
+    reading_step_um : float
+        Largest change of the reading that is no smooth motion's, away from reversals.
     same : int
         Unchanged readings so far.
+    lag : LagWatch
+        Lag of each axis.
     """
 
     counts_per_mm: float
@@ -77,14 +57,21 @@ class Plausibility:
     ball_mm_s: float
     noise_um: float
     repeats: int
+    reading_step_um: float = SPIKE_UM
     same: int = 0
+    lag: LagWatch = field(init=False)
     _before: tuple[list[int], list[int]] | None = None
     _position_steps: list[int] = field(default_factory=list)
     _error_steps: list[int] = field(default_factory=list)
+    _recent: deque[list[int]] = field(default_factory=lambda: deque(maxlen=3))
     _targets: list[int] | None = None
     _target_steps: list[int] | None = None
     _accelerations: deque[float] = field(default_factory=lambda: deque(maxlen=COMMANDED_SYNCS))
     _readings: deque[float] = field(default_factory=lambda: deque(maxlen=3))
+    _since_reversal: int = 0
+
+    def __post_init__(self) -> None:
+        self.lag = LagWatch(self.counts_per_mm)
 
     def update(self, feedback: Feedback, expected: list[int], missed: int, gauge_watched: bool) -> None:
         """Take in the answers to a SYNC.
@@ -113,7 +100,12 @@ class Plausibility:
                 positions, before = self._before
                 self._position_steps = [a - b for a, b in zip(feedback.position, positions, strict=True)]
                 self._error_steps = [a - b for a, b in zip(errors, before, strict=True)]
+                self._recent.append(self._error_steps)
             self._before = (list(feedback.position), errors)
+            if not gauge_watched:
+                self.lag.pause()
+            elif self._target_steps is not None:
+                self.lag.update(self._target_steps, errors)
             self._read(feedback.reading_um, gauge_watched)
 
     def _command(self, expected: list[int], missed: int) -> None:
@@ -125,6 +117,8 @@ class Plausibility:
             if self._target_steps is not None:
                 changes = [abs(a - b) for a, b in zip(steps, self._target_steps, strict=True)]
                 self._accelerations.append(max(changes) / self.cycle_s)
+                turned = any(a * b <= 0 and a != b for a, b in zip(steps, self._target_steps, strict=True))
+                self._since_reversal = 0 if turned else self._since_reversal + 1
             self._target_steps = steps
         self._targets = list(expected)
 
@@ -151,10 +145,17 @@ class Plausibility:
                 return slot, step / self.counts_per_mm, follows / scale
         return None
 
+    def left_behind(self) -> tuple[int, float] | None:
+        """Return the slot of the axis that fell behind its target most of late, and by how much, mm; or None."""
+        scale = abs(self.counts_per_mm)
+        worst = max(((abs(step), slot) for steps in self._recent for slot, step in enumerate(steps)), default=(0, 0))
+        return (worst[1], worst[0] / scale) if worst[0] > DISTURBANCE_MM * scale else None
+
     def spike(self) -> tuple[float, float] | None:
         """Return the size of a reading's jump that no motion makes and its limit, µm, or None.
 
-        The last reading but one against its neighbours, or the last against what the ball can have moved.
+        The last reading but one against its neighbours, or the last against what the ball can have moved, and, away
+        from reversals, against the course of the two before.
         """
         if len(self._readings) < 2:
             return None
@@ -165,10 +166,13 @@ class Plausibility:
         if len(self._readings) < 3:
             return None
         first, middle, last = self._readings
-        limit = max(SPIKE_UM, NOISE_SIGMAS * self.noise_um)
+        limit = max(self.reading_step_um, NOISE_SIGMAS * self.noise_um)
         off = middle - 0.5 * (first + last)
         if abs(off) > limit and abs(last - first) < 0.5 * abs(off):
             return off, limit
+        bend = last - 2.0 * middle + first
+        if abs(bend) > limit and self._since_reversal > AFTER_REVERSAL:
+            return bend, limit
         return None
 
     def is_frozen(self) -> bool:

@@ -24,7 +24,7 @@ from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
-from hexdbb.capture.plausibility import Plausibility, frozen_after
+from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
@@ -32,6 +32,7 @@ from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
+from hexdbb.record.plausibility import frozen_after
 from hexdbb.trajectory import Phase, Programme, approach
 
 log = logging.getLogger(__name__)
@@ -150,7 +151,9 @@ class _Run:
                 ball_mm_s=max(run.feed_mm_min for run in programme.runs) / 60.0,
                 noise_um=request.plan.gauge.noise_um or 0.0,
                 repeats=frozen_after(request.plan.gauge),
+                reading_step_um=can_setup.limits.gauge_step_um,
             ),
+            real_time=clock.real_time,
             late_s=exchange.late_s,
             interrupts=interrupts,
         )
@@ -167,7 +170,7 @@ class _Run:
         )
         with journal:
             samples = SampleBuffer(programme, journal, self.counts_per_mm)
-            cause = self._move(programme, samples) or _too_few(samples, programme)
+            cause = self._move(programme, samples) or self._too_few(samples, programme)
             try:
                 samples.flush()
                 record = journal.finish(complete=cause is None, reason=cause, until_s=samples.until_s)
@@ -250,14 +253,15 @@ class _Run:
         outcome = "; ".join(unstopped) if unstopped else "all six axes stopped"
         return f"{cause} at t = {time_s:.3f} s; {outcome}"
 
-
-def _too_few(samples: SampleBuffer, programme: Programme) -> str | None:
-    """Return what is missing of a run that came to its end, if it is more than a record may lack."""
-    planned = int(programme.table.capture.sum())
-    lost = planned - samples.count
-    if lost <= MAX_LOST * planned:
-        return None
-    return (
-        f"{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired with their "
-        f"SYNC (expected at most {MAX_LOST:.0%})"
-    )
+    def _too_few(self, samples: SampleBuffer, programme: Programme) -> str | None:
+        """Return what is missing of a run that came to its end, if it is more than a record may lack."""
+        planned = int(programme.table.capture.sum())
+        lost = planned - samples.count
+        if lost <= MAX_LOST * planned:
+            return None
+        repeated, slot = self.loop.repeated
+        why = "" if slot is None else f"{self.watch.labels[slot]}: {repeated} answers too many: "
+        return (
+            f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "
+            f"with their SYNC (expected at most {MAX_LOST:.0%})"
+        )

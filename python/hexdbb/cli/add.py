@@ -12,6 +12,7 @@ from rich.table import Table
 from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, records_argument
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.diagnosis.learned_text import learned_parts
@@ -23,8 +24,6 @@ from hexdbb.ledger import add_effect
 from hexdbb.ledger.json_form import added_json
 from hexdbb.ledger.words import PLACES, arrow
 from hexdbb.model import Choice, LedgerStep, save_model
-from hexdbb.record import read_record
-from hexdbb.samples import Samples
 from hexdbb.units import readable_unit
 
 
@@ -65,7 +64,7 @@ def command(
         model.info(name)  # an unknown name is refused before records are read
     messages = message_console()
     with messages.status("reading records"):
-        samples = Samples.of([read_record(path) for path in records])
+        samples = read_samples(records, messages)
     require_usable_effects(samples, model, [name])
     with messages.status(f"adding {effect}: fitting with and without it, then without the held-out circles"):
         found = add_effect(samples, model, effect, robust=robust)

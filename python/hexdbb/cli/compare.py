@@ -11,13 +11,12 @@ from rich.progress import Progress
 from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument
 from hexdbb.comparison import Comparison, compare
 from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
-from hexdbb.record import read_record
-from hexdbb.samples import Samples
 
 
 @click.command("compare")
@@ -82,7 +81,7 @@ def _comparison(
 ) -> Comparison:
     model = existing_model(model_path, effects_path)
     progress.add_task("comparing", total=None)
-    return compare(Samples.of([read_record(path) for path in paths]), model, find_cause=find_cause)
+    return compare(read_samples(paths, progress.console), model, find_cause=find_cause)
 
 
 def _draw(comparison: Comparison, stem: Path, progress: Progress) -> list[Path]:

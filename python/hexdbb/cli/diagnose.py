@@ -11,6 +11,7 @@ from rich.console import Console
 
 from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option, own_effects
+from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.diagnosis.text import diagnosis_text
@@ -19,7 +20,6 @@ from hexdbb.files.atomic_file import refuse_existing, require_folder
 from hexdbb.identifiability import measured_sensitivity, minimal_set
 from hexdbb.ledger import fit_model
 from hexdbb.model import Model, load_model, new_model, save_model
-from hexdbb.record import read_record
 from hexdbb.samples import Samples
 
 DETERMINED = 1e-4
@@ -66,7 +66,7 @@ def command(
         require_folder(folder)
     messages = message_console()
     with messages.status("reading records"):
-        samples = Samples.of([read_record(path) for path in records])
+        samples = read_samples(records, messages)
     own = own_effects(effects_path)
     model = load_model(model_path, own) if model_path.exists() else _new_model(samples, model_path, messages)
     usual = model.with_mounts(samples.mounts).free

@@ -13,6 +13,7 @@ from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.discovery_text import print_discovery
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
 from hexdbb.discovery import (
     AutoStep,
@@ -26,7 +27,6 @@ from hexdbb.discovery import (
 )
 from hexdbb.files.atomic_file import refuse_existing, require_folder, write_text
 from hexdbb.model import Model, save_model
-from hexdbb.record import read_record
 from hexdbb.samples import Samples
 
 
@@ -93,7 +93,7 @@ def command(
     model = existing_model(model_path, effects_path)
     messages = message_console()
     with messages.status("reading records") as status:
-        samples = Samples.of([read_record(path) for path in records])
+        samples = read_samples(records, messages)
         if auto:
             console = None if as_json else output_console()
             steps, found = _automatic(samples, model, model_path, console, status.update, matters_um)

@@ -148,4 +148,6 @@ def read_compensation(path: Path, machine: MachineFile | None = None) -> _core.C
             _core.require_machine(data.machine, engine_machine(machine), str(path))
     except _core.CompensationError as error:
         raise InputError(str(error)) from None
+    except UnicodeDecodeError:  # of a message that quotes the file
+        raise InputError(f"{path}: not UTF-8 (expected a compensation file)") from None
     return data

@@ -39,6 +39,9 @@ class Limits(StrictModel):
     """Largest distance between commanded and actual slider coordinate; beyond it all axes stop."""
     gauge_range_um: Positive = DEFAULTS["limits"]["gauge_range_um"]
     """Largest reading, to either side; beyond it, or beyond the plan's `gauge.range_um`, all axes stop."""
+    gauge_step_um: Positive = DEFAULTS["limits"]["gauge_step_um"]
+    """Largest step of the reading from one sample to the next that is no smooth motion's; beyond it, where no slider
+    reverses, all axes stop."""
 
 
 class CanSetup(StrictModel):

@@ -21,7 +21,7 @@ from hexdbb.planning.clearances import RequiredClearances
 from hexdbb.planning.criteria import Criterion, make_criterion
 from hexdbb.planning.exchange import CircleExchange, CircleIndex, ReportStep, is_better
 from hexdbb.planning.information import Information, PlannedUnknowns, information_of
-from hexdbb.trajectory import plan_programme
+from hexdbb.trajectory import plan_programme, require_extent
 
 STEPS_DEG = (6.0, 3.0, 1.0)
 """Steps of the refinement: the finest spacing of the grid's tilts, half of it, and 1 deg,
@@ -74,7 +74,8 @@ def propose(request: PlanRequest, report_step: ReportStep = lambda _: None) -> P
     Raises
     ------
     InputError
-        Fewer than one circle or cup position, an unknown criterion, or no candidate within reach.
+        Fewer than one circle or cup position, an unknown criterion, more rows than a plan may take, or no candidate
+        within reach.
     RunError
         The chosen circles cannot be driven one after another.
     """
@@ -83,6 +84,7 @@ def propose(request: PlanRequest, report_step: ReportStep = lambda _: None) -> P
     if request.most_mounts < 1:
         raise InputError(f"mounts {request.most_mounts}: no position for the cup (expected 1 or more)")
     make_criterion(request.criterion, np.ones(1, bool), np.eye(1))  # an unknown name is refused before the work
+    _require_extent(request)
     report_step("circles within reach")
     reach = grid_candidates(request.template, request.machine, request.required, request.grid)
     pools = [pool for pool in reach if pool]
@@ -205,6 +207,15 @@ def _plan_of(order: Sequence[CandidateCircle], template: Plan) -> Plan:
         each.circle(template, identity, cups.index(each.cup_mm)) for identity, each in enumerate(order)
     )
     return template.model_copy(update={"mounts": mounts, "circles": circles})
+
+
+def _require_extent(request: PlanRequest) -> None:
+    """Check before the search that so many circles with the template's feeds, directions and laps can be computed."""
+    template = request.template
+    alike = template.circles[0].model_copy(update={"feeds_mm_min": None, "directions": None, "laps": None})
+    runs = template.model_copy(update={"circles": (alike,)}).runs() * request.circles
+    cycle_s = 1.0 / request.unknowns.cycle_rate_hz
+    require_extent(runs, template.overshoot_deg, request.machine.can_setup.limits, cycle_s, "the proposed plan")
 
 
 def _name(plan: Plan) -> str:

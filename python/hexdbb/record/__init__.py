@@ -3,6 +3,7 @@
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, TARGET_COLUMNS
 from hexdbb.record.formats import read_record, write_record
 from hexdbb.record.journal import Journal, journal_path
+from hexdbb.record.plausibility import Doubt, doubts
 from hexdbb.record.record import Record
 from hexdbb.record.recovery import recover
 
@@ -10,8 +11,10 @@ __all__ = [
     "REQUIRED_COLUMNS",
     "SLIDER_COLUMNS",
     "TARGET_COLUMNS",
+    "Doubt",
     "Journal",
     "Record",
+    "doubts",
     "journal_path",
     "read_record",
     "recover",

@@ -12,7 +12,6 @@ import math
 import os
 import threading
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO, Self
@@ -83,8 +82,9 @@ class Journal:
         refuse_existing(self.path, overwrite)
         self.set_aside = make_way(self.journal_path, overwrite)
         empty = {name: np.empty(0, kind) for name, kind in REQUIRED_COLUMNS.items()}
-        self._header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
-        to_table(self._header)  # raises here, not in the writing thread, for metadata that JSON cannot hold
+        header = Record(empty, gauge, mounts, circles, machine, dict(metadata or {}), self.path, complete=False)
+        # Once and here: it takes milliseconds, and raises for metadata that JSON cannot hold.
+        self._metadata = to_table(header).schema.metadata
         self._file = _open_alone(self.journal_path)
         self._stream: pa.ipc.RecordBatchStreamWriter | None = None
         self._names: tuple[str, ...] | None = None
@@ -203,7 +203,7 @@ class Journal:
         if not queued:
             return
         columns = {name: np.concatenate([rows[name] for rows in queued]) for name in queued[0]}
-        table = to_table(replace(self._header, columns=columns))
+        table = pa.table({name: pa.array(values) for name, values in columns.items()}, metadata=self._metadata)
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
         for batch in table.to_batches():

@@ -5,7 +5,7 @@ slider. Time laws are computed by ruckig, kinematics by the engine; `Targets` ma
 """
 
 from hexdbb.trajectory.approach import approach
-from hexdbb.trajectory.extent import ROWS_MAX, Extent
+from hexdbb.trajectory.extent import ROWS_MAX, Extent, require_extent
 from hexdbb.trajectory.programme import Phase, Programme, Table
 from hexdbb.trajectory.runs import plan_programme
 from hexdbb.trajectory.targets import NominalTargets, TargetRows, Targets
@@ -21,4 +21,5 @@ __all__ = [
     "Targets",
     "approach",
     "plan_programme",
+    "require_extent",
 ]

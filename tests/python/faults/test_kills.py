@@ -15,7 +15,6 @@ def test_killed_run_is_recovered_sample_by_sample(share: float) -> None:
     assert done.kept > 0
 
 
-@pytest.mark.xfail(strict=True, reason="an empty journal can neither be recovered nor is it replaced by the next run")
 def test_run_killed_before_its_journal_holds_a_sample_can_be_repeated() -> None:
     done = kill(0.0, SEED, with_journal=True)
     assert done.unmet == (), done

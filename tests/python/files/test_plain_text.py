@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,8 +14,12 @@ from rich.table import Table
 from rich.text import Text
 
 from hexdbb.files.plain_text import TextConsole, plain_text, printable
+from hexdbb.ledger.history import History
 from hexdbb.machine import shipped
+from hexdbb.model.ledger import LedgerStep
 from hexdbb.plots.pages import save_figure
+from hexdbb.record import Record
+from hexdbb.samples import Samples
 
 EVIL = "\x1b[2J\x1b]0;title\x07\u202egnp\u2028\x9b31m [/bold] [red]"
 SHOWN = r"\x1b[2J\x1b]0;title\x07\u202egnp\u2028\x9b31m [/bold] [red]"
@@ -68,6 +73,17 @@ def test_commands_print_no_control_characters_of_files(tmp_path: Path, arguments
         assert "\x1b" not in done.stdout + done.stderr
         assert "\x07" not in done.stdout + done.stderr
         assert (r"a\x1b[31m" in done.stderr) == wrong
+
+
+def test_notebooks_show_names_as_they_are(record: Record) -> None:
+    evil = "<script>alert(1)</script>&"
+    machine = record.machine.model_copy(update={"name": evil})
+    named = replace(record, path=Path(evil), columns={**record.columns, evil: record.columns["t_s"]})
+    step = LedgerStep(1, "diagnose", 2.0, 1.0, (evil,))
+    for shown in (machine, named, Samples.of([named]), History((step,))):
+        html = shown._repr_html_()
+        assert "<script" not in html
+    assert "&lt;script&gt;" in named._repr_html_()
 
 
 def test_pictures_show_a_dollar_sign_as_it_is(tmp_path: Path) -> None:

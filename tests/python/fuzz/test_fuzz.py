@@ -20,29 +20,6 @@ SLOW = {"EDS, controller": 10, "EDS, rig": 6}
 INPUTS = 40
 """Inputs of each format; those that are slow to read have fewer."""
 
-EDS = "the rig does not turn what an EDS parser raises into one line"
-FRAMES = "the CANopen library raises on frames it does not expect"
-SEALED = "a message of the engine about a file that is not UTF-8 cannot be read"
-NESTED = "TOML nested beyond the recursion limit is not refused"
-MEMORY = "a damaged length in a journal makes Arrow run out of memory"
-MISSING = {
-    "frames": FRAMES,
-    "EDS, rig": EDS,
-    "measurement of the text form": NESTED,
-    "journal.1": MEMORY,
-    "machine-file.1": NESTED,
-    "compensation-file-sealed.1": SEALED,
-    **{f"EDS-rig.{number}": EDS for number in range(1, 7)},
-    **{f"frames.{number}": FRAMES for number in range(1, 5)},
-}
-"""What still fails, by format or by file, with the reason."""
-
-
-def case(value: object, name: str) -> object:
-    """Return a case, expected to fail if something is still missing."""
-    reason = MISSING.get(name)
-    return pytest.param(value, id=name, marks=[pytest.mark.xfail(strict=True, reason=reason)] if reason else [])
-
 
 @pytest.fixture(scope="module", autouse=True)
 def good_files() -> Iterator[None]:
@@ -59,7 +36,7 @@ def test_good_file_is_accepted(chosen: Format) -> None:
     assert outcome.kind == ACCEPTED, outcome.text
 
 
-@pytest.mark.parametrize("chosen", [case(each, each.name) for each in FORMATS])
+@pytest.mark.parametrize("chosen", FORMATS, ids=lambda chosen: chosen.name)
 def test_damaged_file_is_accepted_or_refused_with_one_line(chosen: Format) -> None:
     good = (good_folder() / chosen.file).read_bytes()
     outcomes = [
@@ -69,7 +46,7 @@ def test_damaged_file_is_accepted_or_refused_with_one_line(chosen: Format) -> No
     assert [outcome.text for outcome in outcomes if outcome.kind == FAILED] == []
 
 
-@pytest.mark.parametrize("path", [case(path, path.name) for path in sorted(FOUND.iterdir())])
+@pytest.mark.parametrize("path", sorted(FOUND.iterdir()), ids=lambda path: path.name)
 def test_input_that_once_failed_is_accepted_or_refused_with_one_line(path: Path) -> None:
     chosen = next(each for each in FORMATS if each.slug == path.name.partition(".")[0])
     outcome = outcome_of(chosen, path.read_bytes())

@@ -185,3 +185,13 @@ def test_an_existing_file_is_left_alone(tmp_path: Path) -> None:
     done = CliRunner().invoke(command, ["propose", "--circles", "2", "-o", str(output)])
     assert isinstance(done.exception, InputError)
     assert output.read_text() == "mine"
+
+
+def test_a_plan_that_could_not_be_computed_is_refused_before_the_search() -> None:
+    like = load_plan("standard").model_copy(update={"laps": 10**6})
+    machine = like.machine_file()
+    unknowns = planned_unknowns(new_model(machine), None, 0.5e-3, RATE_HZ)
+    steps: list[str] = []
+    with pytest.raises(InputError, match=r"the proposed plan: circle 0, .* 1000000 laps: the plan takes"):
+        propose(PlanRequest(like, machine, unknowns, circles=4, most_mounts=1), steps.append)
+    assert steps == []

@@ -155,6 +155,13 @@ def test_frozen_gauge_repeats_itself(start):
     assert values[-1][1] == 0
 
 
+def test_stuck_gauge_reads_its_value_and_says_it_is_valid(start):
+    _, answers = run(start, f"gauge-stuck@{AFTER_S}=12.5")
+    values = [struct.unpack("<fB", answer[GAUGE]) for answer in answers]
+    assert len(set(values[:40])) > 10
+    assert set(values[60:]) == {(12.5, 0)}
+
+
 def test_lost_bus_stops_the_drives_and_can_be_had_again(rig_process, connect):
     with rig_process("--fault", f"bus-lost@{AFTER_S}") as (port, _):
         controller = connect(port)
@@ -178,7 +185,7 @@ def test_gauge_of_another_unit_says_so(start):
 def test_every_kind_has_a_text_and_is_tested_here():
     named = {"node-missing", "drive-fault", "following-error", "limit-switch", "enable-lost", "mode-lost", "not-homed"}
     named |= {"bus-lost", "emcy", "heartbeat-lost", "tpdo-missing", "boot-up", "nmt-change"}
-    named |= {"gauge-out-of-range", "gauge-break", "gauge-frozen", "gauge-unit"}
+    named |= {"gauge-out-of-range", "gauge-break", "gauge-frozen", "gauge-stuck", "gauge-unit"}
     assert set(FAULTS) == named
     assert all(kind.text for kind in FAULTS.values())
 
