@@ -21,7 +21,8 @@ table of `hexdbb plan compare` is 103 wide."""
 
 def output_console() -> Console:
     """Return the console that a command prints its results to."""
-    return TextConsole(width=None if sys.stdout.isatty() else REDIRECTED_WIDTH, highlight=False)
+    on_terminal = sys.stdout is not None and sys.stdout.isatty()  # None: closed by the shell (>&-)
+    return TextConsole(width=None if on_terminal else REDIRECTED_WIDTH, highlight=False)
 
 
 def message_console() -> Console:

@@ -129,7 +129,7 @@ def command(
     )
     if simulated:
         request = request if lockstep else replace(request, silent_after=SIMULATED_SILENT_AFTER)
-    elif not yes and not sys.stdin.isatty():
+    elif not yes and (sys.stdin is None or not sys.stdin.isatty()):
         progress.notes.append("stdin is not a terminal: no confirmation that the bar is mounted")
     elif not yes:
         request = replace(request, confirm=_ask(console, progress))
