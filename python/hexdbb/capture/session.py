@@ -244,8 +244,12 @@ class _Run:
             paired = self.loop.confirm()
         except (can.CanError, OSError):
             paired = False  # nobody can tell any more
-        if isinstance(error, MotionFaultError) and error.fault.doubtful:
-            samples.cut(cycle_index - error.fault.doubtful)
+        # Whatever stopped the run: readings that had begun to repeat may be those of a gauge that is stuck.
+        doubtful = self.watch.plausibility.same
+        if isinstance(error, MotionFaultError):
+            doubtful = max(doubtful, error.fault.doubtful)
+        if doubtful:
+            samples.cut(cycle_index - doubtful)
         if paired:
             samples.confirm()
         else:
