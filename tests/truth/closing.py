@@ -120,9 +120,9 @@ def found_in(records: Sequence[Record], model: Model, report_step: ReportStep) -
     raise AssertionError("discover_all ends with a verdict")
 
 
-def drive_of(model: Model, machine: MachineFile) -> Drive:
+def drive_of(model: Model, machine: MachineFile, max_correction_mm: float = MAX_CORRECTION_MM) -> Drive:
     """Return the slider targets of a controller that compensates by a model."""
-    data = make_compensation(model, max_correction_mm=MAX_CORRECTION_MM)
+    data = make_compensation(model, max_correction_mm=max_correction_mm)
     targets = CompensatedTargets(data, machine.can_setup.limits, "compensation")
 
     def drive(position_mm: Floats, rpy_rad: Floats, cycle_s: float) -> Floats:

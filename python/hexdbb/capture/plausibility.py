@@ -142,7 +142,7 @@ class Plausibility:
         for slot, (step, moved) in enumerate(zip(self._error_steps, self._position_steps, strict=True)):
             # A slider that jams lags behind more and more; one that jumps moves.
             if abs(step) > follows and abs(moved) > follows:
-                return slot, step / self.counts_per_mm, follows / scale
+                return slot, -step / self.counts_per_mm, follows / scale
         return None
 
     def left_behind(self) -> tuple[int, float] | None:

@@ -154,6 +154,10 @@ def _bend(values: NDArray[np.float64], rows: Rows) -> NDArray[np.float64]:
 
 
 def _spikes(values: NDArray[np.float64], inner: Rows, limit: float) -> Rows:
-    off = np.abs(_bend(values, inner))
-    rows: Rows = inner[(off > limit) & (np.abs(values[inner + 1] - values[inner - 1]) < 0.5 * off)]
+    """Return rows that lie off the course of their neighbours: these seem off by half of it to the other side."""
+    bend = np.zeros(len(values))
+    bend[inner] = _bend(values, inner)
+    half = -0.25 * bend[inner] * np.sign(bend[inner])
+    others = np.maximum(bend[inner - 1] * np.sign(bend[inner]), bend[inner + 1] * np.sign(bend[inner]))
+    rows: Rows = inner[(np.abs(bend[inner]) > limit) & (others < half)]
     return rows

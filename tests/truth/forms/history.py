@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from tests.truth.simulate import Pace
-from tests.truth.timeline import Arc, Timeline
+from tests.truth.timeline import Arc, Drive, Timeline
 
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
@@ -41,6 +41,8 @@ class History:
     plan : Plan
     pace : Pace
         How finely time is cut.
+    drive : Drive, optional
+        Slider targets of a controller that compensates; the nominal machine's where not given.
 
     Attributes
     ----------
@@ -58,18 +60,18 @@ class History:
         Polar angle of the run; 0 while travelling.
     """
 
-    def __init__(self, plan: Plan, pace: Pace) -> None:
+    def __init__(self, plan: Plan, pace: Pace, drive: Drive | None = None) -> None:
         self.plan, self.pace = plan, pace
         self.machine: MachineFile = plan.machine_file()
         self.nominal: TrueGeometry = true_geometry(self.machine)
-        line = Timeline(plan, self.machine, pace.rate_hz, pace.instants_per_sample, pace.travel_s)
-        time, drive, run, position, rotation, angle, samples = [], [], [], [], [], [], []
+        line = Timeline(plan, self.machine, pace.rate_hz, pace.instants_per_sample, pace.travel_s, drive)
+        time, driven, run, position, rotation, angle, samples = [], [], [], [], [], [], []
         self.runs, begin = plan.runs(), 0
         for stretch in line.stretches():
             motion = stretch.motion if isinstance(stretch, Arc) else stretch
             n = len(motion.time_s)
             time.append(motion.time_s)
-            drive.append(motion.drive_mm)
+            driven.append(motion.drive_mm)
             if isinstance(stretch, Arc):
                 run.append(np.full(n, stretch.run.sweep))
                 position.append(stretch.nominal.position_mm)
@@ -82,7 +84,7 @@ class History:
                 rotation.append(np.broadcast_to(np.eye(3), (n, 3, 3)))
                 angle.append(np.zeros(n))
             begin += n
-        self.time_s, self.drive_mm = np.concatenate(time), np.concatenate(drive)
+        self.time_s, self.drive_mm = np.concatenate(time), np.concatenate(driven)
         self.dt_s = float(self.time_s[1] - self.time_s[0])
         assert np.allclose(np.diff(self.time_s), self.dt_s, rtol=1e-6), "time is one even grid"
         self.run, self.samples = np.concatenate(run), np.concatenate(samples)
