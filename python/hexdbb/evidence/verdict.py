@@ -77,7 +77,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = _in_known_words(search, _predicting(search, search.run()))
     if node is search.root:
         return Verdict("unknown", (), node, None, before)
-    node = _settled(search, node)
+    node = _of_better_form(search, _settled(search, node))
     causes, refinements = _grouped(search, node)
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
     grades = [each.grade for each in found]
@@ -150,6 +150,45 @@ def _in_known_words(search: Search, node: Node) -> Node:
         # What predicts is not exchanged for what is excused from predicting.
         excused = search.checked(node).excused
         node = next((e for e in others if not search.checked(e).reasons and excused >= search.checked(e).excused), node)
+    return node
+
+
+def _of_better_form(search: Search, node: Node) -> Node:
+    """Exchange an effect of quite another form for a known one whose own form fits, at the same place."""
+    excess = search.root.trial.left - 1.0
+    for place, member in enumerate(node.members):
+        form = node.trial.forms[place]
+        if form is None or form.deviation <= search.criteria.form_named:
+            continue
+        others = tuple(each for each in node.members if each is not member)
+        for known in _known_for(search, list(form.functions)):
+            if known in node.hypotheses:
+                continue
+            try:
+                trial = search.trials.of((*others, Member(known)))
+            except RunError:
+                continue
+            own = trial.forms[-1]
+            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            if near and not trial.refused and own is not None and own.deviation < form.deviation:
+                found = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+                search.nodes.append(found)
+                if not search.checked(found).reasons:
+                    return _without_the_needless(search, found)
+    return node
+
+
+def _without_the_needless(search: Search, node: Node) -> Node:
+    """Leave out what made up for a form that is exchanged now."""
+    excess = search.root.trial.left - 1.0
+    for member in node.members:
+        others = tuple(each for each in node.members if each is not member)
+        if not others:
+            break
+        trial = search.trials.of(others)
+        if trial.left - node.trial.left < search.criteria.complete * excess and not trial.refused:
+            node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+            search.nodes.append(node)
     return node
 
 
