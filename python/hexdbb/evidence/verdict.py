@@ -256,6 +256,8 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
             continue
         lead = (node.score - other.score) / max(node.trial.left, 1.0)
         is_rival = lead < max(margin, search.criteria.margin_nats) and other is not search.root
+        # A set of more causes that explains as much is no other explanation of this one.
+        is_rival = is_rival and len(other.members) <= len(node.members)
         if is_rival and (search.checked(other).reasons or _bent(search, other)):
             continue
         if isinstance(cause, Known) and any(

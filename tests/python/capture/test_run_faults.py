@@ -35,7 +35,7 @@ FAULTS = [
     (
         "following-error:1",
         1,
-        r"node 1 \(slider 1\): object 60(41|64):00 is .*(following error|from its target)",
+        r"node 1 \(slider 1\): object 60(41|64):00 (is .*(following error|from its target)|fell .* behind its target)",
         STOPPED,
     ),
     ("gauge-out-of-range", 7, r"node 7 \(gauge\): object 6150:01 is 03h, not valid, positive overload", STOPPED),

@@ -104,7 +104,8 @@ def test_the_command_prints_what_the_function_returns(folder: Path, names: tuple
     assert len(comparison.fitted_mounts) == len(names) - 1
     printed = run_compare(*paths, "-m", folder / "diagnosed.toml", "--json", "--no-plot")
     assert json.loads(printed.stdout) == comparison.to_json()
-    assert printed.stderr == ""
+    # The readings are drawn at random, at times no machine keeps: commands warn of that.
+    assert [each for each in printed.stderr.splitlines() if not each.startswith("warning: ")] == []
     tables = run_compare(*paths, "-m", folder / "diagnosed.toml", "--no-plot")
     assert all(sentence in " ".join(tables.stdout.split()) for sentence in comparison.fitted_mounts)
     assert comparison.to_json()["schema"] == "hexdbb.compare/1"
