@@ -19,6 +19,7 @@ from tests.truth.timeline import Drive
 
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import discover
+from hexdbb.errors import InputError
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.record import Record
@@ -27,6 +28,8 @@ from hexdbb.samples import Samples
 
 LEFT_OUT = (2, 4)
 """Places of the circles that take no part in the fit, of the plan's nine."""
+MAX_CORRECTION_MM = 10.0
+"""Limit of the correction of one slider: circles that took no part lie where the readings determine little."""
 MOST_ROUNDS = 4
 """Verdicts asked for: two faults and what their forms leave."""
 KNOWN = ("backlash", "gravity_sag", "pitch_cyclic", "servo_lag")
@@ -61,8 +64,12 @@ def close(case: forms.Case) -> Closed:
     seen = ~np.isin(record.columns["circle"], _left_out(record))
     model, added, verdict = _found(Samples.of([record.part(seen)]), new_model(record.machine))
     machine = case.history.machine
-    before, after = (_error_um(case, drive) for drive in (None, drive_of(model, machine, 10.0)))
-    return Closed(case.name, added, verdict, before, after)
+    before_um = _error_um(case, None)
+    try:
+        after_um = _error_um(case, drive_of(model, machine, MAX_CORRECTION_MM))
+    except InputError as error:
+        verdict, after_um = f"{verdict}; {error}", float("nan")
+    return Closed(case.name, added, verdict, before_um, after_um)
 
 
 def _left_out(record: Record) -> list[int]:
