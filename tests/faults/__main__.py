@@ -3,6 +3,7 @@
 python -m tests.faults --table docs/fault-table.md --realtime --pairs 40 --seed 1
 python -m tests.faults --only "answer twice"
 python -m tests.faults --kills 100 --seed 1
+python -m tests.faults --soak 50
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from pathlib import Path
 
 from tests.faults.catalogue import FAULTS
 from tests.faults.page import page, summary
+from tests.faults.soak import report
 from tests.faults.tasks import Task, killed, made
 
 from hexdbb.files.atomic_file import write_text
@@ -22,6 +24,8 @@ from hexdbb.files.atomic_file import write_text
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line."""
     options = _options(arguments)
+    if options.soak:
+        return 1 if report(options.soak) else 0
     if options.kills:
         kills = killed(options.kills, options.seed, options.jobs)
         failed = sum(bool(each.unmet) for each in kills)
@@ -46,6 +50,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--only", action="append", metavar="NAME", help="a fault to try; may be repeated")
     parser.add_argument("--pairs", type=int, default=0, help="random pairs of faults, in lockstep")
     parser.add_argument("--kills", type=int, default=0, help="instead: runs killed at random moments")
+    parser.add_argument("--soak", type=int, default=0, help="instead: runs in real time without a fault, under load")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--realtime", action="store_true", help="in real time as well")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
