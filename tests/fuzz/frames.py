@@ -13,11 +13,12 @@ from pathlib import Path
 import can
 
 from hexdbb.capture.boot import add_devices
-from hexdbb.capture.checks import Watch, find_fault
+from hexdbb.capture.checks import find_fault
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.link import Link
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
+from hexdbb.capture.watch import Watch
 from hexdbb.machine import shipped_machine
 
 DRIVE = "1{node:02X} 37 96 A0 86 01 00 08"

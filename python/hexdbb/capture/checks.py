@@ -9,8 +9,8 @@ Source: CiA 402 (statusword 6041h, mode display 6061h, position 6064h), CiA 404 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
@@ -21,11 +21,10 @@ from hexdbb.capture.cia402 import (
     DriveState,
     state_of,
 )
-from hexdbb.capture.exchange import GAUGE_SLOT, Feedback
-from hexdbb.capture.interrupts import Interrupts
+from hexdbb.capture.exchange import GAUGE_SLOT
 from hexdbb.capture.lag import EVERY, MEMORY
-from hexdbb.capture.plausibility import Plausibility
-from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
+from hexdbb.capture.supervision import NMT_OPERATIONAL
+from hexdbb.capture.watch import Fault, Watch
 
 GAUGE_STATUS_BITS = {0: "not valid", 1: "positive overload", 2: "negative overload"}
 """Meaning of the bits of object 6150h (CiA 404)."""
@@ -35,97 +34,6 @@ MAX_REPEATED = 10
 the samples not yet confirmed."""
 
 ENABLED_MASK, ENABLED_VALUE = DriveState.OPERATION_ENABLED.value
-
-
-@dataclass(frozen=True)
-class Fault:
-    """Reason why all axes stop.
-
-    Attributes
-    ----------
-    where : str
-        The node, as the user knows it: ``node 3 (slider 3)``.
-    what : str
-        Object, value and expectation.
-    doubtful : int
-        Number of SYNCs before this one whose samples it makes doubtful.
-    """
-
-    where: str
-    what: str
-    doubtful: int = 0
-
-    def __str__(self) -> str:
-        return f"{self.where}: {self.what}"
-
-
-@dataclass
-class Watch:
-    """The quantities that checks examine.
-
-    Attributes
-    ----------
-    feedback : Feedback
-        Answers to the last SYNC.
-    supervision : Supervision
-        EMCY messages, heartbeats and counts of missing answers.
-    labels : tuple of str
-        Name of the node of each slot: drives 1 to 6, gauge.
-    window : int
-        Largest following error, counts.
-    range_um : float
-        Largest absolute reading, µm.
-    counts_per_mm : float
-        Encoder scale.
-    max_stall : int
-        Largest number of cycles that may be missed in one gap.
-    max_missed : int
-        Largest number of cycles that may be missed in one run.
-    expected : list of int
-        Targets (counts) that the positions of the last SYNC belong to, shape (6,).
-    plausibility : Plausibility
-        History of positions and readings, and their limits.
-    real_time : bool
-        Whether SYNCs are sent at fixed times.
-    repeated : int
-        Answers too many so far.
-    last_repeated : int or None
-        Slot of the last one.
-    gauge_watched : bool
-        Whether the bar is mounted and the ball on its circle.
-    stalled : int
-        Cycles missed immediately before the last SYNC.
-    missed : int
-        Cycles missed so far.
-    late_s : mapping of int to float
-        Time from a SYNC to the last late answer of a slot, s.
-    interrupts : Interrupts
-        Whether a signal has asked the program to end.
-    """
-
-    feedback: Feedback
-    supervision: Supervision
-    labels: tuple[str, ...]
-    window: int
-    range_um: float
-    counts_per_mm: float
-    max_stall: int
-    max_missed: int
-    expected: list[int]
-    plausibility: Plausibility
-    real_time: bool = False
-    repeated: int = 0
-    last_repeated: int | None = None
-    gauge_watched: bool = False
-    stalled: int = 0
-    missed: int = 0
-    late_s: Mapping[int, float] = field(default_factory=dict)
-    interrupts: Interrupts = field(default_factory=Interrupts)
-
-    def lateness(self, slot: int) -> str:
-        """Return how late a slot's answers come as part of a message, or an empty text."""
-        late_s = self.late_s.get(slot)
-        return "" if late_s is None else f", the last {1e3 * late_s:.1f} ms after its SYNC"
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.capture.checks import Fault, Watch, find_fault
+from hexdbb.capture.checks import find_fault
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
     ENABLE_SEQUENCE,
@@ -27,6 +27,7 @@ from hexdbb.capture.exchange import Feedback
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.standstill import Standstill
 from hexdbb.capture.transport import one_line
+from hexdbb.capture.watch import Fault, Watch
 from hexdbb.errors import RunError
 
 STEP_TIMEOUT_S = 2.0

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from hexdbb.capture.boot import Devices, add_devices, boot, refuse_unfit, release
 from hexdbb.capture.captured_rows import CapturedRows
-from hexdbb.capture.checks import Fault, Watch
 from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange
@@ -30,6 +29,7 @@ from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
 from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
+from hexdbb.capture.watch import Fault, Watch
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
 from hexdbb.record.plausibility import frozen_after

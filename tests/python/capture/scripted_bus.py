@@ -8,7 +8,6 @@ from collections.abc import Callable
 
 import can
 
-from hexdbb.capture.checks import Watch
 from hexdbb.capture.clock import Lockstep
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.link import Link
@@ -16,6 +15,7 @@ from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.watch import Watch
 
 DRIVES, GAUGE = (1, 2, 3, 4, 5, 6), 7
 LABELS = (*(f"node {node} (slider {node})" for node in DRIVES), "node 7 (gauge)")
