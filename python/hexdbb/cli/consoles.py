@@ -41,11 +41,25 @@ def run_console() -> Console:
     return TextConsole(file=stream, stderr=stream is None)
 
 
-def drop_stdout() -> None:
-    """Send the rest of stdout to nowhere: it cannot be written, and the interpreter would fail once more at its end."""
+def drop(stream: IO[str]) -> None:
+    """Send the rest of a stream to nowhere: unwritable, it would make the interpreter fail once more at its end."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
+    os.dup2(nowhere, stream.fileno())
     os.close(nowhere)
+
+
+def drop_stdout() -> None:
+    """Send the rest of stdout to nowhere."""
+    drop(sys.stdout)
+
+
+def end_output() -> None:
+    """Write what waits in stdout and stderr; where nobody reads it any more, drop it."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # None: closed by the shell
+        try:
+            stream.flush()
+        except OSError:
+            drop(stream)
 
 
 class _Forgiving:

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import click
 
-from hexdbb.cli.consoles import drop_stdout
+from hexdbb.cli.consoles import drop_stdout, end_output
 from hexdbb.errors import HexdbbError
 from hexdbb.files.plain_text import printable
 
@@ -23,6 +23,8 @@ def reports_errors(command: click.Command) -> None:
         if error.filename is None:
             drop_stdout()
         _end(f"{error.filename or 'stdout'}: {unwritable(error)}", 1)
+    finally:
+        end_output()
 
 
 def unwritable(error: OSError) -> str:
