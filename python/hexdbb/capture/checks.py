@@ -207,7 +207,11 @@ def _reading_changes(watch: Watch) -> Fault | None:
     if plausibility.is_frozen():
         same = plausibility.same
         what = f"object 6130:01 is {watch.feedback.reading_um:.1f} µm, unchanged for {same} SYNCs"
-        return Fault(label, f"{what} (expected noise; plan file gauge.noise_um = 0 for a gauge without)", same)
+        return Fault(
+            label,
+            f"{what} (expected noise; plan file gauge.noise_um = 0 for a gauge without)",
+            plausibility.same_cycles,
+        )
     return None
 
 

@@ -47,6 +47,8 @@ class Plausibility:
         Largest change of the reading that is no smooth motion's, away from reversals.
     same : int
         Unchanged readings so far.
+    same_cycles : int
+        Cycles since the reading last changed, those missed counted.
     lag : LagWatch
         Lag of each axis.
     """
@@ -59,6 +61,7 @@ class Plausibility:
     repeats: int
     reading_step_um: float = SPIKE_UM
     same: int = 0
+    same_cycles: int = 0
     lag: LagWatch = field(init=False)
     _before: tuple[list[int], list[int]] | None = None
     _position_steps: list[int] = field(default_factory=list)
@@ -68,6 +71,7 @@ class Plausibility:
     _target_steps: list[int] | None = None
     _accelerations: deque[float] = field(default_factory=lambda: deque(maxlen=COMMANDED_SYNCS))
     _readings: deque[float] = field(default_factory=lambda: deque(maxlen=3))
+    _last_um: float | None = None
     _since_reversal: int = 0
 
     def __post_init__(self) -> None:
@@ -91,9 +95,6 @@ class Plausibility:
         if not feedback.settled or missed:
             self._before = None
             self._readings.clear()
-            if missed:
-                self.same = 0
-                return
         errors = [target - position for target, position in zip(expected, feedback.position, strict=True)]
         if feedback.settled:
             if self._before is not None:
@@ -106,7 +107,7 @@ class Plausibility:
                 self.lag.pause()
             elif self._target_steps is not None:
                 self.lag.update(self._target_steps, errors)
-            self._read(feedback.reading_um, gauge_watched)
+            self._read(feedback.reading_um, 1 + missed, gauge_watched)
 
     def _command(self, expected: list[int], missed: int) -> None:
         if self._targets is not None:
@@ -122,13 +123,17 @@ class Plausibility:
             self._target_steps = steps
         self._targets = list(expected)
 
-    def _read(self, reading_um: float, gauge_watched: bool) -> None:
+    def _read(self, reading_um: float, cycles: int, gauge_watched: bool) -> None:
         if not gauge_watched:
             self._readings.clear()
-            self.same = 0
-            return
-        self.same = self.same + 1 if self._readings and self._readings[-1] == reading_um else 0
-        self._readings.append(reading_um)
+            self._last_um = None
+        # A gauge that is stuck stays so while cycles are missed.
+        repeats = self._last_um == reading_um
+        self.same = self.same + 1 if repeats else 0
+        self.same_cycles = self.same_cycles + cycles if repeats else 0
+        if gauge_watched:
+            self._last_um = reading_um
+            self._readings.append(reading_um)
 
     def jump(self) -> tuple[int, float, float] | None:
         """Return the slot of a position that jumped, its step and the limit (mm), or None."""

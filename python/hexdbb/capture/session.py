@@ -245,7 +245,7 @@ class _Run:
         except (can.CanError, OSError):
             paired = False  # nobody can tell any more
         # Whatever stopped the run: readings that had begun to repeat may be those of a gauge that is stuck.
-        doubtful = self.watch.plausibility.same
+        doubtful = self.watch.plausibility.same_cycles
         if isinstance(error, MotionFaultError):
             doubtful = max(doubtful, error.fault.doubtful)
         if doubtful:

@@ -120,6 +120,18 @@ def test_a_gauge_that_repeats_itself_is_frozen_and_counts_since_when() -> None:
     assert plausible.same == 25
 
 
+def test_a_frozen_gauge_is_found_although_cycles_are_missed() -> None:
+    plausible = histories()
+    for number, (expected, feedback) in enumerate(answers(200)):
+        if number >= 100:
+            feedback.reading_um = 7.5
+        plausible.update(feedback, expected, 3 if number % 10 == 0 else 0, gauge_watched=True)
+        if plausible.is_frozen():
+            break
+    assert number == 125
+    assert plausible.same_cycles == 25 + 2 * 3
+
+
 def test_missed_cycles_are_no_jump() -> None:
     plausible = histories()
     for number, (expected, feedback) in enumerate(answers(900)):
