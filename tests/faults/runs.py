@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.circle_plan import circle_plan
 from tests.faults.bus_log import BusLog
 from tests.faults.proxy import proxied
 from tests.faults.transformations import Rule
@@ -30,17 +31,7 @@ RATE_HZ = 50.0
 """Cycles in a second: slow, so that a desktop's stalls of some 20 ms to 50 ms do not end a run in real time, and a run
 in lockstep takes a second."""
 RECORD = "run.parquet"
-PLAN = """
-schema = "hexdbb.plan/1"
-machine = "sp120"
-feeds_mm_min = [9000]
-directions = [1]
-laps = 1
-overshoot_deg = 10
-gauge = {bar_length_mm = 100, noise_um = 0.1, resolution_um = 0.1}
-mount = [{id = 0, cup_mm = [0, 0, 340]}]
-circle = [{id = 0, mount = 0, radius_mm = 100, ball_offset_mm = [0, 0, 60]}]
-"""
+PLAN = circle_plan("noise_um = 0.1, resolution_um = 0.1")
 """One circle: 7 s of machine time, 209 samples at `RATE_HZ`. Fast, so that the reading and the positions differ from
 one SYNC to the next by far more than the noise, and a sample that belongs to another SYNC is seen."""
 TRUTH = """

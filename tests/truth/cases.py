@@ -42,7 +42,7 @@ def _phase(draw: Draw) -> float:
 
 
 def _direction(draw: Draw) -> list[float]:
-    """Return a vector of 10 um in any direction."""
+    """Return a vector of 10 µm in any direction."""
     vector = draw.normal(size=3)
     return [float(each) for each in 10.0 * vector / np.linalg.norm(vector)]
 

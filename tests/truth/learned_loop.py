@@ -38,7 +38,7 @@ OUTSIDE = ("dent", "rail_waves", "tape_bump", "joint_eccentric", "plate_bends")
 
 @dataclass(frozen=True)
 class Closed:
-    """One machine: what was hidden and found, and the error of the circles left out before and after, um RMS."""
+    """One machine: what was hidden and found, and the error of the circles left out before and after, µm RMS."""
 
     case: str
     added: tuple[str, ...]
@@ -110,7 +110,7 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0, help="first seed")
     parser.add_argument("--deviation", type=float, default=0.1, help="of the known fault's form")
     asked = parser.parse_args()
-    print("| machine | added | last verdict | before, um | after, um | times smaller |\n|---|---|---|---|---|---|")
+    print("| machine | added | last verdict | before, µm | after, µm | times smaller |\n|---|---|---|---|---|---|")
     for seed in range(asked.first, asked.first + asked.seeds):
         one = close(case_of(seed, asked.deviation))
         cells = (one.case, ", ".join(one.added), one.verdict, f"{one.before_um:.2f}", f"{one.after_um:.3f}")

@@ -101,7 +101,8 @@ class Exchange:
     late_s : dict of int to float
         Time (s) from the SYNC to the last late answer of a slot.
     doubtful : bool
-        Whether answers since `confirm` may belong to another SYNC: a node answered once more than it was asked.
+        Whether answers since `Loop.confirm` reset it may belong to another SYNC: a node answered once more than it was
+        asked.
     repeated : int
         Answers too many, so far.
     """

@@ -193,7 +193,7 @@ class AxisGroup:
                 kept.keep(row - 1, feedback)
             if loop.clock.real_time:
                 kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
-            elif row % VERIFY_SYNCS == 0 or row == rows:
+            elif row % VERIFY_SYNCS == 0:
                 kept.settle(loop.confirm(), held=0)
         kept.settle(loop.confirm(), held=0)
 

@@ -48,11 +48,6 @@ def drop(stream: IO[str]) -> None:
     os.close(nowhere)
 
 
-def drop_stdout() -> None:
-    """Send the rest of stdout to nowhere."""
-    drop(sys.stdout)
-
-
 def end_output() -> None:
     """Write what waits in stdout and stderr; where nobody reads it any more, drop it."""
     for stream in filter(None, (sys.stdout, sys.stderr)):  # None: closed by the shell

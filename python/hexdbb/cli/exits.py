@@ -7,7 +7,7 @@ from contextlib import suppress
 
 import click
 
-from hexdbb.cli.consoles import drop_stdout, end_output
+from hexdbb.cli.consoles import drop, end_output
 from hexdbb.errors import HexdbbError
 from hexdbb.files.plain_text import printable
 
@@ -21,7 +21,7 @@ def reports_errors(command: click.Command) -> None:
     except OSError as error:
         # Files are written by functions that raise HexdbbError: without a file it is the program's own output.
         if error.filename is None:
-            drop_stdout()
+            drop(sys.stdout)
         _end(f"{error.filename or 'stdout'}: {unwritable(error)}", 1)
     finally:
         end_output()

@@ -18,7 +18,7 @@ from hexdbb.capture.display import LIVE_PERIOD_S, display
 from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
-from hexdbb.cli.consoles import drop_stdout, run_console
+from hexdbb.cli.consoles import drop, run_console
 from hexdbb.cli.exits import reports_errors, unwritable
 from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
@@ -146,7 +146,7 @@ def command(
     try:
         _print_summary(recorded, programme, progress)
     except OSError as error:  # the record is what the command is for, and it is safe
-        drop_stdout()
+        drop(sys.stdout)
         console.print(f"note: stdout: {unwritable(error)}; {recorded.path} is whole", highlight=False, soft_wrap=True)
 
 

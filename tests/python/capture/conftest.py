@@ -12,20 +12,11 @@ from pathlib import Path
 
 import can
 import pytest
+from tests.circle_plan import circle_plan
 
 from hexdbb.capture.cia402 import DriveState, state_of
 
-PLAN = """
-schema = "hexdbb.plan/1"
-machine = "sp120"
-feeds_mm_min = [9000]
-directions = [1]
-laps = 1
-overshoot_deg = 10
-gauge = {bar_length_mm = 100}
-mount = [{id = 0, cup_mm = [0, 0, 340]}]
-circle = [{id = 0, mount = 0, radius_mm = 100, ball_offset_mm = [0, 0, 60]}]
-"""
+PLAN = circle_plan()
 """One circle in four seconds; `RATE_HZ` keeps the number of cycles small."""
 
 EXACT = 'schema = "hexdbb.truth/1"\ndrive = {lag_s = 1e-9}\ngauge = {noise_um = 0, resolution_um = 0}\n'

@@ -8,20 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from tests.circle_plan import circle_plan
 
 from hexdbb.record import read_record
 
-PLAN = """
-schema = "hexdbb.plan/1"
-machine = "sp120"
-feeds_mm_min = [9000]
-directions = [1]
-laps = 1
-overshoot_deg = 10
-gauge = {bar_length_mm = 100}
-mount = [{id = 0, cup_mm = [0, 0, 340]}]
-circle = [{id = 0, mount = 0, radius_mm = 100, ball_offset_mm = [0, 0, 60]}]
-"""
+PLAN = circle_plan()
 RUN = "-c 'from hexdbb.cli.run import main; main()' --plan plan.toml --rate 100 -o run.parquet"
 
 
