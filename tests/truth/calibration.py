@@ -74,6 +74,7 @@ def wanted(half: str, seeds: int) -> Iterator[tuple[str, tuple[str, ...]]]:
         forms.outside(half, seeds=range(seeds)),
         forms.clean(half, range(20 * seeds)),
         forms.combined(half, 2, 3.0, 20 * seeds),
+        forms.combined(half, 3, 3.0, 10 * seeds),
     ):
         every.append((case.name, ()))
     for case in forms.alone(half, deviations=(0.1,), times_noise=(3.0, 10.0, 30.0), seeds=range(seeds)):
