@@ -18,7 +18,8 @@ from pathlib import Path
 from tests.faults.bus_log import BusLog
 from tests.faults.judging import wrong_samples
 from tests.faults.proxy import proxied
-from tests.faults.runs import PLAN, RATE_HZ, RECORD, Run, command_line, options, prepared, rig_in_thread, run
+from tests.faults.runs import PLAN, RATE_HZ, RECORD, Run, command_line, options, prepared, rig_options, run
+from tests.rigs import rig_in_thread
 
 from hexdbb.cli.recover import command as recover_command
 from hexdbb.errors import HexdbbError
@@ -88,7 +89,7 @@ def kill(share: float, seed: int, *, with_journal: bool = False) -> Kill:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         truth = prepared(folder, LONG_PLAN)
-        with rig_in_thread(truth, (), seed) as port, proxied(port, (), 1 / RATE_HZ) as proxy:
+        with rig_in_thread(*rig_options(truth, (), seed)) as port, proxied(port, (), 1 / RATE_HZ) as proxy:
             journal, syncs = journal_path(folder / RECORD), share * len(whole.log.cycles)
             due = journal.exists if with_journal else lambda: len(proxy.log.cycles) >= syncs
             killed_s = _run_and_kill(options(folder, proxy.bus, True), due)
@@ -151,7 +152,7 @@ def _saved(folder: Path, truth: Path, seed: int) -> tuple[str, Record | None, st
         return "recovered", read_record(path), ""
     except HexdbbError as error:
         refused = str(error)
-    with rig_in_thread(truth, (), seed) as port, proxied(port, (), 1 / RATE_HZ) as proxy:
+    with rig_in_thread(*rig_options(truth, (), seed)) as port, proxied(port, (), 1 / RATE_HZ) as proxy:
         process = subprocess.run(command_line(options(folder, proxy.bus, True)), capture_output=True, text=True)
     if process.returncode:
         last = (process.stderr.strip().splitlines() or [""])[-1]
