@@ -29,11 +29,12 @@ RATE_HZ = 50.0
 
 @pytest.fixture
 def command(plan: Path, tmp_path: Path) -> Callable[..., list[str]]:
-    """Return the command line of `hexdbb-run` with the small plan and a record named `run.parquet`."""
+    """Return the command line of `hexdbb-run` in lockstep, with the small plan and a record named `run.parquet`."""
 
     def line(*words: object) -> list[str]:
         program = str(Path(sys.executable).with_name("hexdbb-run"))
-        return [program, *map(str, ("--plan", plan, "-o", tmp_path / "run.parquet", *words))]
+        standing = ("--plan", plan, "-o", tmp_path / "run.parquet", "--lockstep", "--rate", RATE_HZ)
+        return [program, *map(str, (*standing, *words))]
 
     return line
 
