@@ -122,7 +122,7 @@ def closed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     fitted = load_plan(ROOT / "docs" / "plans" / "best-5.toml")
     fast = {"feeds_mm_min": (3000.0,), "laps": 1}
     (folder / "fitted.toml").write_text(dump_toml(fitted.model_copy(update=fast)), encoding="utf-8")
-    (folder / "unseen.toml").write_text(dump_toml(unseen_plan(fast)), encoding="utf-8")
+    (folder / "unseen.toml").write_text(dump_toml(unseen_plan({**fast, "directions": (1,)})), encoding="utf-8")
     (folder / "truth.toml").write_text(dump_toml(faulty_truth()), encoding="utf-8")
     measured(folder, "--plan", "fitted.toml", "-o", "fitted.parquet")
     geometry = [term.effect for term in new_model(shipped_machine()).terms if term.effect != "bar_length"]

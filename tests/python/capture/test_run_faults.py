@@ -37,7 +37,7 @@ FAULTS = [
     (
         "following-error:1",
         1,
-        r"node 1 \(slider 1\): object 60(41|64):00 (is .*(following error|EMCY 8611h|from its target)|fell .* its target)",
+        r"node 1 \(slider 1\): object 60(41|64):00 (is .*(following error|EMCY 8611h|from its target)|fell .* target)",
         STOPPED,
     ),
     ("gauge-out-of-range", 7, r"node 7 \(gauge\): object 6150:01 is 03h, not valid, positive overload", STOPPED),
