@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import os
 import platform
-import shutil
+import re
+import signal
 import subprocess
 import tempfile
 import threading
@@ -19,7 +20,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from tests.faults.runs import DEADLINE_S, PLAN, RECORD, command_line, prepared
+from numpy.typing import NDArray
+from tests.faults.runs import DEADLINE_S, RECORD, command_line, prepared
+
+from hexdbb.files.atomic_file import write_text
 
 ROOT = Path(__file__).parents[2]
 RATES_HZ = (50, 250)
@@ -28,20 +32,26 @@ SLEEP_S = 0.004
 CONFIGURE = ("-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DHEXDBB_TESTS=ON")
 """The engine with its tests, as `make test` compiles it."""
 
-HEAD = """# Runs in real time without a fault, on a computer that compiles
+SUMMARY = re.compile(r"(\d+) of (\d+) samples, .*, (\d+) missed cycles")
+"""What `hexdbb-run` prints at the end of a complete run."""
+
+HEAD = """# Real time while the computer compiles
 
 Made by `python -m tests.faults --soak {runs} --table docs/soak.md`; nothing here is written by hand.
-One circle of {duration_s:.0f} s of machine time, {runs} times at each rate, controller and simulated rig each a process
-of its own, on {computer}, {cores} cores, **while the engine is compiled by {cores} processes**; load average
-{load_begin:.1f} before the compilation, {load_end:.1f} at the end (a core fully used is 1). Every run should end
-complete: without a fault the controller has no reason to stop.
+Without a fault the controller has no reason to stop: every run should end complete. One circle is driven {runs} times
+at each rate, in real time, controller and simulated rig each a process of its own, on {computer} with {cores} cores,
+**while {cores} processes compile the engine**. Load average {before:.1f} before the compilation began, {after:.1f} at
+the end: what is above {cores} is work that waits, that of others on this computer included.
 
-*Lateness* is how much later than asked a process wakes that sleeps 4 ms, measured during the runs: the median, the
-99th percentile and the worst of all. It is what the computer does to any program, hexdbb not involved. A cycle
-lasts 20 ms at 50 Hz and 4 ms at 250 Hz. *Missed* are SYNCs that the controller left out because it was late.
+- *Lateness*: how much later than asked a process wakes that sleeps 4 ms, measured during all runs of a rate. It is what
+  this computer does to any program. A cycle lasts 20 ms at 50 Hz and 4 ms at 250 Hz; a SYNC later than half a cycle
+  is left out and counted as *missed*.
+- *Samples missing*: planned and not in a record said to be complete, at most 1 %.
+- *Short*: driven to its end, but more than 1 % of the samples are missing, and the record says so. *Stopped*: the
+  controller stopped the axes.
 
-| rate | complete | stopped by the controller | samples missing in complete records: median, worst | lateness: median | 99 % | worst |
-|---|---|---|---|---|---|---|
+| rate | complete | short | stopped | samples missing: median, worst | missed SYNCs: median, worst | lateness: median | 99 % | worst |
+|---|---|---|---|---|---|---|---|---|
 """
 
 
@@ -52,19 +62,27 @@ class Soaked:
     Attributes
     ----------
     rate_hz : int
-    exit_status : int
+    exit_status : int or None
+        None of a run that did not end.
     message : str
-        Last line on stderr of a run that did not succeed, else of stdout: samples and missed cycles.
-    missed : int or None
-        Missed cycles of a complete record.
+        Error of a run that did not succeed, else samples and missed cycles.
+    missing, missed : int
+        Samples missing from a complete record, and SYNCs left out.
     late_ms : ndarray
-        Lateness of a sleeping process, ms.
+        Lateness of a sleeping process during the run, ms.
     """
 
     rate_hz: int
-    exit_status: int
+    exit_status: int | None
     message: str
-    late_ms: np.ndarray
+    missing: int
+    missed: int
+    late_ms: NDArray[np.float64]
+
+    @property
+    def is_short(self) -> bool:
+        """Whether the run was driven to its end, but its record lacks too many samples."""
+        return self.exit_status == 1 and "planned samples are missing" in self.message
 
     def __str__(self) -> str:
         median, most, worst = np.percentile(self.late_ms, [50.0, 99.0, 100.0])
@@ -77,17 +95,15 @@ def compiling() -> Iterator[None]:
     end = threading.Event()
     with tempfile.TemporaryDirectory() as scratch:
         subprocess.run(["cmake", "-S", str(ROOT), "-B", scratch, *CONFIGURE], check=True, capture_output=True)
-        build = ["cmake", "--build", scratch, "--parallel", str(os.cpu_count()), "--clean-first"]
+        build = ["cmake", "--build", scratch, "--parallel", str(cores()), "--clean-first"]
 
         def compile_again() -> None:
             while not end.is_set():
                 with subprocess.Popen(build, stdout=subprocess.DEVNULL, start_new_session=True) as process:
                     while process.poll() is None and not end.wait(0.2):
                         pass
-                    if end.is_set():
-                        os.killpg(process.pid, 15)
-                    elif process.returncode:
-                        raise RuntimeError("the engine does not compile")
+                    if process.poll() is None:
+                        os.killpg(process.pid, signal.SIGTERM)
 
         thread = threading.Thread(target=compile_again)
         thread.start()
@@ -96,5 +112,107 @@ def compiling() -> Iterator[None]:
         finally:
             end.set()
             thread.join()
-            shutil.rmtree(scratch, ignore_errors=True)
-            Path(scratch).mkdir(exist_ok=True)
+
+
+def cores() -> int:
+    """Return the number of processors of this computer that may be used."""
+    return len(os.sched_getaffinity(0))
+
+
+def soak(runs: int) -> Iterator[Soaked]:
+    """Yield the outcome of `runs` runs at each rate."""
+    with tempfile.TemporaryDirectory() as name:
+        for number in range(runs):
+            for rate_hz in RATES_HZ:
+                yield _one(Path(name), rate_hz, number)
+
+
+def _one(folder: Path, rate_hz: int, seed: int) -> Soaked:
+    truth, record = prepared(folder), folder / RECORD
+    words = ["--plan", str(folder / "plan.toml"), "--truth", str(truth), "--seed", str(seed)]
+    words += ["--rate", str(rate_hz), "--realtime", "--overwrite", "-o", str(record)]
+    with _lateness() as late_s:
+        try:
+            done = subprocess.run(command_line(words), capture_output=True, text=True, timeout=DEADLINE_S)
+        except subprocess.TimeoutExpired:
+            return Soaked(rate_hz, None, f"not ended after {DEADLINE_S:g} s", 0, 0, 1e3 * np.array(late_s))
+    late_ms = 1e3 * np.array(late_s)
+    if done.returncode:
+        message = (done.stderr.strip().splitlines() or [""])[-1].replace(f"{folder}/", "").removeprefix("error: ")
+        return Soaked(rate_hz, done.returncode, message, 0, 0, late_ms)
+    said = SUMMARY.search(done.stdout)
+    if said is None:
+        raise RuntimeError(f"hexdbb-run printed: {done.stdout}")
+    kept, planned, missed = map(int, said.groups())
+    return Soaked(rate_hz, 0, said[0], planned - kept, missed, late_ms)
+
+
+@contextmanager
+def _lateness() -> Iterator[list[float]]:
+    """Measure in a thread how late it wakes, s, for the length of the context."""
+    end, late_s = threading.Event(), list[float]()
+
+    def measure() -> None:
+        while not end.is_set():
+            due_s = time.monotonic() + SLEEP_S
+            time.sleep(SLEEP_S)
+            late_s.append(time.monotonic() - due_s)
+
+    thread = threading.Thread(target=measure, daemon=True)
+    thread.start()
+    try:
+        yield late_s
+    finally:
+        end.set()
+        thread.join()
+
+
+def report(runs: int, table: Path | None) -> int:
+    """Run, print every run, write the page; return the number of runs without a complete record."""
+    before, found = os.getloadavg()[0], list[Soaked]()
+    with compiling():
+        for each in soak(runs):
+            found.append(each)
+            print(each, flush=True)
+        after = os.getloadavg()[0]
+    text = page(found, runs, before, after)
+    print(text)
+    if table is not None:
+        write_text(table, text)
+    return sum(each.exit_status != 0 for each in found)
+
+
+def page(found: Sequence[Soaked], runs: int, load_before: float, load_after: float) -> str:
+    """Return the page of the soak."""
+    computer = f"{platform.machine()}, {platform.system()}"
+    lines = [HEAD.format(runs=runs, computer=computer, cores=cores(), before=load_before, after=load_after)]
+    for rate_hz in RATES_HZ:
+        of_rate = [each for each in found if each.rate_hz == rate_hz]
+        complete = [each for each in of_rate if each.exit_status == 0]
+        median, most, worst = np.percentile(np.concatenate([each.late_ms for each in of_rate]), [50.0, 99.0, 100.0])
+        cells = (
+            f"{rate_hz} Hz",
+            f"{len(complete)} of {len(of_rate)}",
+            str(sum(each.is_short for each in of_rate)),
+            str(sum(each.exit_status != 0 and not each.is_short for each in of_rate)),
+            _middle_and_worst([each.missing for each in complete]),
+            _middle_and_worst([each.missed for each in complete]),
+            f"{median:.2f} ms",
+            f"{most:.1f} ms",
+            f"{worst:.0f} ms",
+        )
+        lines.append(f"| {' | '.join(cells)} |\n")
+    stopped = [each for each in found if each.exit_status != 0]
+    if stopped:
+        lines.append(
+            "\n## Runs that did not end complete\n\n| rate | largest lateness in this run | message |\n|---|---|---|\n"
+        )
+        lines += [
+            f"| {each.rate_hz} Hz | {np.percentile(each.late_ms, 99.0):.0f}, {each.late_ms.max():.0f} ms | {each.message} |\n"
+            for each in stopped
+        ]
+    return "".join(lines)
+
+
+def _middle_and_worst(counts: Sequence[int]) -> str:
+    return f"{np.median(counts):.0f}, {max(counts)}" if counts else "–"
