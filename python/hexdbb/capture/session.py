@@ -249,8 +249,12 @@ class _Run:
         lost = planned - samples.count
         if lost <= MAX_LOST * planned:
             return None
-        repeated, slot = self.loop.repeated
-        why = "" if slot is None else f"{self.watch.labels[slot]}: {repeated} answers too many: "
+        (repeated, slot), labels = self.loop.repeated, self.watch.labels
+        causes = [] if slot is None else [f"{labels[slot]}: {repeated} answers too many"]
+        causes += self.watch.supervision.late_answers(labels)
+        if self.loop.missed:
+            causes.append(f"SYNCs not sent because they were late or answers were waited for: {self.loop.missed}")
+        why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "
             f"with their SYNC (expected at most {MAX_LOST:.0%})"
