@@ -11,11 +11,12 @@ import platform
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 from tests.faults.runs import DEADLINE_S, RECORD, command_line, prepared
 
+from hexdbb.capture.realtime import FIFO_PRIORITY
 from hexdbb.files.atomic_file import write_text
 
 ROOT = Path(__file__).parents[2]
@@ -39,13 +41,15 @@ HEAD = """# Real time while the computer compiles
 
 Made by `python -m tests.faults --soak {runs} --table docs/soak.md`; nothing here is written by hand.
 Without a fault the controller has no reason to stop: every run should end complete. One circle is driven {runs} times
-at each rate, in real time, controller and simulated rig each a process of its own, on {computer} with {cores} cores,
-**while {cores} processes compile the engine**. Load average {before:.1f} before the compilation began, {after:.1f} at
-the end: what is above {cores} is work that waits, that of others on this computer included.
+at each rate, in real time, on {computer} with {cores} cores, **while {cores} processes compile the engine**.
+The controller requests real-time scheduling (SCHED_FIFO) for itself, and is given it here for the simulated rig too, a
+process of its own: real nodes do not wait for a compiler ({granted}).
+Load average {before:.1f} before the compilation began, {after:.1f} at the end: what is above {cores} is work that
+waits, that of others on this computer included.
 
-- *Lateness*: how much later than asked a process wakes that sleeps 4 ms, measured during all runs of a rate. It is what
-  this computer does to any program. A cycle lasts 20 ms at 50 Hz and 4 ms at 250 Hz; a SYNC later than half a cycle
-  is left out and counted as *missed*.
+- *Lateness*: how much later than asked a thread of the same scheduling wakes that sleeps 4 ms, measured during all runs
+  of a rate. It is what this computer does to any program. A cycle lasts 20 ms at 50 Hz and 4 ms at 250 Hz; a SYNC later
+  than half a cycle is left out and counted as *missed*.
 - *Missing*: samples planned and not in a record said to be complete, at most 1 %.
 - *Short*: driven to its end, but more than 1 % of the samples are missing, and the record says so. *Stopped*: the
   controller stopped the axes.
@@ -129,9 +133,9 @@ def soak(runs: int) -> Iterator[Soaked]:
 
 def _one(folder: Path, rate_hz: int, seed: int) -> Soaked:
     truth, record = prepared(folder), folder / RECORD
-    words = ["--plan", str(folder / "plan.toml"), "--truth", str(truth), "--seed", str(seed)]
-    words += ["--rate", str(rate_hz), "--realtime", "--overwrite", "-o", str(record)]
-    with _lateness() as late_s:
+    with _rig_that_never_waits(truth, seed) as bus, _lateness() as late_s:
+        words = ["--plan", str(folder / "plan.toml"), "--bus", bus, "--yes", "--rate", str(rate_hz)]
+        words += ["--realtime", "--overwrite", "-o", str(record)]
         try:
             done = subprocess.run(command_line(words), capture_output=True, text=True, timeout=DEADLINE_S)
         except subprocess.TimeoutExpired:
@@ -148,11 +152,35 @@ def _one(folder: Path, rate_hz: int, seed: int) -> Soaked:
 
 
 @contextmanager
+def _rig_that_never_waits(truth: Path, seed: int) -> Iterator[str]:
+    """Serve a rig that no compiler keeps waiting: real nodes have processors of their own. Yield its bus."""
+    command = [sys.executable, "-m", "hexdbb.cli", "rig", "--exit-with-parent", "--truth", str(truth)]
+    with subprocess.Popen(
+        [*command, "--seed", str(seed)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
+        try:
+            assert process.stdout is not None
+            address = process.stdout.readline().split()[-1]
+            with suppress(PermissionError):
+                _real_time(process.pid)
+            yield f"socketcand:{address}"
+        finally:
+            process.terminate()
+
+
+def _real_time(pid: int) -> None:
+    """Give a process, or this thread (0), the scheduling that the controller requests for itself."""
+    os.sched_setscheduler(pid, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY))
+
+
+@contextmanager
 def _lateness() -> Iterator[list[float]]:
     """Measure in a thread how late it wakes, s, for the length of the context."""
     end, late_s = threading.Event(), list[float]()
 
     def measure() -> None:
+        with suppress(PermissionError):
+            _real_time(0)
         while not end.is_set():
             due_s = time.monotonic() + SLEEP_S
             time.sleep(SLEEP_S)
@@ -185,7 +213,14 @@ def report(runs: int, table: Path | None) -> int:
 def page(found: Sequence[Soaked], runs: int, load_before: float, load_after: float) -> str:
     """Return the page of the soak."""
     computer = f"{platform.machine()}, {platform.system()}"
-    lines = [HEAD.format(runs=runs, computer=computer, cores=cores(), before=load_before, after=load_after)]
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY))
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        granted = "granted"
+    except PermissionError:
+        granted = "not granted on this computer"
+    head = {"runs": runs, "computer": computer, "cores": cores(), "granted": granted}
+    lines = [HEAD.format(before=load_before, after=load_after, **head)]
     for rate_hz in RATES_HZ:
         of_rate = [each for each in found if each.rate_hz == rate_hz]
         complete = [each for each in of_rate if each.exit_status == 0]
