@@ -20,7 +20,6 @@ from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
 from hexdbb.cli.consoles import drop, run_console
 from hexdbb.cli.exits import reports_errors, unwritable
-from hexdbb.cli.run_compensated import compensated
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.plan import load_plan
@@ -119,6 +118,8 @@ def command(
     lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), RunProgress()
     if compensation_path is not None:
+        from hexdbb.cli.run_compensated import compensated  # models take half a second to import
+
         request = compensated(request, compensation_path, temperature_c, progress)
     elif temperature_c is not None:
         raise InputError("--temperature-c: without --compensation (expected --compensation FILE with it)")
