@@ -15,7 +15,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from hexdbb import __version__
-from hexdbb.charts.colours import resolved, style_sheet
+from hexdbb.charts.colours import STYLE, resolved, style_sheet
 from hexdbb.charts.lines import quantity_rows
 from hexdbb.comparison import UM_PER_MM, CircleComparison, iso230
 from hexdbb.contributions import RecordContributions
@@ -36,6 +36,9 @@ MOST_PREDICTORS = 12
 """Predictors listed: those below explain a part of what the ones above explain."""
 DRAWN_PREDICTORS = 4
 """Predictors drawn: as many as stand side by side."""
+
+PAPER_STYLE = ".polar text{font-size:15px}.unrolled text,svg text.name{font-size:13px}"
+"""Larger text in the charts that stand side by side on paper: 7 pt there."""
 
 
 def write_page(report: Report, path: Path) -> None:
@@ -66,6 +69,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["um"] = _um
+    environment.filters["begun"] = lambda words: words[:1].upper() + words[1:]
     environment.filters["mm_as_um"] = lambda value_mm: _um(None if value_mm is None else UM_PER_MM * value_mm)
     return environment
 
@@ -79,7 +83,7 @@ class _Charts:
     """Puts charts into a page; on paper each has its style inside, because WeasyPrint keeps a page's from them."""
 
     def __init__(self, for_paper: bool) -> None:
-        self._style = f"<style>{resolved(_source('charts.css'))}</style>" if for_paper else ""
+        self._style = f"<style>{resolved(_source('charts.css'))}{PAPER_STYLE}</style>" if for_paper else ""
 
     def put(self, svg: str) -> Markup:
         """Return a chart as HTML."""
@@ -96,6 +100,7 @@ def _content(report: Report, charts: _Charts) -> dict[str, Any]:
     return {
         "style": Markup(style_sheet() + _source("charts.css") + _source("report.css")),
         "script": Markup(_source("report.js")),
+        "colours": STYLE,
         "title": f"Circular test of {records[-1].machine.name}",
         "version": __version__,
         "edition": iso230.EDITION,
