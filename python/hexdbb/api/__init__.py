@@ -16,6 +16,7 @@ from hexdbb.api.analysis import (
 )
 from hexdbb.api.control import compensate, propose_plan
 from hexdbb.api.measuring import measure, simulated_rig
+from hexdbb.api.reporting import rank_contributions, report
 
 __all__ = [
     "add_effect",
@@ -28,7 +29,9 @@ __all__ = [
     "measure",
     "predict",
     "propose_plan",
+    "rank_contributions",
     "remove_effect",
+    "report",
     "simulated_rig",
     "table_of",
 ]
