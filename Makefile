@@ -112,6 +112,10 @@ calibration: setup  ## verdicts judged on machines with forms: hours, resumable;
 faults: setup  ## every fault on the bus and in the rig, in lockstep and real time; rewrites docs/fault-table.md
 	@$(BIN)/python -m tests.faults --realtime --pairs 30 --table docs/fault-table.md
 
+.PHONY: soak
+soak: setup  ## 100 runs in real time while the engine compiles, half an hour; rewrites docs/soak.md
+	@$(BIN)/python -m tests.faults --soak 50 --table docs/soak.md
+
 .PHONY: fuzz
 fuzz: setup  ## 10000 damaged inputs over all formats; failing ones go to build/fuzz
 	@$(BIN)/python -m tests.fuzz --count 10000
