@@ -26,6 +26,9 @@ from .api import (
     predict as predict,
 )
 from .api import (
+    preview_effect as preview_effect,
+)
+from .api import (
     propose_plan as propose_plan,
 )
 from .api import (
@@ -60,6 +63,12 @@ from .model import (
 )
 from .model import (
     save_model as save_model,
+)
+from .model import (
+    switched_off as switched_off,
+)
+from .model import (
+    with_value as with_value,
 )
 from .plan import Plan as Plan
 from .plan import load_plan as load_plan

@@ -11,6 +11,7 @@ from hexdbb.api.analysis import (
     discover_all,
     draft_effect,
     predict,
+    preview_effect,
     remove_effect,
     table_of,
 )
@@ -27,6 +28,7 @@ __all__ = [
     "draft_effect",
     "measure",
     "predict",
+    "preview_effect",
     "propose_plan",
     "remove_effect",
     "simulated_rig",
