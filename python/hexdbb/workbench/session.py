@@ -4,8 +4,8 @@ Every action calls the function that the command of the same name calls and appe
 `Session.script`. Nothing is computed here.
 
 Threads: actions may be called from any thread. One action that changes the model runs at a time; a second one is
-refused with the name of the first. Fits and discovery take a table of samples of their own, so that what is shown can be
-predicted meanwhile.
+refused with the name of the first. Fits and discovery take a table of samples of their own, so that what is shown can
+be predicted meanwhile.
 """
 
 from __future__ import annotations
@@ -223,7 +223,7 @@ class Session:
             self.script.add(f"model = model.knowing_effects(hx.load_effects({str(path)!r}))")
             self._changed()
 
-    def write_compensation(self, path: Path) -> Sequence[str]:
+    def write_compensation(self, path: Path) -> Sequence[tuple[str, str]]:
         """Write the compensation file; return what of the model it leaves out, with the reasons."""
         with self._doing(f"writing {path}"):
             data = api.compensate(self.model, path)
@@ -270,7 +270,7 @@ class Session:
 
     def _commit(self, model: Model, *lines: str) -> None:
         """Take a model with a step more or less, write it, note the lines; nothing is taken if it cannot be written."""
-        saved = ()
+        saved: tuple[str, ...] = ()
         if self.file is not None:
             self.file.save(model)
             model = replace(model, path=self.file.path)

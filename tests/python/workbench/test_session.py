@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import runpy
 import shutil
 from pathlib import Path
@@ -69,7 +68,7 @@ def test_without_a_model_a_new_one_is_fitted_and_written_where_it_is_saved(folde
     session.save_as(Path("mine.toml"))
     session.undo()
     assert not hx.load_model("mine.toml").ledger
-    os.remove("mine.toml")
+    Path("mine.toml").unlink()
     assert not run_script(session.script.text, folder)["model"].ledger
 
 
@@ -126,7 +125,7 @@ def test_a_model_changed_on_disk_is_not_overwritten(session: Session) -> None:
 
 
 def test_a_model_removed_on_disk_is_said(session: Session) -> None:
-    os.remove("model.toml")
+    Path("model.toml").unlink()
     with pytest.raises(hx.InputError, match=r"model\.toml: was removed"):
         session.undo()
 
