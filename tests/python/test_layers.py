@@ -87,6 +87,23 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "discovery",
     },
+    # every error's part in the circular deviation
+    "contributions": {
+        "errors",
+        "files",
+        "threads",
+        "learned",
+        "model",
+        "samples",
+        "diagnosis",
+        "identifiability",
+        "ledger",
+        "predictors",
+        "comparison",
+        "charts",
+    },
+    # what pictures and pages show, before either draws it
+    "charts": {"comparison"},
     "plots": {
         "errors",
         "files",
@@ -98,6 +115,7 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "discovery",
         "comparison",
+        "charts",
     },
     # what a controller does about it
     "trajectory": {"errors", "machine", "plan", "kinematics"},
@@ -314,6 +332,8 @@ NAME_BLIND = (
     "ledger",
     "predictors",
     "comparison",
+    "contributions",
+    "charts",
     "plots",
     "evidence",
     "discovery",

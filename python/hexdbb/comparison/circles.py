@@ -157,8 +157,10 @@ def _compare_circle(samples: Samples, predicted_mm: FloatArray, here: IndexArray
         for direction in DIRECTION_NAMES
         if len(found := np.flatnonzero(part["direction"] == direction))
     }
-    measured = {d: _mean_path(part.part(found), circle, bar_mm, reading_mm[found]) for d, found in rows.items()}
-    predicted = {d: _mean_path(part.part(found), circle, bar_mm, predicted_here_mm[found]) for d, found in rows.items()}
+    measured = {d: lap_mean_path(part.part(found), circle, bar_mm, reading_mm[found]) for d, found in rows.items()}
+    predicted = {
+        d: lap_mean_path(part.part(found), circle, bar_mm, predicted_here_mm[found]) for d, found in rows.items()
+    }
     measured_quantities, predicted_quantities = evaluate_quantities(measured), evaluate_quantities(predicted)
     residual_mm = reading_mm - predicted_here_mm
     is_full = any(path.is_full_circle for path in measured.values())
@@ -189,8 +191,18 @@ def compensation_of(record: Record) -> str | None:
     return str(driven.get("file", "a compensation")) if isinstance(driven, dict) else None
 
 
-def _mean_path(part: Samples, circle: Circle, bar_mm: float, reading_mm: FloatArray) -> Path:
-    """Return the mean path over the laps (and repeated sweeps) of some samples of one direction."""
+def lap_mean_path(part: Samples, circle: Circle, bar_mm: float, reading_mm: FloatArray) -> Path:
+    """Return the mean path over the laps (and repeated sweeps) of some samples of one direction.
+
+    Parameters
+    ----------
+    part : Samples
+    circle : Circle
+    bar_mm : float
+        Nominal length of the ball bar.
+    reading_mm : (n,) array
+        Readings that the path is made of: measured ones, or predicted by any model.
+    """
     angle_rad, deviation_mm = part["angle_rad"], reading_mm + (bar_mm - circle.radius_mm)
     turns = np.column_stack([part["sweep"], part["lap"]])
     _, turn_of = np.unique(turns, axis=0, return_inverse=True)

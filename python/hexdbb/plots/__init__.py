@@ -8,14 +8,11 @@
 
 from hexdbb.plots.analysis_pages import diagnosis_pages, discovery_pages
 from hexdbb.plots.learned import learned_figure
-from hexdbb.plots.magnification import Scale, choose_scale
 from hexdbb.plots.pages import Page, comparison_pages, save_figure, save_pages
 from hexdbb.plots.residual_circles import residual_figure
 
 __all__ = [
     "Page",
-    "Scale",
-    "choose_scale",
     "comparison_pages",
     "diagnosis_pages",
     "discovery_pages",

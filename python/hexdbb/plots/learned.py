@@ -9,12 +9,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hexdbb.charts.colours import BAND_COLOUR, FORMULA_COLOUR, FUNCTION_COLOUR
 from hexdbb.errors import InputError
 from hexdbb.learned import Curve
 from hexdbb.learned.shown import place_words, sentence
 from hexdbb.learned.words import UM_PER_MM, shown_places
 from hexdbb.model import Model
-from hexdbb.plots.colours import BAND_COLOUR, FORMULA_COLOUR, FUNCTION_COLOUR
 
 TITLE_CHARACTERS = 95
 """Characters of 9 points across the figure."""

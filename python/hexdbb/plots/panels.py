@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
+from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.comparison import QUANTITIES, UM_PER_MM, CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
 from hexdbb.comparison.iso230 import FloatArray, Path
-from hexdbb.plots.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.plots.marks import mark_reversals
 from hexdbb.plots.polar import curve
 

@@ -16,11 +16,11 @@ from matplotlib.artist import Artist
 from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 
+from hexdbb.charts.colours import GRID_COLOUR, MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS
+from hexdbb.charts.magnification import Scale
 from hexdbb.comparison import UM_PER_MM, CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES
 from hexdbb.comparison.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
-from hexdbb.plots.colours import GRID_COLOUR, MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS
-from hexdbb.plots.magnification import Scale
 
 GRID_LABEL_ANGLE_DEG = 67.5
 

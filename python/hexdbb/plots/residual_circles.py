@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.comparison import UM_PER_MM, CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES, DirectionComparison, compare_circles
 from hexdbb.comparison.iso230 import FloatArray, Path
-from hexdbb.plots.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.plots.marks import mark_reversals
 from hexdbb.plots.panels import smoothed
 from hexdbb.samples import Samples

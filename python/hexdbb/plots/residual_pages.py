@@ -11,10 +11,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from hexdbb.charts.colours import BY_NAME, COMMON_COLOUR, LINE_COLOUR, REVERSING_COLOUR
 from hexdbb.comparison import UM_PER_MM, Comparison
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison
 from hexdbb.comparison.iso230 import FloatArray
-from hexdbb.plots.colours import BY_NAME, COMMON_COLOUR, LINE_COLOUR, REVERSING_COLOUR
 from hexdbb.plots.marks import mark_reversals
 from hexdbb.predictors import LEAST_SHARE, Predictor
 

@@ -13,12 +13,12 @@ from matplotlib.text import Text
 from tests.python.comparison.made_up import MakeRecord, compared
 from tests.truth.cases import case
 
+from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import Discovery, discover
 from hexdbb.errors import InputError
 from hexdbb.model import new_model
 from hexdbb.plots import comparison_pages, diagnosis_pages, discovery_pages, residual_figure, save_pages
-from hexdbb.plots.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.record import Record
 from hexdbb.samples import Samples
 

@@ -1,4 +1,4 @@
-"""Colours of all pictures: a direction has one hue everywhere, and nothing else has it.
+"""Colours of all pictures and pages: a direction has one hue everywhere, and nothing else has it.
 
 Okabe and Ito's palette, which the colour-blind can tell apart.
 """
@@ -18,9 +18,9 @@ BY_NAME = {
 """Lines of a predictor that are told apart: directions of the circle, directions of travel."""
 COMMON_COLOUR, REVERSING_COLOUR = "#009E73", "#CC79A7"
 """Part common to both directions of the circle, and part that reverses with the direction."""
-LINE_COLOUR = "0.25"
+LINE_COLOUR = "#404040"
 """What belongs to no direction."""
 FUNCTION_COLOUR, BAND_COLOUR, FORMULA_COLOUR = "#00694D", "#009E73", "#D55E00"
 """A function learned, its band, and the formula of a known effect."""
-NOMINAL_COLOUR = "0.35"
-GRID_COLOUR = "0.85"
+NOMINAL_COLOUR = "#595959"
+GRID_COLOUR = "#D9D9D9"
