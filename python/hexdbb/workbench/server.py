@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import secrets
 import socket
 from collections.abc import Callable
@@ -62,6 +63,9 @@ def serve(
         ws="wsproto",
         timeout_graceful_shutdown=1,
     )
+    # What is there by now lives as long as the server. NiceGUI looks for the server among all objects that the collector
+    # does follow, and fails on one of canopen's that refuses to be asked for its class.
+    gc.freeze()
     ready(f"http://{LOOPBACK}:{port}/?token={token}")
     uvicorn.Server(configuration).run(sockets=[listening])
 

@@ -86,13 +86,13 @@ class Session:
     @property
     def prediction(self) -> Prediction:
         """What the model shown predicts for all readings."""
+        if self.tried.is_nothing:
+            return self.fitted
         return self._kept("prediction", lambda: predict(self.samples, self.shown))
 
     @property
     def fitted(self) -> Prediction:
         """What the model as it was fitted predicts."""
-        if self.tried.is_nothing:
-            return self.prediction
         return self._kept("fitted", lambda: predict(self.samples, self.model))
 
     @property
@@ -102,11 +102,11 @@ class Session:
 
     @property
     def sufficiency(self) -> Sufficiency:
-        """Whether the model shown is sufficient."""
+        """Whether the model as it was fitted is sufficient."""
         judge = one_thread(assess_sufficiency)
         return self._kept(
             "sufficiency",
-            lambda: judge(self.samples, self.shown, self.prediction.residual_mm, noise=self.noise),
+            lambda: judge(self.samples, self.model, self.fitted.residual_mm, noise=self.noise),
         )
 
     @property
@@ -132,7 +132,7 @@ class Session:
         self.selection = selection
         shown = Name("shown" if not self.tried.is_nothing else "model")
         self.script.add(f"here = {rows}", f"print({call('hx.predict', Name('here'), shown)}.rms_um)", key="select")
-        self._changed(keep=True)
+        self._changed("*")
 
     def switch(self, effect: str, on: bool) -> None:
         """Switch an effect on or off."""
@@ -165,7 +165,7 @@ class Session:
             found = api.discover(table, self.model, progress=progress)
             self.found = found
             self.script.add("found = hx.discover(samples, model)", "print(found.sentence)")
-            self._changed(keep=True)
+            self._changed("*")
         return found
 
     def add(self, *names: str) -> None:
@@ -193,7 +193,7 @@ class Session:
         with self._doing("reading the model again"):
             self.model = self._opened()
             self.tried, self.found = Tried(), None
-            self._changed()
+            self._changed("noise")
 
     def save_as(self, path: Path) -> None:
         """Write the model to a file of its own; every further step is written there.
@@ -210,7 +210,7 @@ class Session:
             file.save(self.model)
             self.file = file
             self.script.add(call("hx.save_model", Name("model"), str(path)))
-            self._changed(keep=True)
+            self._changed("*")
 
     # --- what follows -----------------------------------------------------------------------------------------------
 
@@ -221,7 +221,7 @@ class Session:
             self.model = self.model.knowing_effects(effects)
             self.own_effects, self.effects_path, self.found = effects, path, None
             self.script.add(f"model = model.knowing_effects(hx.load_effects({str(path)!r}))")
-            self._changed()
+            self._changed("noise")
 
     def write_compensation(self, path: Path) -> Sequence[tuple[str, str]]:
         """Write the compensation file; return what of the model it leaves out, with the reasons."""
@@ -231,6 +231,10 @@ class Session:
             return list(data.left_out)
 
     # --- inside -----------------------------------------------------------------------------------------------------
+
+    def touch(self) -> None:
+        """Call the listeners: something that is shown beside the session has changed."""
+        self._changed("*")
 
     def listen(self, heard: Callable[[], None]) -> Callable[[], None]:
         """Call a function after every change; return the function that ends it."""
@@ -261,12 +265,12 @@ class Session:
             if self.busy:
                 raise InputError(f"{what}: not now, {self.busy} (expected to wait until it is done)")
             self.busy = what
-        self._changed(keep=True)
+        self._changed("*")
         try:
             yield Samples.of(self.records)
         finally:
             self.busy = ""
-            self._changed(keep=True)
+            self._changed("*")
 
     def _commit(self, model: Model, *lines: str) -> None:
         """Take a model with a step more or less, write it, note the lines; nothing is taken if it cannot be written."""
@@ -277,17 +281,18 @@ class Session:
             saved = (call("hx.save_model", Name("model"), str(self.file.path)),)
         self.script.add(*lines, *saved)
         self.model, self.tried, self.found = model, Tried(), None
-        self._changed()
+        self._changed("noise")
 
     def _try(self, tried: Tried, key: str = "") -> None:
         tried.of(self.model)  # a name that is not in the model is refused before anything changes
         self.tried = tried
         self.script.add(*tried.lines, "print(hx.predict(samples, shown).rms_um)", key=key)
-        self._changed()
+        self._changed("noise", "fitted", "sufficiency")
 
-    def _changed(self, keep: bool = False) -> None:
-        if not keep:
-            self._cache = {name: kept for name, kept in self._cache.items() if name == "noise"}
+    def _changed(self, *kept: str) -> None:
+        """Forget what was made but for the parts named (``*``: everything), and call the listeners."""
+        if "*" not in kept:
+            self._cache = {name: made for name, made in self._cache.items() if name in kept}
         for heard in list(self._listeners):
             heard()
 
