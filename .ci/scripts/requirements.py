@@ -9,10 +9,11 @@ PYPROJECT = Path(__file__).parents[2] / "pyproject.toml"
 
 
 def requirements(pyproject: Path) -> list[str]:
-    """Return all requirements of a pyproject.toml in the syntax of pip: build system, dependencies and dev."""
+    """Return all requirements of a pyproject.toml in the syntax of pip: build system, dependencies, every extra."""
     content = tomllib.loads(pyproject.read_text(encoding="utf-8"))
     project = content["project"]
-    return [*content["build-system"]["requires"], *project["dependencies"], *project["optional-dependencies"]["dev"]]
+    extras = project["optional-dependencies"].values()
+    return [*content["build-system"]["requires"], *project["dependencies"], *(each for extra in extras for each in extra)]
 
 
 if __name__ == "__main__":

@@ -18,6 +18,11 @@ if [ "$("$python" -c 'import sys; print(sys.base_prefix)')" = /usr ]; then
   packages+=("python$version-venv" "python$version-dev")
 fi
 
+# The browser in which the tests open pages, where none is there: Debian has it as a package, Ubuntu as a snap only.
+if ! command -v chromium >/dev/null && ! command -v chromium-browser >/dev/null && ! command -v google-chrome >/dev/null; then
+  packages+=(chromium)
+fi
+
 if [ "${HEXDBB_LINUXCNC:-OFF}" = ON ]; then
   packages+=(linuxcnc-uspace linuxcnc-uspace-dev pkg-config)
 fi

@@ -27,9 +27,7 @@ MISSING = "hexdbb workbench: NiceGUI is not installed (expected: pip install 'he
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1; a free one where 0.")
 @click.option("--no-browser", is_flag=True, help="Print the address only, open no browser.")
 @click.option("--allow-code", is_flag=True, help="Let the page write and run effects of your own: it runs Python.")
-def command(
-    records: tuple[Path, ...], model_path: Path | None, port: int, no_browser: bool, allow_code: bool
-) -> None:
+def command(records: tuple[Path, ...], model_path: Path | None, port: int, no_browser: bool, allow_code: bool) -> None:
     """Open RECORD... (.parquet or .csv) and a model in a page of this computer's browser.
 
     Charts of every circle, measured and predicted; effects to switch off and values to drag; what is missing, previewed

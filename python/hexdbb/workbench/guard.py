@@ -7,8 +7,8 @@ The page can write files, so that other programs' pages must not reach it. Of ev
 - ``Origin``, where the browser sends it, is this server's; a web socket must send it;
 - the first request has the token of this run in its address; a cookie (HttpOnly, SameSite=Strict) holds it afterwards.
 
-Answers forbid content of other servers, and frames (Content-Security-Policy). The page's framework compiles templates in
-the browser, which needs ``unsafe-eval``, and starts with a script in the page; everything else is closed.
+Answers forbid content of other servers, and frames (Content-Security-Policy). The page's framework compiles templates
+in the browser, which needs ``unsafe-eval``, and starts with a script in the page; everything else is closed.
 """
 
 from __future__ import annotations

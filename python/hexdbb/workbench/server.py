@@ -17,6 +17,8 @@ from hexdbb.workbench.page import show
 from hexdbb.workbench.session import Session
 
 LOOPBACK = "127.0.0.1"
+RECONNECT_S = 30.0
+"""Time for which a tab that is not heard of is kept: a computer that fits on every core may be late by seconds."""
 TOKEN_BYTES = 24
 """Length of the token: 192 bits cannot be guessed."""
 
@@ -55,6 +57,7 @@ def serve(
         title="hexdbb workbench",
         tailwind=False,
         show_welcome_message=False,
+        reconnect_timeout=RECONNECT_S,
         gzip_middleware_factory=None,
     )
     configuration = uvicorn.Config(
@@ -63,8 +66,8 @@ def serve(
         ws="wsproto",
         timeout_graceful_shutdown=1,
     )
-    # What is there by now lives as long as the server. NiceGUI looks for the server among all objects that the collector
-    # does follow, and fails on one of canopen's that refuses to be asked for its class.
+    # What is there by now lives as long as the server. NiceGUI looks for the server among all objects that the
+    # collector follows, and fails on one of canopen's that refuses to be asked for its class.
     gc.freeze()
     ready(f"http://{LOOPBACK}:{port}/?token={token}")
     uvicorn.Server(configuration).run(sockets=[listening])

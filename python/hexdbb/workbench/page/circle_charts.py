@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 from nicegui.element import Element
-from nicegui.elements import echart  # noqa: F401: registers the library that circle_charts.js imports
 
 
 class CircleCharts(Element, component="circle_charts.js"):

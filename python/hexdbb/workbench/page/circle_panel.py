@@ -9,13 +9,14 @@ from hexdbb.comparison.circles import DIRECTION_NAMES
 from hexdbb.predictors import record_names
 from hexdbb.workbench.circle_data import CircleView
 from hexdbb.workbench.columns import variables
+from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.circle_charts import CircleCharts
 from hexdbb.workbench.page.running import refused
 from hexdbb.workbench.selection import Selection
 from hexdbb.workbench.session import Session
 
 UM_PER_MM = 1e3
-BOTH = {0: "both", **{direction: name for direction, name in DIRECTION_NAMES.items()}}
+BOTH = {0: "both", **DIRECTION_NAMES}
 FIRST_AGAINST = "time_s"
 """The unrolled chart has the angle already; against time warmth and settling show."""
 
@@ -53,7 +54,11 @@ class CirclePanel:
         with ui.element("div").classes("wb-picker").props('role="group" aria-label="Circle and feed"'):
             for each in session.selections:
                 record = f"{names[each.record]} " if len(names) > 1 else ""
-                with ui.button(on_click=lambda each=each: self._select(each)).props("flat no-caps").mark("circle") as button:
+                with (
+                    ui.button(on_click=lambda each=each: self._select(each))
+                    .props("flat no-caps")
+                    .props(mark("circle")) as button
+                ):
                     with ui.element("span").classes("wb-circle-name"):
                         ui.label(f"{record}circle {each.circle}")
                         ui.label(f"{each.feed_mm_min:g} mm/min").classes("wb-small")
@@ -82,7 +87,7 @@ class CirclePanel:
         largest_um = max(sizes_um)
         for (each, button, bar, number), size_um in zip(self._buttons, sizes_um, strict=True):
             current = (each.record, each.circle, each.feed_mm_min) == _place(self._session.selection)
-            button.props(f'aria-pressed={"true" if current else "false"}')
+            button.props(f"aria-pressed={'true' if current else 'false'}")
             button.classes(add="wb-current" if current else "", remove="" if current else "wb-current")
             bar.style(f"--part: {size_um / largest_um if largest_um else 0.0:.3f}")
             number.set_text(f"{size_um:.2f} µm")

@@ -8,6 +8,7 @@ from nicegui import ui
 
 from hexdbb.model import Parameter, Term
 from hexdbb.units import readable_unit, shown_factor, shown_unit
+from hexdbb.workbench.page.attributes import attribute, mark
 from hexdbb.workbench.page.running import refused
 from hexdbb.workbench.session import Session
 
@@ -39,7 +40,9 @@ class EffectsPanel:
                 with ui.element("h2").props('id="effects-title"'):
                     ui.label("What the model has")
                 self._back = ui.button("Back to the fit", on_click=session.back_to_fit).props("flat dense no-caps")
-            ui.label("Switch an effect off, or drag a value: the charts follow; the model stays as it is.").classes("wb-small")
+            ui.label("Switch an effect off, or drag a value: the charts follow; the model stays as it is.").classes(
+                "wb-small"
+            )
             self._rows = ui.element("div").classes("wb-effects")
         self.draw(anew=True)
 
@@ -69,13 +72,20 @@ class EffectsPanel:
     def _ordered(self) -> list[Term]:
         """Return the effects, those added last first."""
         added = [step.effect for step in self._session.model.ledger if step.what == "add"]
-        return sorted(self._session.model.terms, key=lambda term: -added.index(term.effect) - 1 if term.effect in added else 0)
+        return sorted(
+            self._session.model.terms, key=lambda term: -added.index(term.effect) - 1 if term.effect in added else 0
+        )
 
     def _row(self, term: Term) -> None:
         info = self._session.model.info(term.effect)
         parameters = [each for each in self._session.model.parameters() if each.effect == term.effect]
         with ui.element("div").classes("wb-effect"):
-            switch = ui.switch(value=True).props(f'dense aria-label="{_plain(term.effect)}"').mark(f"switch {term.effect}")
+            switch = (
+                ui.switch(value=True)
+                .props("dense")
+                .props(attribute("aria-label", term.effect))
+                .props(mark(f"switch {term.effect}"))
+            )
             switch.on("update:model-value", lambda event, name=term.effect: self._switch(name, bool(event.args[0])))
             self._switches[term.effect] = switch
             with ui.expansion(term.effect, caption=info.physics).props("dense") as inside:
@@ -106,7 +116,9 @@ class EffectsPanel:
             ui.label(name).classes("wb-value-name")
             number = ui.label().classes("wb-value-number")
             slider = ui.slider(min=low, max=high, step=(high - low) / STEPS, value=value)
-            slider.props(f'dense aria-label="{_plain(parameter.label)}"').mark(f"value {parameter.label}")
+            slider.props("dense").props(attribute("aria-label", parameter.label)).props(
+                mark(f"value {parameter.label}")
+            )
             known = f"± {sigma:.3g} {unit}" if sigma == sigma else "known only in combination with others"
             ui.label(known).classes("wb-small wb-value-known")
         slider.on(
@@ -121,8 +133,3 @@ class EffectsPanel:
 
     def _drag(self, label: str, value: float) -> None:
         refused(lambda: self._session.set_value(label, value))
-
-
-def _plain(text: str) -> str:
-    """Return a name without what would end an attribute of a property list."""
-    return text.replace('"', "'")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from nicegui import ui
 
+from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop
 from hexdbb.workbench.session import Session
 
@@ -15,8 +16,8 @@ class Head:
         self._session = session
         with ui.element("header").classes("wb-head"):
             with ui.element("div").classes("wb-verdict"):
-                self._about = ui.label().classes("wb-about").mark("about")
-                self._verdict = ui.element("h1").mark("verdict")
+                self._about = ui.label().classes("wb-about").props(mark("about"))
+                self._verdict = ui.element("h1").props(mark("verdict"))
                 with self._verdict:
                     self._sentence = ui.label()
                 with ui.element("p").classes("wb-warning") as self._warning:
@@ -45,7 +46,10 @@ class Head:
     def _judged(self) -> tuple[str, str]:
         session = self._session
         if not session.is_fitted:
-            return "open", f"Not fitted yet: the nominal machine misses the readings by {session.fitted.rms_um:.2f} µm RMS"
+            return (
+                "open",
+                f"Not fitted yet: the nominal machine misses the readings by {session.fitted.rms_um:.2f} µm RMS",
+            )
         if session.found is not None:
             return ("good" if session.found.verdict == "none" else "bad"), _capital(session.found.sentence)
         enough = session.sufficiency
@@ -68,7 +72,7 @@ class Head:
 
 def _number(label: str, name: str) -> ui.label:
     with ui.element("div").classes("wb-number"):
-        number = ui.label().classes("wb-figure").mark(name)
+        number = ui.label().classes("wb-figure").props(mark(name))
         ui.label(label).classes("wb-small")
     return number
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from nicegui import ui
 
 from hexdbb.ledger.words import deed
-from hexdbb.model import LedgerStep
+from hexdbb.model import LedgerStep, Model
+from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop
 from hexdbb.workbench.session import Session
 
@@ -17,25 +18,27 @@ class Ladder:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._drawn: tuple[object, ...] = ()
+        self._model: Model | None = None
+        self._preview: tuple[str, ...] = ()
         with ui.element("section").classes("wb-card").props('aria-labelledby="ladder-title"'):
             with ui.row().classes("wb-title"):
                 with ui.element("h2").props('id="ladder-title"'):
                     ui.label("How the error fell")
                 self._undo = ui.button("Undo", on_click=off_loop(session.undo, "last step undone"))
-                self._undo.props("outline dense no-caps").mark("undo")
-            self._rows = ui.element("div").classes("wb-ladder").mark("ladder")
-            ui.label("dark: readings fitted; light: circles held out of the fit; line: noise of a reading").classes("wb-small")
+                self._undo.props("outline dense no-caps").props(mark("undo"))
+            self._rows = ui.element("div").classes("wb-ladder").props(mark("ladder"))
+            ui.label("dark: readings fitted; light: circles held out of the fit; line: noise of a reading").classes(
+                "wb-small"
+            )
         self.draw()
 
     def draw(self) -> None:
         """Draw the steps, and what is previewed."""
         session = self._session
         self._undo.set_enabled(bool(session.model.ledger) and not session.busy)
-        now = (session.model, session.tried.preview)
-        if now == self._drawn:
+        if session.model is self._model and session.tried.preview == self._preview:
             return
-        self._drawn = now
+        self._model, self._preview = session.model, session.tried.preview
         steps: Sequence[LedgerStep] = session.history.steps
         noise_um = session.noise.noise.sigma_mm * 1e3
         shown = [(deed(step), step.rms_after_um, step.heldout_after_um) for step in steps]

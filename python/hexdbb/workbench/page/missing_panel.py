@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from nicegui import run, ui
+from collections.abc import Awaitable, Callable
+
+from nicegui import ui
 
 from hexdbb.discovery import Candidate, Discovery
-from hexdbb.errors import HexdbbError
-from hexdbb.workbench.page.running import off_loop, refused, say
+from hexdbb.workbench.page.attributes import mark
+from hexdbb.workbench.page.running import off_loop, refused
 from hexdbb.workbench.session import Session
 
 GROUPS = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
@@ -17,18 +19,21 @@ class MissingPanel:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._drawn: tuple[object, ...] = ()
+        self._found_drawn: Discovery | None = None
+        self._drawn: tuple[tuple[str, ...], bool] | None = None
         self._progress = ""
         with ui.element("section").classes("wb-card wb-first").props('aria-labelledby="missing-title"'):
             with ui.element("h2").props('id="missing-title"'):
                 ui.label("What is missing?")
             with ui.row().classes("wb-actions"):
-                self._fit = ui.button("Fit the model", on_click=off_loop(session.fit, "fitted")).props("no-caps unelevated")
-                self._ask = ui.button("What is missing?", on_click=self._asked).props("no-caps unelevated").mark("ask")
+                self._fit = ui.button("Fit the model", on_click=off_loop(session.fit, "fitted"))
+                self._ask = ui.button("What is missing?", on_click=off_loop(self._asking))
+                for button, name in ((self._fit, "fit"), (self._ask, "ask")):
+                    button.props("no-caps unelevated").props(mark(name))
             with ui.element("p").classes("wb-busy").props('role="status"') as self._busy:
                 ui.spinner(size="1.2em")
                 self._doing = ui.label()
-            self._found = ui.element("div").classes("wb-found").mark("found")
+            self._found = ui.element("div").classes("wb-found").props(mark("found"))
         self.draw()
 
     def draw(self) -> None:
@@ -40,23 +45,21 @@ class MissingPanel:
             button.set_enabled(not session.busy)
         self._busy.set_visibility(bool(session.busy))
         self._doing.set_text(": ".join(filter(None, (session.busy, self._progress))))
-        now = (session.found, session.tried.preview, bool(session.busy))
-        if now != self._drawn:
-            self._drawn = now
+        now = (session.tried.preview, bool(session.busy))
+        if session.found is not self._found_drawn or now != self._drawn:
+            self._found_drawn, self._drawn = session.found, now
             self._found.clear()
             with self._found:
                 if session.found is not None:
                     self._draw_found(session.found)
 
-    async def _asked(self) -> None:
+    def _asking(self) -> None:
         def progress(what: str) -> None:
             self._progress = what
             self._session.touch()
 
         try:
-            await run.io_bound(self._session.ask, progress)
-        except HexdbbError as error:
-            say(str(error), "negative")
+            self._session.ask(progress)
         finally:
             self._progress = ""
 
@@ -76,13 +79,17 @@ class MissingPanel:
             ui.label(remark).classes("wb-small")
         if found.structure:
             ui.label("What the remaining residual follows:").classes("wb-small")
-            for each in found.structure[:3]:
-                ui.label(f"{each.share:.0%}  {each.sentence}").classes("wb-small")
+            for part in found.structure[:3]:
+                ui.label(f"{part.share:.0%}  {part.sentence}").classes("wb-small")
 
     def _candidate(self, each: Candidate, best: float, found: Discovery) -> None:
         previewed = self._session.tried.preview == each.names
         is_answer = any(cause.choice in each.names for cause in found.causes) and found.verdict == "effect"
-        with ui.element("li").classes("wb-candidate" + (" wb-answer" if is_answer else "")).mark(f"candidate {each.choice}"):
+        with (
+            ui.element("li")
+            .classes("wb-candidate" + (" wb-answer" if is_answer else ""))
+            .props(mark(f"candidate {each.choice}"))
+        ):
             with ui.element("div").classes("wb-candidate-head"):
                 ui.label(each.choice).classes("wb-candidate-name")
                 ui.label(f"explains {each.share:.0%}").classes("wb-candidate-share")
@@ -90,15 +97,17 @@ class MissingPanel:
             ui.label(_reasons(each, found)).classes("wb-small")
             with ui.row().classes("wb-actions"):
                 shown = "Back to the fit" if previewed else "Preview"
-                preview = ui.button(shown, on_click=lambda: self._preview(each, previewed)).props("outline dense no-caps")
+                preview = ui.button(shown, on_click=lambda: self._preview(each, previewed)).props(
+                    "outline dense no-caps"
+                )
                 add = ui.button("Add", on_click=self._adding(each)).props("unelevated dense no-caps")
                 for button, name in ((preview, "preview"), (add, "add")):
-                    button.mark(f"{name} {each.choice}").set_enabled(not self._session.busy)
+                    button.props(mark(f"{name} {each.choice}")).set_enabled(not self._session.busy)
 
     def _preview(self, each: Candidate, previewed: bool) -> None:
         refused(self._session.back_to_fit if previewed else lambda: self._session.preview(*each.names))
 
-    def _adding(self, each: Candidate):  # type: ignore[no-untyped-def]
+    def _adding(self, each: Candidate) -> Callable[[], Awaitable[None]]:
         return off_loop(lambda: self._session.add(*each.names), f"{each.choice} added")
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
-from nicegui import run, ui
+from nicegui import ui
 
-from hexdbb.errors import HexdbbError
-from hexdbb.workbench.page.running import say
+from hexdbb.workbench.page.attributes import mark
+from hexdbb.workbench.page.running import off_loop
 from hexdbb.workbench.session import Session
 
 
@@ -20,11 +21,12 @@ class ResultsPanel:
             with ui.element("h2").props('id="results-title"'):
                 ui.label("Take it away")
             with ui.row().classes("wb-actions"):
-                ui.button("Save model as", on_click=lambda: self._asked("model.toml", self._save)).props("outline dense no-caps")
-                ui.button("Compensation", on_click=lambda: self._asked(".hexcomp", self._compensate)).props(
-                    "outline dense no-caps"
-                ).mark("compensation")
-                ui.button("Copy as script", on_click=self._script).props("outline dense no-caps").mark("script")
+                for name, action in (
+                    ("Save model as", lambda: self._asked("model.toml", self._save)),
+                    ("Compensation", lambda: self._asked(".hexcomp", self._compensate)),
+                    ("Copy as script", self._script),
+                ):
+                    ui.button(name, on_click=action).props("outline dense no-caps").props(mark(name))
 
     def _default(self, ending: str) -> str:
         session = self._session
@@ -32,18 +34,16 @@ class ResultsPanel:
         base = session.file.path if session.file is not None else stem
         return str(base.with_suffix(ending)) if ending.startswith(".") else str(base.with_name(f"{stem.stem}-{ending}"))
 
-    def _asked(self, ending: str, write) -> None:  # type: ignore[no-untyped-def]
+    def _asked(self, ending: str, write: Callable[[Path], str]) -> None:
         """Ask for the name of a file, then write it."""
         with ui.dialog() as dialog, ui.card():
             name = ui.input("File", value=self._default(ending)).classes("wb-wide")
 
+            writing = off_loop(lambda: write(Path(name.value)))
+
             async def go() -> None:
                 dialog.close()
-                try:
-                    said = await run.io_bound(write, Path(name.value))
-                    say(said)
-                except (HexdbbError, OSError) as error:
-                    say(str(error), "negative")
+                await writing()
 
             with ui.row():
                 ui.button("Write", on_click=go).props("unelevated no-caps")
@@ -62,7 +62,7 @@ class ResultsPanel:
         text = self._session.script.text
         with ui.dialog() as dialog, ui.card().classes("wb-script"):
             ui.label("What was done here, in Python").classes("wb-sentence")
-            ui.code(text, language="python").classes("wb-code").mark("script-text")
+            ui.code(text, language="python").classes("wb-code").props(mark("script-text"))
             with ui.row():
                 ui.button("Copy", on_click=lambda: ui.clipboard.write(text)).props("unelevated no-caps")
                 ui.button("Close", on_click=dialog.close).props("flat no-caps")
