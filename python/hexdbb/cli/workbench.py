@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from hexdbb.cli.consoles import say
+from hexdbb.cli.effects_option import effects_option
 from hexdbb.errors import InputError
 from hexdbb.workbench import Session
 
@@ -24,10 +25,18 @@ MISSING = "hexdbb workbench: NiceGUI is not installed (expected: pip install 'he
     type=click.Path(path_type=Path),
     help="Model file; made by the first step where it is not there. Without it the model is in memory until saved.",
 )
+@effects_option
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1; a free one where 0.")
 @click.option("--no-browser", is_flag=True, help="Print the address only, open no browser.")
 @click.option("--allow-code", is_flag=True, help="Let the page write and run effects of your own: it runs Python.")
-def command(records: tuple[Path, ...], model_path: Path | None, port: int, no_browser: bool, allow_code: bool) -> None:
+def command(
+    records: tuple[Path, ...],
+    model_path: Path | None,
+    effects_path: Path | None,
+    port: int,
+    no_browser: bool,
+    allow_code: bool,
+) -> None:
     """Open RECORD... (.parquet or .csv) and a model in a page of this computer's browser.
 
     Charts of every circle, measured and predicted; effects to switch off and values to drag; what is missing, previewed
@@ -47,7 +56,7 @@ def command(records: tuple[Path, ...], model_path: Path | None, port: int, no_br
         if error.name is None or error.name.startswith("hexdbb"):
             raise
         raise InputError(MISSING) from None
-    session = Session(records, model_path)
+    session = Session(records, model_path, effects_path)
 
     def ready(address: str) -> None:
         say(address)

@@ -49,6 +49,8 @@ class Session:
     model_path : Path, optional
         A file that is there is read, and written after every step; one that is not is made by the first step. Without
         a path the model is in memory only, until `save_as`.
+    effects_path : Path, optional
+        Python file that declares effects of the user's own; it is run.
 
     Raises
     ------
@@ -56,15 +58,17 @@ class Session:
         A record or model that cannot be read, or of different machines.
     """
 
-    def __init__(self, record_paths: Sequence[Path], model_path: Path | None = None) -> None:
+    def __init__(
+        self, record_paths: Sequence[Path], model_path: Path | None = None, effects_path: Path | None = None
+    ) -> None:
         self.records: list[Record] = [read_record(path) for path in record_paths]
         self.samples = Samples.of(self.records)
         self.file = None if model_path is None else ModelFile(model_path)
         self.script = Script()
         self.tried = Tried()
         self.found: Discovery | None = None
-        self.own_effects: list[UserEffect] = []
-        self.effects_path: Path | None = None
+        self.effects_path = effects_path
+        self.own_effects: list[UserEffect] = [] if effects_path is None else load_effects(effects_path)
         self.busy = ""
         """What is being done; empty where nothing is."""
         self._lock = threading.RLock()
@@ -243,13 +247,14 @@ class Session:
 
     def _opened(self) -> Model:
         """Read the model, or make a new one; its script starts from what the file held, whatever is saved later."""
+        own = "" if self.effects_path is None else f"hx.load_effects({str(self.effects_path)!r})"
         if self.file is None or not self.file.path.exists():
-            self.script.add("model = hx.new_model(records[0].machine)")
-            return new_model(self.samples.machine)
+            self.script.add("model = hx.new_model(records[0].machine)" + (f".knowing_effects({own})" if own else ""))
+            return new_model(self.samples.machine).knowing_effects(self.own_effects)
         model = self.file.load(self.own_effects)
         steps = len(model.ledger)
         self.script.add(
-            f"model = hx.load_model({str(self.file.path)!r})",
+            f"model = hx.load_model({str(self.file.path)!r}{', ' + own if own else ''})",
             f"while len(model.ledger) > {steps}:  # the file may hold later steps by now",
             "    model = hx.undo(model)",
         )

@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from playwright.sync_api import Locator, Page
+
 TIMEOUT_S = 60.0
 
 
@@ -53,3 +55,20 @@ def served(folder: Path, *words: str) -> Iterator[Served]:
     finally:
         process.kill()
         process.wait()
+
+
+def marked(page: Page, name: str) -> Locator:
+    """Return the part of the page of that name."""
+    return page.locator(f'[data-mark="{name}"]')
+
+
+def drawn(page: Page) -> int:
+    """Return how often the charts were drawn, once they were."""
+    charts = page.locator(".wb-circle[data-drawn]")
+    charts.wait_for()
+    return int(charts.get_attribute("data-drawn") or 0)
+
+
+def number(page: Page, name: str) -> float:
+    """Return a number of the page's head."""
+    return float(marked(page, name).inner_text())

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, expect
 from tests.browser.chromium import browser, opened
-from tests.python.workbench.served import Served, served
+from tests.python.workbench.served import Served, drawn, marked, number, served
 
 import hexdbb as hx
 
@@ -20,21 +20,6 @@ __all__ = ["browser"]
 def workbench(folder: Path) -> Iterator[Served]:
     with served(folder, "today.parquet", "-m", "model.toml") as started:
         yield started
-
-
-def marked(page: Page, name: str):  # type: ignore[no-untyped-def]
-    return page.locator(f'[data-mark="{name}"]')
-
-
-def drawn(page: Page) -> int:
-    """Return how often the charts were drawn, once they were."""
-    charts = page.locator(".wb-circle[data-drawn]")
-    charts.wait_for()
-    return int(charts.get_attribute("data-drawn") or 0)
-
-
-def number(page: Page, name: str) -> float:
-    return float(marked(page, name).inner_text())
 
 
 def test_find_preview_add_and_undo_the_hidden_fault(browser: Browser, workbench: Served, folder: Path) -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from nicegui import ui
 
-from hexdbb.comparison.circles import DIRECTION_NAMES
+from hexdbb.comparison.circles import DIRECTION_NAMES, root_mean_square
 from hexdbb.predictors import record_names
+from hexdbb.samples import Prediction
 from hexdbb.workbench.circle_data import CircleView
 from hexdbb.workbench.columns import variables
 from hexdbb.workbench.page.attributes import mark
@@ -82,9 +83,8 @@ class CirclePanel:
             ).props("dense outlined options-dense").classes("wb-wide")
 
     def _draw_picker(self) -> None:
-        residual_mm = self._session.prediction.residual_mm
-        sizes_um = [UM_PER_MM * float(np.sqrt(np.mean(residual_mm[rows] ** 2))) for rows in self._rows]
-        largest_um = max(sizes_um)
+        sizes_um = self._sizes_um(self._session.prediction)
+        largest_um = max(sizes_um + self._sizes_um(self._session.fitted))
         for (each, button, bar, number), size_um in zip(self._buttons, sizes_um, strict=True):
             current = (each.record, each.circle, each.feed_mm_min) == _place(self._session.selection)
             button.props(f"aria-pressed={'true' if current else 'false'}")
@@ -92,6 +92,10 @@ class CirclePanel:
             bar.style(f"--part: {size_um / largest_um if largest_um else 0.0:.3f}")
             number.set_text(f"{size_um:.2f} µm")
         self._direction.value = self._session.selection.direction
+
+    def _sizes_um(self, prediction: Prediction) -> list[float]:
+        """Return the RMS residual of each circle."""
+        return [UM_PER_MM * root_mean_square(prediction.residual_mm[rows]) for rows in self._rows]
 
     def _select(self, each: Selection) -> None:
         direction = self._session.selection.direction

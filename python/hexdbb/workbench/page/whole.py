@@ -33,7 +33,7 @@ class Page:
         self._loop = asyncio.get_running_loop()
         self._is_waiting = False
         self._model = session.model
-        with ui.element("main").classes("wb-page"):
+        with ui.element("div").classes("wb-page"):
             self._head = Head(session)
             with ui.element("div").classes("wb-left"):
                 self._missing = MissingPanel(session)
