@@ -22,12 +22,14 @@ from hexdbb.diagnosis import JudgingNoise, Sufficiency, assess_sufficiency, fit_
 from hexdbb.discovery import Discovery
 from hexdbb.effects import UserEffect, load_effects
 from hexdbb.errors import InputError
+from hexdbb.files.atomic_file import write_text
 from hexdbb.ledger import History, history, undo
 from hexdbb.model import Model, new_model
 from hexdbb.record import Record, read_record
 from hexdbb.samples import Prediction, Samples, predict
 from hexdbb.threads import one_thread
 from hexdbb.workbench.model_file import ModelFile
+from hexdbb.workbench.own_code import require_ending
 from hexdbb.workbench.script import Name, Script, call
 from hexdbb.workbench.selection import Selection, selections
 from hexdbb.workbench.tried import Tried
@@ -218,14 +220,37 @@ class Session:
 
     # --- what follows -----------------------------------------------------------------------------------------------
 
-    def know_effects(self, path: Path) -> None:
-        """Let the effects that a Python file declares compete, as ``--effects`` does. The file is run here."""
-        with self._doing(f"reading {path}"):
+    def write_effects(self, path: Path, source: str) -> list[str]:
+        """Write a Python file of effects, try it in a process of its own, and let its effects compete.
+
+        Returns
+        -------
+        list of str
+            Names of the effects.
+
+        Raises
+        ------
+        InputError
+            The file is another one that exists already, does not run, or does not end (`require_ending`).
+        """
+        with self._doing(f"trying {path}"):
+            if path.suffix != ".py" or (path.exists() and path != self.effects_path):
+                raise InputError(f"{path}: not written (expected a new name that ends in .py)")
+            write_text(path, source)
+            self.effects_path = path
+            require_ending(path, [record.path for record in self.records if record.path is not None])
             effects = load_effects(path)
+            self.own_effects, self.found = effects, None
             self.model = self.model.knowing_effects(effects)
-            self.own_effects, self.effects_path, self.found = effects, path, None
             self.script.add(f"model = model.knowing_effects(hx.load_effects({str(path)!r}))")
             self._changed("noise")
+        return [each.name for each in effects]
+
+    def drafted(self) -> str:
+        """Return the source of what was found, drafted as an effect of the user's own: ``discover --draft``."""
+        if self.found is None:
+            raise InputError("nothing was asked yet (expected: What is missing?)")
+        return api.draft_effect(self.found).source
 
     def write_compensation(self, path: Path) -> Sequence[tuple[str, str]]:
         """Write the compensation file; return what of the model it leaves out, with the reasons."""

@@ -12,6 +12,7 @@ from hexdbb.workbench.circle_data import CircleView
 from hexdbb.workbench.columns import variables
 from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.circle_charts import CircleCharts
+from hexdbb.workbench.page.machine_scene import MachineScene
 from hexdbb.workbench.page.running import refused
 from hexdbb.workbench.selection import Selection
 from hexdbb.workbench.session import Session
@@ -35,6 +36,7 @@ class CirclePanel:
         with ui.element("section").classes("wb-card").props('aria-label="Circle"'):
             self._build_picker()
             self._charts = CircleCharts(self._start, self._moved)
+            self._scene = MachineScene(session)
 
     def draw(self) -> None:
         """Draw what has changed: the charts, the error of every circle."""
@@ -48,6 +50,7 @@ class CirclePanel:
             fitted = None if session.tried.is_nothing else session.fitted.reading_mm
             self._charts.show(measured, self._view.predicted(session.prediction.reading_mm, fitted))
         self._draw_picker()
+        self._scene.draw()
 
     def _build_picker(self) -> None:
         session = self._session
@@ -119,7 +122,7 @@ class CirclePanel:
         self.draw()
 
     def _moved(self, angle_deg: float) -> None:
-        """Take note of the cursor."""
+        self._scene.move(angle_deg)
 
 
 def _place(selection: Selection) -> tuple[int, int, float]:
