@@ -112,7 +112,8 @@ class MachineView:
 
 
 def _about_mean(values: Floats) -> Floats:
-    return values - values.mean(axis=0)
+    centred: Floats = values - values.mean(axis=0)
+    return centred
 
 
 def _magnification(largest_mm: float) -> float:

@@ -2,14 +2,12 @@
 
 A file that loops for ever, or a function that does, would stop the page; here the process is ended. What ended once on
 the same readings ends again: after that the file is run like one that is named by ``--effects``.
-
-``python -m hexdbb.workbench.own_code EFFECTS.py RECORD...`` loads the file and evaluates every effect in it for the
-records; what it refuses is one line on stderr, exit status 2.
 """
 
 from __future__ import annotations
 
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -24,11 +22,17 @@ from hexdbb.model import new_model
 from hexdbb.record import read_record
 from hexdbb.samples import Samples
 
-TIMEOUT_S = 20.0
-"""Limits the run: reading 100,000 readings takes one second, evaluating an effect for them milliseconds."""
+COMPUTING_S = 20
+"""Limits the processor time: reading 100,000 readings takes one second, evaluating an effect for them milliseconds. It
+does not count while others compute, so that a busy computer refuses nothing."""
+WAITING_S = 120.0
+"""Limits the time by the clock, for what waits for ever without computing."""
+START = "import sys; from hexdbb.workbench.own_code import main; main(*sys.argv[1:])"
 
 
-def require_ending(effects: Path, records: Sequence[Path], timeout_s: float = TIMEOUT_S) -> None:
+def require_ending(
+    effects: Path, records: Sequence[Path], computing_s: int = COMPUTING_S, waiting_s: float = WAITING_S
+) -> None:
     """Check that the effects of a file can be evaluated for some records, and that they end.
 
     Raises
@@ -37,9 +41,8 @@ def require_ending(effects: Path, records: Sequence[Path], timeout_s: float = TI
         The file does not run, an effect of it cannot be used (with file and line), or it did not end in time: its
         process was ended.
     """
-    words = [sys.executable, "-m", "hexdbb.workbench.own_code", str(effects), *map(str, records)]
     with subprocess.Popen(
-        words,
+        [sys.executable, "-c", START, str(computing_s), str(effects), *map(str, records)],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
@@ -47,29 +50,31 @@ def require_ending(effects: Path, records: Sequence[Path], timeout_s: float = TI
         start_new_session=True,
     ) as started:
         try:
-            _, said = started.communicate(timeout=timeout_s)
+            _, said = started.communicate(timeout=waiting_s)
         except subprocess.TimeoutExpired:
-            stopped = f"{effects}: did not end within {timeout_s:g} s and was stopped"
-            raise InputError(f"{stopped} (expected a file, and functions, that end)") from None
+            raise _not_ended(effects) from None
         finally:
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(started.pid, signal.SIGKILL)  # whatever it started, too
+    if started.returncode == -signal.SIGXCPU:
+        raise _not_ended(effects)
     if started.returncode != 0:
-        lines = said.strip().splitlines() or [f"{effects}: ended with status {started.returncode}"]
-        raise InputError(lines[-1].removeprefix("error: "))
+        lines = said.strip().splitlines() or [f"{effects}: ended the process with status {started.returncode}"]
+        raise InputError(lines[-1])
 
 
-def main(effects: str, *records: str) -> None:
-    """Load a file of effects and evaluate each for the readings of some records."""
-    found = load_effects(effects)
-    samples = Samples.of([read_record(path) for path in records])
-    model = new_model(samples.machine, []).knowing_effects(found)
-    require_usable_effects(samples, model, [each.name for each in found])
-
-
-if __name__ == "__main__":
+def main(computing_s: str, effects: str, *records: str) -> None:
+    """Load a file of effects and evaluate each for the readings of some records; exit with 2 where that is refused."""
+    resource.setrlimit(resource.RLIMIT_CPU, (int(computing_s), resource.RLIM_INFINITY))
     try:
-        main(*sys.argv[1:])
+        found = load_effects(effects)
+        samples = Samples.of([read_record(path) for path in records])
+        model = new_model(samples.machine, []).knowing_effects(found)
+        require_usable_effects(samples, model, [each.name for each in found])
     except HexdbbError as error:
-        sys.stderr.write(f"error: {error}\n")
+        sys.stderr.write(f"{error}\n")
         sys.exit(error.exit_status)
+
+
+def _not_ended(effects: Path) -> InputError:
+    return InputError(f"{effects}: did not end and was stopped (expected a file, and functions, that end)")

@@ -119,7 +119,7 @@ class EffectsPanel:
             slider.props("dense").props(attribute("aria-label", parameter.label)).props(
                 mark(f"value {parameter.label}")
             )
-            known = f"± {sigma:.3g} {unit}" if sigma == sigma else "known only in combination with others"
+            known = f"± {sigma:.3g} {unit}" if sigma == sigma else "not known on its own"
             ui.label(known).classes("wb-small wb-value-known")
         slider.on(
             "update:model-value",

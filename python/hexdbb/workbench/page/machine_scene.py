@@ -21,6 +21,10 @@ LEG_MM, BALL_MM, PLATFORM_MM = 7.0, 10.0, 8.0
 """Radius of legs and balls, thickness of the platform, as drawn."""
 
 
+CAMERA_INRADII = 5.5
+"""Distance of the camera in radii of the base: the whole base triangle is in the picture."""
+
+
 class MachineScene:
     """Guideways, sliders, legs coloured, platform, ball and cup; beside it the platform displaced, magnified."""
 
@@ -29,11 +33,8 @@ class MachineScene:
         self._colouring: Colouring = "force"
         self._view: MachineView | None = None
         self._angle_deg = 0.0
-        with (
-            ui.expansion("The machine in 3D", caption="follows the cursor along the circle")
-            .props("dense")
-            .props(mark("3d")) as box
-        ):
+        box = ui.expansion("The machine in 3D", caption="follows the cursor along the circle").props("dense")
+        with box.props(mark("3d")):
             self._inside = ui.element("div").classes("wb-scene")
         box.on_value_change(lambda event: self._open() if event.value else self._close())
 
@@ -96,7 +97,10 @@ class MachineScene:
         machine = self._session.samples.machine
         outline = platform_points(machine)[::2, :2].tolist()
         height_mm = float(platform_points(machine)[0, 2])
-        with ui.scene(grid=False, background_color="#F7F9FA", fps=30).classes("wb-canvas") as self._scene:
+        camera = ui.scene.perspective_camera(fov=40, near=10.0, far=20.0 * machine.base.inradius_mm)
+        self._scene = ui.scene(grid=False, camera=camera, background_color="#F7F9FA", fps=30).classes("wb-canvas")
+        self._scene.props('role="img" aria-label="The machine at the angle of the cursor"')
+        with self._scene:
             for start, end in guideway_ends(machine):
                 self._rod(start, end, 5.0, STEEL)
             self._sliders = [ui.scene.box(34.0, 34.0, 26.0).material(STEEL) for _ in range(6)]
@@ -109,10 +113,9 @@ class MachineScene:
             self._ball = ui.scene.sphere(BALL_MM).material("#1F2933")
             self._moved_ball = ui.scene.sphere(BALL_MM).material(MOVED)
             self._cup = ui.scene.sphere(BALL_MM * 1.2).material("#C08A00")
-        reach_mm = 2.2 * machine.base.inradius_mm
-        self._scene.move_camera(
-            reach_mm, -1.5 * reach_mm, 1.6 * reach_mm, 0.0, 0.0, float(stand.position[2]) / 2.0, duration=0
-        )
+        reach_mm = CAMERA_INRADII * machine.base.inradius_mm
+        centre = (0.0, 0.0, 0.5 * float(stand.position[2]))
+        self._scene.move_camera(0.55 * reach_mm, -0.7 * reach_mm, 0.65 * reach_mm, *centre, duration=0)
 
     def _rod(self, start: Floats, end: Floats, radius_mm: float, colour: str) -> None:
         rod = ui.scene.cylinder(radius_mm, radius_mm, float(np.linalg.norm(end - start)), 12).material(colour)
@@ -124,7 +127,8 @@ def _along(direction: Floats) -> list[list[float]]:
     y = direction / np.linalg.norm(direction)
     x = np.cross(y, (0.0, 0.0, 1.0) if abs(y[2]) < 0.9 else (1.0, 0.0, 0.0))
     x /= np.linalg.norm(x)
-    return np.column_stack([x, y, np.cross(x, y)]).tolist()
+    turned: list[list[float]] = np.column_stack([x, y, np.cross(x, y)]).tolist()
+    return turned
 
 
 def _colour(part: float) -> str:
