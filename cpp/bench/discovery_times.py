@@ -27,24 +27,27 @@ CASES = (
     ("backlash+servo_lag-x3-s4", PACE),
 )
 REPETITIONS = 3
-TARGET_S = 6.0
-"""Limit of one call on 20,000 readings: a user at the machine waits for it."""
+TARGET_S = {False: 6.0, True: 1.5}
+"""Limits of one call on 20,000 readings, all hypotheses and known effects alone: a user at the machine waits for it."""
 
 
 def discovery_rows() -> list[str]:
     """Return table rows: the fault, the number of readings, the verdict, the median time of one call."""
-    rows = []
-    for name, pace in CASES:
-        record = case(name, pace).record()
-        model = new_model(record.machine)
-        seconds = []
-        for _ in range(REPETITIONS):
-            begin = time.perf_counter()
-            found = discover(Samples.of([record]), model)
-            seconds.append(time.perf_counter() - begin)
-        called = ", ".join([found.verdict, *(each.effect or each.choice for each in found.causes)])
-        hidden = name.rsplit("-s", 1)[0].replace("-x3", ", three times the noise").replace("none", "nothing")
-        median_s = statistics.median(seconds)
-        target = f"≤ {TARGET_S:g} s" if pace is PACE else "ten times the row above"
-        rows.append(f"| {hidden} | {len(record):,} | {called} | {median_s:.2f} s | {target} |")
-    return rows
+    rows = [_row(name, pace, known_only=False) for name, pace in CASES]
+    return rows + [_row(name, PACE, known_only=True) for name, pace in CASES[1:] if pace is PACE]
+
+
+def _row(name: str, pace: Pace, *, known_only: bool) -> str:
+    record = case(name, pace).record()
+    model = new_model(record.machine)
+    seconds = []
+    for _ in range(REPETITIONS):
+        begin = time.perf_counter()
+        found = discover(Samples.of([record]), model, known_only=known_only)
+        seconds.append(time.perf_counter() - begin)
+    called = ", ".join([found.verdict, *(each.effect or each.choice for each in found.causes)])
+    hidden = name.rsplit("-s", 1)[0].replace("-x3", ", three times the noise").replace("none", "nothing")
+    if known_only:
+        hidden += "; known effects alone"
+    target = f"≤ {TARGET_S[known_only]:g} s" if pace is PACE else "ten times the row above"
+    return f"| {hidden} | {len(record):,} | {called} | {statistics.median(seconds):.2f} s | {target} |"

@@ -74,6 +74,7 @@ def wanted(half: str, seeds: int) -> Iterator[tuple[str, tuple[str, ...]]]:
         forms.outside(half, seeds=range(seeds)),
         forms.clean(half, range(20 * seeds)),
         forms.combined(half, 2, 3.0, 20 * seeds),
+        forms.combined(half, 3, 3.0, 10 * seeds),
     ):
         every.append((case.name, ()))
     for case in forms.alone(half, deviations=(0.1,), times_noise=(3.0, 10.0, 30.0), seeds=range(seeds)):
@@ -116,13 +117,22 @@ def judged(name: str, withheld: Sequence[str]) -> dict[str, Any]:
             for each in verdict.found
         ],
         "left": [search.root.trial.left, verdict.node.trial.left],
-        "heldout": {} if verdict.checked is None else {k: asdict(v) for k, v in verdict.checked.heldout.items()},
+        **_predicted(search, verdict),
         "seconds": seconds,
         "outcome": result,
         "after_adding": _after_adding(samples, model, verdict)
         if result == "right" and verdict.grade == "effect"
         else "",
     }
+
+
+def _predicted(search: Search, verdict: Verdict) -> dict[str, Any]:
+    """Return how the causes predict what was left out, learned ones refined, and which groupings they claim to."""
+    if verdict.refined is None:
+        return {"heldout": {}, "claimed": []}
+    checked = search.checked(verdict.refined)
+    heldout = {name: asdict(each) for name, each in checked.heldout.items()}
+    return {"heldout": heldout, "claimed": list(checked.claimed)}
 
 
 def _after_adding(samples: Samples, model: Model, verdict: Verdict) -> str:

@@ -8,6 +8,7 @@ took no part. The error is the machine's own: a perfect gauge and set-up, the ra
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,6 +33,8 @@ MAX_CORRECTION_MM = 10.0
 """Limit of the correction of one slider: circles that took no part lie where the readings determine little."""
 MOST_ROUNDS = 4
 """Verdicts asked for: two faults and what their forms leave."""
+PREDICTS = 0.98
+"""Part of the held-out error that is left at most where a form's function is kept: what gains less is noise's."""
 KNOWN = ("backlash", "gravity_sag", "pitch_cyclic", "servo_lag")
 OUTSIDE = ("dent", "rail_waves", "tape_bump", "joint_eccentric", "plate_bends")
 
@@ -77,17 +80,36 @@ def _left_out(record: Record) -> list[int]:
 
 
 def _found(samples: Samples, model: Model) -> tuple[Model, tuple[str, ...], str]:
-    """Return the model after `discover --auto`, then `add` of what is learned, until nothing is missing."""
+    """Return the model after `discover --auto`, then `add` of what is learned and of forms, until nothing is missing.
+
+    Of what describes a form, what predicts circles left out is kept, as a user reads in the ledger.
+    """
     model = diagnose(samples, model, check_held_out=False).model
     added: list[str] = []
+    verdict = ""
     for _ in range(MOST_ROUNDS):
         found = discover(samples, model)
-        if found.verdict == "none" or not found.causes:
-            return model, tuple(added), found.verdict
-        for cause in found.causes:
-            model = add_effect(samples, model, cause.choice).model
-            added.append(cause.choice)
-    return model, tuple(added), found.verdict
+        verdict = found.verdict
+        model, causes = _with(samples, model, [each.choice for each in found.causes], always=True)
+        forms = [name for each in found.causes for name in each.refinements] or list(found.refinements)
+        model, refinements = _with(samples, model, [each for each in forms if each not in added], always=False)
+        added += [*causes, *refinements]
+        if not (causes or refinements):
+            break
+    return model, tuple(added), verdict
+
+
+def _with(samples: Samples, model: Model, choices: Sequence[str], *, always: bool) -> tuple[Model, list[str]]:
+    """Add effects one by one: always, or those that predict circles left out."""
+    added = []
+    for each in choices:
+        wider = add_effect(samples, model, each).model
+        step = wider.ledger[-1]
+        predicts = (step.heldout_after_um or 0.0) < PREDICTS * (step.heldout_before_um or 0.0)
+        if always or predicts:
+            model = wider
+            added.append(each)
+    return model, added
 
 
 def _error_um(case: forms.Case, drive: Drive | None) -> float:

@@ -109,6 +109,7 @@ def discover(
     progress: Callable[[str], None] = lambda _: None,
     *,
     matters_um: float | None = None,
+    known_only: bool = False,
 ) -> Discovery:
     """Decide whether anything is missing from a model, and which physical effect it is.
 
@@ -123,6 +124,8 @@ def discover(
     matters_um : float, optional
         Unexplained RMS, µm, below which nothing is missing that matters; a quarter of the noise, or a thousandth of
         the reading error that the model explains, where not given.
+    known_only : bool
+        Try known effects alone, in a fraction of the time: what none of them explains is not learned.
 
     Returns
     -------
@@ -136,7 +139,8 @@ def discover(
     RunError
         The model itself cannot be fitted.
     """
-    return discovery.discover(table_of(measured), model, candidates, progress, matters_um=matters_um)
+    samples = table_of(measured)
+    return discovery.discover(samples, model, candidates, progress, matters_um=matters_um, known_only=known_only)
 
 
 def discover_all(

@@ -43,6 +43,7 @@ from hexdbb.samples import Samples
     help="Unexplained RMS in µm below which nothing is missing that matters; a quarter of the noise, or a thousandth"
     " of the reading error that the model explains, where not given.",
 )
+@click.option("--known-only", is_flag=True, help="Try known effects alone, in a second: nothing is learned.")
 @click.option(
     "--draft",
     "draft_path",
@@ -60,6 +61,7 @@ def command(
     effects_path: Path | None,
     auto: bool,
     matters_um: float | None,
+    known_only: bool,
     draft_path: Path | None,
     overwrite: bool,
     folder: Path | None,
@@ -81,6 +83,7 @@ def command(
       hexdbb discover monday.parquet tuesday.csv -m model.toml --json
       hexdbb discover today.parquet -m model.toml --effects mine.py
       hexdbb discover today.parquet -m model.toml --matters 0.5
+      hexdbb discover today.parquet -m model.toml --known-only
       hexdbb discover today.parquet -m model.toml --auto
       hexdbb discover today.parquet -m model.toml --draft mine.py --plot pictures
     """
@@ -88,17 +91,20 @@ def command(
         require_draftable(draft_path, overwrite)
     if folder is not None:
         require_folder(folder)
+    if auto and known_only:
+        raise click.UsageError("--known-only: --auto asks for all hypotheses (expected one of the two)")
     if auto:
         refuse_existing(model_path, overwrite=True)
     model = existing_model(model_path, effects_path)
     messages = message_console()
+    steps: list[AutoStep] = []
     with messages.status("reading records") as status:
         samples = read_samples(records, messages)
         if auto:
             console = None if as_json else output_console()
             steps, found = _automatic(samples, model, model_path, console, status.update, matters_um)
         else:
-            steps, found = [], discover(samples, model, progress=status.update, matters_um=matters_um)
+            found = discover(samples, model, progress=status.update, matters_um=matters_um, known_only=known_only)
     closing = closing_sentence(steps, found) if auto else None
     if as_json:
         shown = found.to_json([each.diagnosis for each in steps], closing)

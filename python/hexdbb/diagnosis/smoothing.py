@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -9,7 +11,8 @@ from numpy.typing import NDArray
 
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.projection import Projection
-from hexdbb.learned import Learned, Space
+from hexdbb.errors import InputError
+from hexdbb.learned import FINER, Learned, Space
 from hexdbb.model import LearnedEffect, Model
 from hexdbb.samples import Samples
 
@@ -17,6 +20,8 @@ Floats = NDArray[np.float64]
 
 ROUGHNESS = np.geomspace(0.1, 1e6, 15)
 """Penalties tried: from coefficients of their own to a straight line, two a decade."""
+FINER_NATS = 5.0
+"""Log evidence that more splines must gain: 150 to 1, as for a name (`hexdbb.evidence.criteria`)."""
 SIZES_MM = np.geomspace(1e-5, 10.0, 61)
 """Sizes tried: from a hundredth of a gauge's resolution to what breaks a machine, ten a decade."""
 
@@ -39,21 +44,38 @@ def learned_effect(samples: Samples, model: Model, name: str, noise: Noise | Non
     InputError
         A name that is not known, or a variable that is not measured or hardly varies in these samples.
     """
+    known = model.with_mounts(samples.mounts)
+    around = Projection(samples, known, known.free, _noise(noise, samples))
     space = space_of(samples, model, name)
-    around = Projection(
-        samples, model.with_mounts(samples.mounts), model.with_mounts(samples.mounts).free, _noise(noise, samples)
-    )
+    best, found = _smoothed(space, around)
+    for finer in _finer(space, samples, model):
+        evidence, fine = _smoothed(finer, around)
+        if evidence > best + FINER_NATS:
+            best, found = evidence, fine
+    return found
+
+
+def _finer(space: Space, samples: Samples, model: Model) -> Iterator[Space]:
+    """Yield the same functions with more splines, as many as these samples can set."""
+    if space.hypothesis.variable.is_smooth:
+        for times in FINER:
+            with suppress(InputError):
+                yield Space.of(space.hypothesis.finer(times), samples, model.machine.sliders.screw_lead_mm)
+
+
+def _smoothed(space: Space, around: Projection) -> tuple[float, LearnedEffect]:
+    """Return the largest log evidence over smoothness and size, and the effect that has it."""
     information, gradient = around.of(_signature(space, around))
     square = _mean_square(space, around.samples)
     best, found = -np.inf, LearnedEffect(space, 1.0, 1.0)
-    for roughness in ROUGHNESS if space.hypothesis.variable.count > 3 else ROUGHNESS[:1]:
+    for roughness in ROUGHNESS if space.hypothesis.variable.is_smooth else ROUGHNESS[:1]:
         factor = space.prior_factor(float(roughness))
         rms = np.sqrt(np.einsum("ij,ik,kj->", factor, square, factor))  # of functions with unit prior
         whole = np.kron(np.eye(space.hypothesis.components), factor / rms)
         evidence, size_mm = _largest(whole.T @ information @ whole, whole.T @ gradient)
         if evidence > best:
             best, found = evidence, LearnedEffect(space, float(roughness), float(size_mm / rms))
-    return found
+    return best, found
 
 
 def space_of(samples: Samples, model: Model, name: str) -> Space:

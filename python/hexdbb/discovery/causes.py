@@ -47,6 +47,7 @@ class Told:
     remarks: tuple[str, ...] = ()
     likely: str = ""
     learned: Model | None = None
+    refinements: tuple[str, ...] = ()
 
 
 def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_table: bool = True) -> Told:
@@ -118,10 +119,12 @@ def _told_forms(search: Search, refining: Sequence[Hypothesis] = ()) -> Told:
     deviating = [(name, form) for name, form in present if form.deviation >= words.SMALLEST_DEVIATION]
     whose = [f"{name} ({words.percent(form.deviation)} off)" for name, form in deviating]
     whose += [name for name in dict.fromkeys(map(search.refined, refining)) if name not in dict(deviating)]
-    functions = [each.name for each in refining] or [form.functions[0] for _, form in deviating if form.functions]
+    functions = [each.name for each in refining]
+    functions = functions or [name for _, form in deviating for name in form.functions]
     sentence = f"no other cause is missing: what is left is the form of {words.joined(whose or ['what was found'])}"
     refine = f"the form is refined by: hexdbb add {functions[0]}" if functions else ""
-    return Told("none", sentence, (), (), engine.base, None, None, (refine,) if refine else ())
+    remarks = (refine,) if refine else ()
+    return Told("none", sentence, (), (), engine.base, None, None, remarks, refinements=tuple(functions))
 
 
 def left_um(search: Search, trial: Trial) -> float:

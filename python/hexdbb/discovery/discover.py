@@ -43,6 +43,7 @@ def discover(
     progress: Progress = lambda _: None,
     *,
     matters_um: float | None = None,
+    known_only: bool = False,
     criteria: Criteria = DEFAULT,
     with_tables: bool = True,
 ) -> Discovery:
@@ -59,6 +60,8 @@ def discover(
         Is told what is being done.
     matters_um : float, optional
         Unexplained RMS below which nothing is missing that matters (`hexdbb.diagnosis.sufficiency`).
+    known_only : bool
+        Try known effects alone, in a fraction of the time: what none of them explains is not learned.
     criteria : Criteria
         Constants that decide.
     with_tables : bool
@@ -89,7 +92,7 @@ def discover(
     if not enough.matters:
         return _nothing(engine, enough, judging)
     progress("screening all hypotheses, fitting the best")
-    search = Search(engine, names, criteria)
+    search = Search(engine, names, criteria, learns=not known_only)
     verdict = judge(search, enough.matters_um)
     outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
     if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
@@ -134,6 +137,7 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
         remarks=found.remarks,
         likely=found.likely,
         learned=found.learned,
+        refinements=found.refinements,
     )
 
 

@@ -155,6 +155,8 @@ class DiscoveryJson(JsonResult):
     """Predictors of the remaining residual, largest share first."""
     remarks: tuple[str, ...]
     """Remarks, in sentences."""
+    refinements: tuple[str, ...]
+    """Learned functions that describe the forms of effects in the model, where nothing else is missing."""
     steps: tuple[AddedJson, ...]
     """With --auto, what was done to the model, as hexdbb add prints it, schema aside; the rest is the last verdict."""
     closing: str | None

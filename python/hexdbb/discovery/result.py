@@ -216,6 +216,8 @@ class Discovery:
         The likely cause in one sentence; empty where nothing is missing.
     learned : Model or None
         With the learned causes too, fitted; None where no cause is learned, or none that a model can hold.
+    refinements : tuple of str
+        Learned functions that describe the forms of effects which the model has, where nothing else is missing.
     """
 
     verdict: Verdict
@@ -235,6 +237,7 @@ class Discovery:
     remarks: tuple[str, ...] = ()
     likely: str = ""
     learned: Model | None = None
+    refinements: tuple[str, ...] = ()
 
     @property
     def best(self) -> Cause | None:
@@ -291,6 +294,7 @@ class Discovery:
             next_test=None if self.next_test is None else self.next_test.to_json(),
             structure=tuple(each.to_json() for each in self.structure),
             remarks=self.remarks,
+            refinements=self.refinements,
             steps=tuple(added_json(each) for each in steps),
             closing=closing,
         ).to_json()

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.heldout import HeldOut, heldout
+from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.trial import Trial, Trials
-from hexdbb.learned import Learned
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
 
@@ -22,6 +22,8 @@ class Checked:
     reasons: tuple[str, ...]
     excused: bool = False
     """Whether something that is not predicted was put down to its form."""
+    claimed: tuple[str, ...] = ()
+    """Groupings that the hypotheses claim to predict."""
 
 
 def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
@@ -37,10 +39,8 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons, excused = [], False
-    if any(
-        isinstance(each.hypothesis, Learned) and each.hypothesis.variable.column == "time_s" for each in trial.members
-    ):
-        return Checked(predicted, share, ())
+    if trial.is_free_in_time:
+        return Checked(predicted, share, (), claimed=(ARC,))
     for grouping, held in predicted.items():
         expected = held.expected * max(trial.left, 1.0) ** 0.5
         if held.share >= criteria.heldout_share_min * share or held.after <= criteria.heldout_ratio * expected:
@@ -50,7 +50,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
             excused = True
         else:
             reasons.append(f"does not predict {WORDS[grouping]}")
-    return Checked(predicted, share, tuple(reasons), excused)
+    return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted))
 
 
 def _bends_geometry(trial: Trial, share: float, criteria: Criteria) -> bool:

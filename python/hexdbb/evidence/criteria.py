@@ -78,6 +78,9 @@ class Criteria:
         Hypotheses of each kind that get a full fit.
     later_fits : int
         The same beside hypotheses already found.
+    in_other_words : int
+        Known effects that get a full fit for the functions of their own place and variable, not for their exact form,
+        the best: legs that warm by a law of their own explain by the catalogue's an eighth of what they do.
     held_out : int
         Hypotheses, of the largest evidence, that are also judged by circles left out while screening: twice as many as
         get a full fit.
@@ -107,6 +110,10 @@ class Criteria:
         Part of the unexplained from which an effect that does not predict circles left out may still be the cause with
         another form: a form 20 % off, the largest that the calibration has, leaves 4 % of it, twice that where no
         function beside the effect holds the difference. Where an effect stood in for another it was 80 %.
+    most_refinements : int
+        Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
+    refined_to : float
+        Mean square (noise variances) at which forms are described well enough: the noise itself, but for a hundredth.
     explained_min : float
         Part of the unexplained that the causes named must explain together.
     form_limit : float
@@ -151,6 +158,7 @@ class Criteria:
     domain_sigmas: float = 3.0
     full_fits: int = 5
     later_fits: int = 3
+    in_other_words: int = 1
     held_out: int = 12
     most_steps: int = 6
     change_part: float = 0.05
@@ -163,6 +171,8 @@ class Criteria:
     complete: float = 0.02
     leaves_structure: float = 1.3
     form_explains: float = 0.9
+    most_refinements: int = 8
+    refined_to: float = 1.01
     explained_min: float = 0.75
     form_limit: float = 0.5
     form_named: float = 0.3

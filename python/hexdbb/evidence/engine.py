@@ -14,7 +14,7 @@ from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
-from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.learned import Learned, Space
 from hexdbb.model import Model, OwnEffect, Tabulated, Term, is_shaped, new_term
 from hexdbb.model.terms import started_term
@@ -22,6 +22,12 @@ from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+
+
+ARCS = 20
+"""Arcs of a sweep: a left-out one lasts some seconds, less than what warms or settles takes."""
+ARC_GROUPS = 5
+"""Groups that arcs belong to in turn: each is predicted from four fifths of the readings."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +134,7 @@ class Engine:
             "direction": _codes(part["direction"]),
             "lap": _codes(part["lap"]),
             "sweep": _codes(part["sweep"]),
+            ARC: _arcs(_codes(part["sweep"])),
         }
         ports = _core.port_sensitivity(self._engine(self.base), part.block(self.base)) / self.row_noise_mm[:, None]
         return Readings(State(part, part.machine.sliders.screw_lead_mm), groups, self.row_noise_mm, ports)
@@ -187,8 +194,21 @@ class Engine:
         covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
         return Fitted(model, linear, covariance, free)
 
-    def signatures(self, model: Model, effects: Sequence[str]) -> tuple[Floats, list[tuple[str, str, str, float]]]:
+    def has_shape(self, effect: str) -> bool:
+        """Check whether an effect has a shape parameter of the engine's (a time constant)."""
+        return self.base.own(effect) is None and any(each.is_shape for each in self.base.info(effect).parameters)
+
+    def signatures(
+        self, model: Model, effects: Sequence[str], shape: float = 0.0
+    ) -> tuple[Floats, list[tuple[str, str, str, float]]]:
         """Return first-order signatures of absent effects, per prior standard deviation.
+
+        Parameters
+        ----------
+        model : Model
+        effects : sequence of str
+        shape : float
+            Value of shape parameters, in prior standard deviations.
 
         Returns
         -------
@@ -198,6 +218,9 @@ class Engine:
         present = {term.effect for term in model.terms}
         terms = [_held(model, name) for name in effects if name not in present]
         full = replace(model, terms=(*model.terms, *terms))
+        if shape:
+            absent = np.array([each.is_shape and each.effect not in present for each in full.parameters()])
+            full = full.with_values(np.where(absent, shape * full.prior_sigma, full.values))
         jacobian = _core.predict(self._engine(full), self.part.block(full), want_jacobian=True).jacobian
         wanted = [
             (index, each)
@@ -276,3 +299,12 @@ def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
 def _codes(values: NDArray[np.generic]) -> Ints:
     codes: Ints = np.unique(values, return_inverse=True)[1].ravel()
     return codes
+
+
+def _arcs(sweep: Ints) -> Ints:
+    """Return the group of the arc in which each row lies."""
+    found = np.empty(len(sweep), np.intp)
+    for each in np.unique(sweep):
+        rows = np.flatnonzero(sweep == each)
+        found[rows] = np.arange(len(rows)) * ARCS // len(rows) % ARC_GROUPS
+    return found

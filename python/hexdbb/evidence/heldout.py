@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hexdbb.evidence.readings import GROUPINGS
+from hexdbb.evidence.readings import ARC, GROUPINGS
 from hexdbb.evidence.sums import Sums, squared_error
 from hexdbb.evidence.trial import Trial, Trials
 
@@ -26,11 +26,15 @@ class HeldOut:
 
 
 def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
-    """Predict every group from all others, to first order about the fits; by grouping that has two groups or more."""
+    """Predict every group from all others, to first order about the fits; by grouping that has two groups or more.
+
+    A free function of time claims what lies between readings: arcs of every circle are left out besides.
+    """
     readings = trials.engine.readings
-    before, after = Sums(trials.linear(base), readings), Sums(trials.linear(trial), readings)
+    groupings = (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
+    before, after = (Sums(trials.linear(each), readings, groupings) for each in (base, trial))
     found, rows = {}, len(readings)
-    for grouping in GROUPINGS:
+    for grouping in groupings:
         groups = before.groups(grouping)
         if len(groups) < 2:
             continue

@@ -26,6 +26,10 @@ GROUPINGS = ("circle", "feed", "direction", "lap")
 """What may be held out as a whole, in the order in which results are reported."""
 
 
+ARC = "arc"
+"""Arcs of every sweep: held out where a free function of time claims to predict what lies between."""
+
+
 class State:
     """Columns of some rows by name (`hexdbb.samples`), with the spaces and designs that were made of them.
 
@@ -130,7 +134,7 @@ class Readings:
     state : State
         Columns on which a cause may depend.
     groups : mapping of str to ndarray of int, shape (n,)
-        Number of the circle, feed, direction and lap of each row, from 0; `sweep` in order of time.
+        Number of the circle, feed, direction and lap of each row, from 0; `sweep` in order of time, `arc` in turn.
     noise_mm : ndarray, shape (n,)
         Standard deviation of each row.
     ports : ndarray, shape (n, 55)

@@ -83,12 +83,16 @@ class Screen:
 
     def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
         """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows."""
-        scored = []
-        for each in self._ranked(hypotheses)[: self.criteria.held_out]:
-            space = signature_of(each, self.sums.readings)
-            block = self.sums.block(space.table)
-            scored.append((self._scored(each, block, self._factors(space), self.sizes_mm), block))
-        return self._held_out(scored)
+        return self._held_out([self._of(each) for each in self._ranked(hypotheses)[: self.criteria.held_out]])
+
+    def scored(self, hypothesis: Learned) -> Scored:
+        """Score one learned hypothesis; it is not held out."""
+        return self._of(hypothesis)[0]
+
+    def _of(self, hypothesis: Learned) -> tuple[Scored, Block]:
+        space = signature_of(hypothesis, self.sums.readings)
+        block = self.sums.block(space.table)
+        return self._scored(hypothesis, block, self._factors(space), self.sizes_mm), block
 
     def _ranked(self, hypotheses: Sequence[Learned]) -> list[Learned]:
         linear = self.thinned.linear(self.sums.linear)

@@ -19,7 +19,7 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
-from hexdbb.evidence.proposals import proposals
+from hexdbb.evidence.proposals import Proposal, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.signatures import all_varying
@@ -130,7 +130,7 @@ class Search:
             beam = self._kept(children)
             if not beam:
                 break
-            best = max([best, *beam], key=lambda each: each.score)
+            best = max([best, *filter(self._predicts, beam)], key=lambda each: each.score)
             if self._is_complete(best):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if _is_known(each)] if _is_free_in_time(best) else []
@@ -178,12 +178,13 @@ class Search:
         known, learned = self._screened(node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         most = self.criteria.most_of_one_effect
-        for scored in (*_best(known, count, most), *_best(learned, count, most)):
+        chosen = [*_best(known, count, most), *_best(learned, count, most)]
+        for scored in (*chosen, *self._in_other_words(known, learned, chosen)):
             try:
-                trial = self.trials.of((*node.members, self._member(scored)))
+                trial = self.trials.of((*node.members, self.member(scored)))
             except RunError:
                 continue
-            prior = self._log_prior(scored.hypothesis)
+            prior = self.log_prior(scored.hypothesis)
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
         return sorted(found, key=lambda each: -each.score)
@@ -192,14 +193,29 @@ class Search:
         present = {each.hypothesis for each in base.members}
         signatures, whose = self.engine.signatures(base.model, self.known)
         kinds = {name for name in self.known if self._is_whole(name)}
-        known = [each for each in screen.known(signatures, whose, kinds) if each.hypothesis not in present]
+        scored = screen.known(signatures, whose, kinds)
+        for shape in filter(None, self.criteria.shape_starts):
+            shaped = [name for name in self.known if self.engine.has_shape(name)]
+            scored = _better(scored, screen.known(*self.engine.signatures(base.model, shaped, shape), kinds))
+        known = [each for each in scored if each.hypothesis not in present]
         if not self.learns:
             return known, []
         proposed = proposals(screen.sums.linear, self.engine.readings, self.thinned, self.criteria)
-        self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+        self.propose(proposed)
         self._add_kin(screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
         every = [*self.hypotheses, *(each.hypothesis for each in proposed)]
         return known, screen.learned([each for each in every if each not in present])
+
+    def _in_other_words(self, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:
+        """Return known effects whose own functions explain much although their exact form does not."""
+        there = {each.hypothesis for each in chosen}
+        found: dict[Scored, float] = {}
+        for each in known:
+            homes = self.kin.get(each.hypothesis.name, set())
+            most = max((one.log_evidence for one in learned if one.hypothesis.name in homes), default=-np.inf)
+            if each.hypothesis not in there and most > max(each.log_evidence, 0.0):
+                found[each] = most
+        return sorted(found, key=lambda each: -found[each])[: self.criteria.in_other_words]
 
     @property
     def by_name(self) -> dict[str, Learned]:
@@ -221,10 +237,14 @@ class Search:
             same = {each.hypothesis.name for each in found if each.explained >= self.criteria.same_form}
             self.kin.setdefault(name, set()).update(same)
 
-    def _log_prior(self, hypothesis: Hypothesis) -> float:
+    def log_prior(self, hypothesis: Hypothesis) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
         count = len(self.kin) if isinstance(hypothesis, Known) else len(self.hypotheses)
         return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
+
+    def propose(self, proposed: Sequence[Proposal]) -> None:
+        """Keep what the choice of hypotheses' instants or periods costs."""
+        self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
 
     def _is_worth(self, node: Node, best: Node) -> bool:
         """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""
@@ -242,16 +262,18 @@ class Search:
         kept: list[Node] = []
         for child in children:
             alike = any(_alike(self, child, other) for other in kept)
-            if len(kept) < self.criteria.beam and not alike and not self.checked(child).reasons:
+            if len(kept) < self.criteria.beam and not alike and self._predicts(child):
                 kept.append(child)
         known = [each for each in children if _is_known(each)]
-        for child in known:
-            if any(child is each for each in kept):
-                break
-            if not self.checked(child).reasons:
-                kept.append(child)
-                break
+        # Of two faults neither predicts alone: where no known effect does, the best is looked at further.
+        best = next((each for each in known if any(each is one for one in kept) or self._predicts(each)), None)
+        best = best or next(iter(known), None)
+        if best is not None and not any(best is one for one in kept):
+            kept.append(best)
         return kept
+
+    def _predicts(self, node: Node) -> bool:
+        return not self.checked(node).reasons
 
     def _is_complete(self, node: Node) -> bool:
         excess = self.root.trial.left - 1.0
@@ -260,7 +282,8 @@ class Search:
     def _is_whole(self, effect: str) -> bool:
         return len(self.engine.base.info(effect).elements) == 1
 
-    def _member(self, scored: Scored) -> Member:
+    def member(self, scored: Scored) -> Member:
+        """Return a screened hypothesis with the prior that full fits give it."""
         if isinstance(scored.hypothesis, Learned):
             most = self.criteria.most_seen // scored.hypothesis.components
             seen = scored.marginal.seen(self.criteria.least_seen, most)
@@ -278,7 +301,13 @@ def _is_known(node: Node) -> bool:
 
 
 def _is_free_in_time(node: Node) -> bool:
-    return all(isinstance(each, Learned) and each.variable.column == "time_s" for each in node.hypotheses)
+    return all(isinstance(each, Learned) and each.is_of_time for each in node.hypotheses)
+
+
+def _better(scored: list[Scored], others: list[Scored]) -> list[Scored]:
+    """Exchange hypotheses for the same with another shape where that explains more."""
+    of = {each.hypothesis: each for each in others}
+    return [max(each, of.get(each.hypothesis, each), key=lambda one: one.log_evidence) for each in scored]
 
 
 def _best(scored: list[Scored], count: int, of_one_effect: int) -> list[Scored]:

@@ -71,6 +71,11 @@ class Trial:
     """Effects that the model had before, each with its form."""
 
     @property
+    def is_free_in_time(self) -> bool:
+        """Whether a free function of time is among the members."""
+        return any(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in self.members)
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Names of the members."""
         return tuple(each.hypothesis.name for each in self.members)
@@ -190,4 +195,8 @@ class Trials:
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:
-    return frozenset(f"{each.hypothesis.name} {each.size_mm:.3g}" for each in members)
+    return frozenset(f"{each.hypothesis.name} {_splines(each.hypothesis)} {each.size_mm:.3g}" for each in members)
+
+
+def _splines(hypothesis: Known | Learned) -> int:
+    return hypothesis.variable.count if isinstance(hypothesis, Learned) else 0

@@ -8,11 +8,12 @@ from typing import Literal
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
+from hexdbb.evidence.refine import refined
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.trial import Member
-from hexdbb.learned import Learned
+from hexdbb.learned import ALL, Learned
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -53,13 +54,29 @@ class Found:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is missing: the grade, the causes, the set of hypotheses, how it predicts, and how much was missing."""
+    """What is missing.
+
+    Attributes
+    ----------
+    grade : str
+    found : tuple of Found
+        Causes.
+    node : Node
+        The set of hypotheses that they are.
+    checked : Checked or None
+        How it predicts; None where nothing was found.
+    sufficiency : Sufficiency
+        How much was missing.
+    refined : Node or None
+        The set with its learned functions refined (`refine.py`).
+    """
 
     grade: Grade
     found: tuple[Found, ...]
     node: Node
     checked: Checked | None
     sufficiency: Sufficiency
+    refined: Node | None = None
 
 
 def judge(search: Search, matters_um: float | None = None) -> Verdict:
@@ -79,12 +96,18 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         return Verdict("unknown", (), node, None, before)
     node = _of_better_form(search, _settled(search, node))
     causes, refinements = _grouped(search, node)
+    wider = refined(search, node)
+    known = {each.name for each in node.hypotheses}
+    for each in wider.hypotheses:
+        cause = next((one for one in causes if isinstance(each, Learned) and _shares_place(one, each)), None)
+        if cause is not None and each.name not in known:
+            refinements[cause.name] = (*refinements.get(cause.name, ()), each.name)
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
     if search.checked(node).share < search.criteria.explained_min:
         grade = "unknown"
-    return Verdict(grade, found, node, search.checked(node), before)
+    return Verdict(grade, found, node, search.checked(node), before, wider)
 
 
 def _predicting(search: Search, node: Node) -> Node:
@@ -242,6 +265,10 @@ def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned)
 def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: dict[str, Learned]) -> bool:
     homes = [by_name[name] for name in search.kin.get(cause.name, set())] if isinstance(cause, Known) else [cause]
     return any(_part(home) == _part(learned) and home.element in (learned.element, 0) for home in homes)
+
+
+def _shares_place(cause: Hypothesis, learned: Learned) -> bool:
+    return isinstance(cause, Learned) and cause.place == learned.place and cause.element in (learned.element, ALL)
 
 
 def _part(learned: Learned) -> str:

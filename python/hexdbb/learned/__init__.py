@@ -4,13 +4,14 @@ Everything here is data and arithmetic on it: a hypothesis is chosen by name fro
 its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
 """
 
-from hexdbb.learned.places import ALL, Learned, hypotheses
+from hexdbb.learned.places import ALL, FINER, Learned, hypotheses
 from hexdbb.learned.space import Columns, Curve, Space, Table
 from hexdbb.learned.variables import Variable, periodic, step
 from hexdbb.learned.words import Form, describe
 
 __all__ = [
     "ALL",
+    "FINER",
     "Columns",
     "Curve",
     "Form",

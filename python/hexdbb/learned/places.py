@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hexdbb import _core
 from hexdbb.errors import InputError
@@ -29,6 +29,9 @@ VARIABLES: dict[str, tuple[Variable, ...]] = {
 ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "platform_joint": 6}
 """Number of elements of those places that have more than one."""
 KINDS = {"slider": "slider", "leg": "leg", "lateral": "guideway", "vertical": "guideway", "platform_joint": "leg"}
+FINER = (2, 4)
+"""Multiples of a variable's splines that readings may ask for: four times twelve knots follow what is a fiftieth of the
+range wide, as far as a reading every millimetre or two determines it."""
 SHARED = ("slider", "leg")
 """Places whose elements may share one function."""
 GUIDEWAY_PORT = "slider_joint"
@@ -76,6 +79,15 @@ class Learned:
         """Name, as `hexdbb add` takes it."""
         element = str(self.element) if self.element else WHOLE if self.place in SHARED else ""
         return ":".join(filter(None, (PREFIX, self.place, element, self.variable.name)))
+
+    def finer(self, times: int) -> Learned:
+        """Return the same hypothesis, name and all, with so many times as many splines."""
+        return replace(self, variable=replace(self.variable, count=self.variable.count * times))
+
+    @property
+    def is_of_time(self) -> bool:
+        """Whether it is a free function of time, which says nothing of a time that was left out."""
+        return self.variable.column == "time_s"
 
     @property
     def port(self) -> str:

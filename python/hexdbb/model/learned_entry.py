@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexdbb.errors import InputError
-from hexdbb.learned import Learned, Space
+from hexdbb.learned import FINER, Learned, Space
 from hexdbb.model.entries import LearnedEntry
 from hexdbb.model.learned import LearnedEffect
 from hexdbb.model.shown import shown_value
@@ -37,8 +37,10 @@ def learned_effect(name: str, entry: LearnedEntry) -> LearnedEffect:
     """
     hypothesis = Learned.parse(name)
     variable = hypothesis.variable
-    if entry.splines != variable.count:
-        raise InputError(f"{name}: splines {entry.splines} (expected {variable.count})")
+    splines = [variable.count * times for times in ((1, *FINER) if variable.is_smooth else (1,))]
+    if entry.splines not in splines:
+        raise InputError(f"{name}: splines {entry.splines} (expected {' or '.join(map(str, splines))})")
+    hypothesis = hypothesis.finer(entry.splines // variable.count)
     if not entry.high > entry.low:
         raise InputError(f"{name}: high {entry.high:g} (expected more than low, {entry.low:g})")
     if variable.signed != (entry.sign_width > 0.0):
