@@ -8,8 +8,8 @@ from pathlib import Path
 from hexdbb.capture import Request, RunProgress, SimulatedRig, opened_bus, prepare, running_clock
 from hexdbb.capture import measure as measure_request
 from hexdbb.files.atomic_file import refuse_existing
-from hexdbb.plan import Plan, load_plan
-from hexdbb.record import Record
+from hexdbb.plan import Conditions, Plan, load_plan
+from hexdbb.record import Record, conditions_metadata
 
 
 def simulated_rig(
@@ -37,6 +37,7 @@ def measure(
     rate_hz: float | None = None,
     lockstep: bool | None = None,
     overwrite: bool = False,
+    conditions: Conditions | None = None,
 ) -> Record:
     """Drive the circles of a plan and record them, as ``hexdbb-run`` does.
 
@@ -53,6 +54,8 @@ def measure(
         As fast as the bus allows (default when simulated), or at the cycle rate.
     overwrite : bool
         Replace an existing record.
+    conditions : Conditions, optional
+        Operator, notes, temperature: kept in the record, in place of those of the plan.
 
     Returns
     -------
@@ -80,6 +83,7 @@ def measure(
         "bus": "simulated rig" if simulated else source,
         "pace": "lockstep" if in_lockstep else "real time",
         "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        **conditions_metadata(chosen.conditions, conditions),
     }
     request, progress = Request(chosen, machine, origin, cycle_s, place, overwrite, metadata=metadata), RunProgress()
     programme = prepare(request)

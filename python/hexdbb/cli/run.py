@@ -21,10 +21,11 @@ from hexdbb.capture.setup import Confirm
 from hexdbb.cli.consoles import drop, run_console
 from hexdbb.cli.exits import reports_errors, unwritable
 from hexdbb.cli.run_compensated import compensated
+from hexdbb.cli.run_conditions import conditions_asked, conditions_options, numbered
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.plan import load_plan
-from hexdbb.record import Record
+from hexdbb.record import Record, conditions_metadata
 from hexdbb.trajectory import Programme
 
 SIMULATED_SILENT_AFTER = 25
@@ -41,7 +42,7 @@ Any fault stops all six axes together; the captured samples are kept.
 \b
 Examples:
   hexdbb-run --plan thesis -o demo.parquet
-  hexdbb-run --plan my-plan.toml --bus socketcan:can0 -o monday.parquet
+  hexdbb-run --plan my-plan.toml --bus socketcan:can0 -o monday.parquet --operator "J. Doe" --note "after the crash"
   hexdbb-run --plan standard --truth truth.toml --seed 3 -o simulated.parquet
   hexdbb-run --plan standard --compensation sp120.hexcomp -o after.parquet
   hexdbb-run --plan thesis --fault drive-fault:3@20 -o fault.parquet
@@ -79,8 +80,11 @@ Buses (any interface of python-can):
     help="Compensation file (hexdbb compensate): slider targets of the diagnosed machine instead of the nominal one.",
 )
 @click.option(
-    "--temperature-c", type=float, help="With --compensation: temperature of the machine, to correct thermal growth."
+    "--temperature-c",
+    type=float,
+    help="Temperature of the machine, kept in the record; with --compensation, thermal growth is corrected by it.",
 )
+@conditions_options
 @click.option("--truth", type=click.Path(path_type=Path), help="Simulated rig: truth file.")
 @click.option(
     "--seed",
@@ -100,6 +104,11 @@ def command(
     rate_hz: float | None,
     compensation_path: Path | None,
     temperature_c: float | None,
+    operator: str | None,
+    notes: tuple[str, ...],
+    machine_serial: str | None,
+    gauge_serial: str | None,
+    gauge_calibrated: datetime | None,
     truth: Path | None,
     seed: int | None,
     faults: tuple[str, ...],
@@ -118,10 +127,11 @@ def command(
     refuse_existing(record, overwrite)
     lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), RunProgress()
+    request = numbered(request, machine_serial, gauge_serial, gauge_calibrated)
+    asked = conditions_asked(operator, notes, temperature_c)
+    request.metadata.update(conditions_metadata(request.plan.conditions, asked))
     if compensation_path is not None:
         request = compensated(request, compensation_path, temperature_c, progress)
-    elif temperature_c is not None:
-        raise InputError("--temperature-c: without --compensation (expected --compensation FILE with it)")
     request.metadata.update(
         bus=bus_spec or "simulated rig",
         pace="lockstep" if lockstep else "real time",

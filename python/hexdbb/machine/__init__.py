@@ -12,6 +12,7 @@ from hexdbb.machine.file import (
     shipped_machine,
 )
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
+from hexdbb.machine.tolerance import Tolerance
 
 __all__ = [
     "SHIPPED_MACHINE",
@@ -22,6 +23,7 @@ __all__ = [
     "MachineFile",
     "Platform",
     "Sliders",
+    "Tolerance",
     "load_machine",
     "machine_beside",
     "shipped",

@@ -19,6 +19,7 @@ from hexdbb.files.frames import html_table
 from hexdbb.files.validation import BadValueError, FileModel, Number, Positive, StrictModel, load_toml
 from hexdbb.machine.can_setup import CanSetup
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
+from hexdbb.machine.tolerance import Tolerance
 
 
 class Base(StrictModel):
@@ -79,6 +80,8 @@ class MachineFile(FileModel):
     """Kind and version of the file."""
     name: Annotated[str, Field(min_length=1)]
     """Name of the machine, for people."""
+    serial_number: Annotated[str, Field(min_length=1)] | None = None
+    """Serial number of the machine, for reports."""
     base: Base
     """Base triangle of the guideways."""
     platform: Platform
@@ -87,6 +90,8 @@ class MachineFile(FileModel):
     """Six legs of one length."""
     sliders: Sliders
     """Six sliders, two on each guideway."""
+    tolerance: Tolerance | None = None
+    """Largest values of ISO 230-4 quantities that pass, for reports; absent means that nothing is judged."""
     can: CanSetup | None = None
     """Drives and gauge on the bus; absent means the defaults below. Fits use none of it."""
 

@@ -1,6 +1,7 @@
 """Plans: gauge, mounts, circles, and the order in which the circles are driven."""
 
 from hexdbb.plan.circle import Circle, Direction
+from hexdbb.plan.conditions import Conditions
 from hexdbb.plan.file import CircleRun, Circles, Mounts, Plan, check_ids, load_plan, shipped_plans
 from hexdbb.plan.gauge import LEAST_NOISE_MM, Gauge
 from hexdbb.plan.mount import Mount
@@ -10,6 +11,7 @@ __all__ = [
     "Circle",
     "CircleRun",
     "Circles",
+    "Conditions",
     "Direction",
     "Gauge",
     "Mount",

@@ -17,6 +17,7 @@ from hexdbb.files.frames import html_table
 from hexdbb.files.validation import BadValueError, FileModel, load_toml
 from hexdbb.machine import MachineFile, machine_beside, shipped
 from hexdbb.plan.circle import Circle, Direction, Directions, Feeds, Laps
+from hexdbb.plan.conditions import Conditions
 from hexdbb.plan.gauge import Gauge
 from hexdbb.plan.mount import Mount
 
@@ -64,6 +65,8 @@ class Plan(FileModel):
     """Angle driven at full feed before and after the captured laps."""
     gauge: Gauge
     """Ball bar and length gauge."""
+    conditions: Conditions | None = None
+    """Conditions of the test, for reports; options of `hexdbb-run` replace them."""
     mounts: Mounts = Field(alias="mount")
     """Set-ups of the cup, one table each."""
     circles: Circles = Field(alias="circle")

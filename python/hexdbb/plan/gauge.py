@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import math
+from datetime import date
+from typing import Annotated
+
+from pydantic import Field
 
 from hexdbb.files.validation import NotNegative, Positive, StrictModel
 
@@ -22,6 +26,11 @@ class Gauge(StrictModel):
     """Step to which readings are rounded."""
     range_um: Positive = 1000.0
     """Largest reading, to either side."""
+
+    serial_number: Annotated[str, Field(min_length=1)] | None = None
+    """Serial number of the ball bar, for reports."""
+    calibrated: date | None = None
+    """Date of the bar's last calibration, for reports."""
 
     @property
     def stated_noise_mm(self) -> float | None:

@@ -1,6 +1,7 @@
 """Records of circular tests: in memory, as Parquet, in text form (CSV and TOML), as journal of a running capture."""
 
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, TARGET_COLUMNS
+from hexdbb.record.conditions import conditions_metadata
 from hexdbb.record.formats import read_record, write_record
 from hexdbb.record.journal import Journal, journal_path
 from hexdbb.record.plausibility import Doubt, doubts
@@ -14,6 +15,7 @@ __all__ = [
     "Doubt",
     "Journal",
     "Record",
+    "conditions_metadata",
     "doubts",
     "journal_path",
     "read_record",

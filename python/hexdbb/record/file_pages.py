@@ -135,6 +135,8 @@ def _type_words(schema: Schema, definitions: Schema) -> str:
             return f"list of {len(schema['prefixItems'])}: {_type_words(schema['prefixItems'][0], definitions)}"
         item = _type_words(schema["items"], definitions)
         return "tables" if item == "table" else f"list of at least {schema.get('minItems', 0)}: {item}"
+    if schema.get("format") == "date":
+        return "date, as `2026-03-01`"
     name = {"number": "number", "integer": "whole number", "string": "text", "boolean": "true or false"}[schema["type"]]
     limits = [
         f"{sign} {schema[key]:g}" if isinstance(schema[key], float) else f"{sign} {schema[key]}"

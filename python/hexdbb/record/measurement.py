@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from hexdbb.files.validation import FileModel
-from hexdbb.plan import Circles, Gauge, Mounts, check_ids
+from hexdbb.plan import Circles, Conditions, Gauge, Mounts, check_ids
 
 
 class Measurement(FileModel):
@@ -19,6 +19,12 @@ class Measurement(FileModel):
     """Path of the machine file relative to this file, or the name of the shipped one, `sp120`."""
     complete: bool | None = None
     """False where the capture was interrupted; absent means complete."""
+    plan: Annotated[str, Field(min_length=1)] | None = None
+    """Name of the plan that was driven, for reports."""
+    started: Annotated[str, Field(min_length=1)] | None = None
+    """Date, or date and time, of the first sample, for reports."""
+    conditions: Conditions | None = None
+    """Conditions of the test, for reports."""
     gauge: Gauge
     """Ball bar and length gauge."""
     mounts: Mounts = Field(alias="mount")

@@ -16,8 +16,9 @@ from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
 from hexdbb.files.validation import dump_toml, format_value
 from hexdbb.machine import MachineFile
-from hexdbb.plan import Circle, Gauge, Mount
+from hexdbb.plan import Circle, Conditions, Gauge, Mount
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, RowSource, normalise
+from hexdbb.record.conditions import conditions_in
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.summary import summary_html, summary_line
 
@@ -109,6 +110,11 @@ class Record:
         _, first, member = np.unique(self.columns["sweep"], return_index=True, return_inverse=True)
         return [np.flatnonzero(member == which) for which in np.argsort(first)]
 
+    @property
+    def conditions(self) -> Conditions:
+        """Conditions of the test as far as they are recorded; values of another kind count as not recorded."""
+        return conditions_in(self.metadata)
+
     def measurement(self, machine: str) -> Measurement:
         """Return gauge, mounts and circles as a measurement file that names its machine `machine`."""
         complete = None if self.complete else False
@@ -123,7 +129,11 @@ class Record:
         return replace(self, columns=columns, whole_hash=self.content_hash())
 
     def content_hash(self) -> str:
-        """Return the SHA-256 (hex) of required columns, gauge, mounts, circles and machine; equal in every format."""
+        """Return the SHA-256 (hex) of required columns, gauge, mounts, circles and machine; equal in every format.
+
+        What only reports show (conditions, serial numbers, calibration, tolerance) is not in it: a note corrected later
+        leaves a record what it was.
+        """
         return self.whole_hash if self.whole_hash is not None else self._own_hash
 
     @cached_property
@@ -132,8 +142,10 @@ class Record:
         for name, kind in REQUIRED_COLUMNS.items():
             digest.update(name.encode())
             digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
-        digest.update(dump_toml(self.measurement("machine")).encode())
-        digest.update(dump_toml(self.machine).encode())
+        nameless = self.gauge.model_copy(update={"serial_number": None, "calibrated": None})
+        digest.update(dump_toml(self.measurement("machine").model_copy(update={"gauge": nameless})).encode())
+        described: dict[str, Any] = {"serial_number": None, "tolerance": None}
+        digest.update(dump_toml(self.machine.model_copy(update=described)).encode())
         return digest.hexdigest()
 
     def require_machine(self, machine: MachineFile, origin: str) -> None:

@@ -23,6 +23,7 @@ from hexdbb.machine import machine_beside
 from hexdbb.record.cells import first_bad_cell, line_of_row
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, RowSource, normalise
+from hexdbb.record.conditions import described_metadata, with_description
 from hexdbb.record.laps import counted_laps
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
@@ -51,6 +52,7 @@ def read_text_form(path: Path) -> Record:
         mounts=measurement.mounts,
         circles=measurement.circles,
         machine=machine_beside(measurement.machine, measurement_path),
+        metadata=described_metadata(measurement),
         path=path,
         complete=measurement.complete is not False,
     )
@@ -117,7 +119,9 @@ def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
     with replacing(machine_path) as temporary:
         temporary.write_text(dump_toml(record.machine), encoding="utf-8")
     with replacing(measurement_path) as temporary:
-        temporary.write_text(dump_toml(record.measurement(machine_path.name)), encoding="utf-8")
+        temporary.write_text(
+            dump_toml(with_description(record.measurement(machine_path.name), record.metadata)), encoding="utf-8"
+        )
     with replacing(path) as temporary, temporary.open("wb") as stream:
         stream.write(_line(record.columns).encode())
         options = pa.csv.WriteOptions(include_header=False)

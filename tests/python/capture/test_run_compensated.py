@@ -97,12 +97,6 @@ def test_a_wrong_file_is_refused_before_a_bus_is_looked_for(
     assert sorted(folder.iterdir()) == there
 
 
-def test_a_temperature_without_compensation_is_refused(folder: Path) -> None:
-    done = command("hexdbb-run", "--temperature-c", "21", "-o", "a.parquet", folder=folder)
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: --temperature-c: without --compensation")
-
-
 def test_more_correction_than_the_file_allows_is_refused_by_place_and_slider(folder: Path) -> None:
     model = new_model(shipped_machine(), ["leg_length"])
     model = model.with_values(np.full(6, 0.5), np.full(6, np.nan), np.ones(6, bool))

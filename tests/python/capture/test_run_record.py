@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Callable
+from datetime import date
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hexdbb.plan import Conditions
 from hexdbb.record import TARGET_COLUMNS, Record, read_record
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
@@ -51,8 +53,14 @@ def test_same_seed_same_record_and_the_next_command(run: Run, tmp_path: Path) ->
     refused = run("--seed", 5)
     assert refused.returncode == 2
     assert refused.stderr.startswith(f"error: {path}: exists already")
-    again = recorded(run("--seed", 5, "--overwrite"), tmp_path)
+    said = ("--operator", "A. <b>", "--note", "one", "--note", "two", "--temperature-c", 21.5)
+    said += ("--machine-serial", "SP-3", "--gauge-serial", "QC-17", "--gauge-calibrated", "2026-03-01")
+    again = recorded(run("--seed", 5, "--overwrite", *said), tmp_path)
     assert again.content_hash() == record.content_hash()
+    assert again.conditions == Conditions(operator="A. <b>", notes="one\ntwo", temperature_c=21.5)
+    assert (again.gauge.serial_number, again.gauge.calibrated) == ("QC-17", date(2026, 3, 1))
+    assert again.machine.serial_number == "SP-3"
+    assert record.conditions == Conditions()
     other = recorded(run("--seed", 6, "--overwrite"), tmp_path)
     assert other.content_hash() != record.content_hash()
 
