@@ -23,6 +23,9 @@ from .api import (
     measure as measure,
 )
 from .api import (
+    plan_next_test as plan_next_test,
+)
+from .api import (
     predict as predict,
 )
 from .api import (
@@ -72,6 +75,7 @@ from .model import (
 )
 from .plan import Plan as Plan
 from .plan import load_plan as load_plan
+from .plan import save_plan as save_plan
 from .plan import shipped_plans as shipped_plans
 from .record import Record as Record
 from .record import read_record as read_record

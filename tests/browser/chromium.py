@@ -19,15 +19,25 @@ TIMEOUT_MS = 60_000
 """Limits the wait for what a page shows in the end, on a machine that does much else."""
 
 
+def executable() -> str:
+    """Return the browser of the distribution."""
+    found = next(filter(None, map(shutil.which, EXECUTABLES)), None)
+    assert found is not None, f"none of {', '.join(EXECUTABLES)} is installed: make setup installs chromium"
+    return found
+
+
+def arguments() -> list[str]:
+    """Return the options that it needs here: three dimensions drawn by software, no sandbox as root."""
+    drawing = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+    return [*drawing, *(["--no-sandbox"] if os.geteuid() == 0 else [])]
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Start the browser of the distribution."""
-    executable = next(filter(None, map(shutil.which, EXECUTABLES)), None)
-    assert executable is not None, f"none of {', '.join(EXECUTABLES)} is installed: make setup installs chromium"
-    sandbox = ["--no-sandbox"] if os.geteuid() == 0 else []
     expect.set_options(timeout=TIMEOUT_MS)
     with sync_playwright() as driver:
-        started = driver.chromium.launch(executable_path=executable, args=sandbox)
+        started = driver.chromium.launch(executable_path=executable(), args=arguments())
         yield started
         started.close()
 

@@ -15,7 +15,7 @@ from hexdbb.api.analysis import (
     remove_effect,
     table_of,
 )
-from hexdbb.api.control import compensate, propose_plan
+from hexdbb.api.control import compensate, plan_next_test, propose_plan
 from hexdbb.api.measuring import measure, simulated_rig
 
 __all__ = [
@@ -27,6 +27,7 @@ __all__ = [
     "discover_all",
     "draft_effect",
     "measure",
+    "plan_next_test",
     "predict",
     "preview_effect",
     "propose_plan",

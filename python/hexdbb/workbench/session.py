@@ -22,9 +22,10 @@ from hexdbb.diagnosis import JudgingNoise, Sufficiency, assess_sufficiency, fit_
 from hexdbb.discovery import Discovery
 from hexdbb.effects import UserEffect, load_effects
 from hexdbb.errors import InputError
-from hexdbb.files.atomic_file import write_text
+from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.ledger import History, history, undo
 from hexdbb.model import Model, new_model
+from hexdbb.plan import save_plan
 from hexdbb.record import Record, read_record
 from hexdbb.samples import Prediction, Samples, predict
 from hexdbb.threads import one_thread
@@ -258,6 +259,27 @@ class Session:
             data = api.compensate(self.model, path)
             self.script.add(call("hx.compensate", Name("model"), str(path)))
             return list(data.left_out)
+
+    def plan_next(self, path: Path, progress: Progress = _nothing) -> str:
+        """Write the plan of the next circle; return what it is for.
+
+        The circle that tells apart what was found, where the verdict is ambiguous; else the one that alone determines
+        most of the machine's errors, ``hexdbb plan propose --circles 1``.
+        """
+        with self._doing("planning the next circle"):
+            refuse_existing(path, overwrite=False)
+            machine = self.samples.machine
+            if self.found is not None and self.found.next_test is not None:
+                between = " from ".join(self.found.next_test.between)
+                plan, what = api.plan_next_test(self.found), f"tells {between}"
+                self.script.add("plan = hx.plan_next_test(found)")
+            else:
+                plan = api.propose_plan(1, machine=machine, progress=progress)
+                what = "determines most of the machine's errors alone"
+                self.script.add("plan = hx.propose_plan(1, machine=records[0].machine)")
+            save_plan(plan, path, f"The circle that {what}.", machine)
+            self.script.add(f"hx.save_plan(plan, {str(path)!r}, machine=records[0].machine)")
+        return what
 
     # --- inside -----------------------------------------------------------------------------------------------------
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import runpy
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import hexdbb as hx
+from hexdbb.discovery.result import NextTest
 from hexdbb.workbench import Session
 
 
@@ -150,3 +152,37 @@ def test_a_second_action_is_refused_while_one_runs(session: Session) -> None:
     session.ask(progress)
     assert refused
     assert session.busy == ""
+
+
+def test_what_follows_is_written_and_in_the_script(session: Session, monkeypatch: pytest.MonkeyPatch) -> None:
+    session.add("backlash:4")
+    left_out = session.write_compensation(Path("mine.hexcomp"))
+    assert {name for name, _ in left_out} >= {"cup_position", "ball_offset"}
+    proposed = hx.load_plan("thesis")  # what is proposed is tested with the planner: here it takes too long
+    monkeypatch.setattr("hexdbb.api.propose_plan", lambda circles, **_: proposed)
+    assert session.plan_next(Path("next.toml")) == "determines most of the machine's errors alone"
+    assert hx.load_plan("next.toml").circles == proposed.circles
+    with pytest.raises(hx.InputError, match=r"next\.toml: exists already"):
+        session.plan_next(Path("next.toml"))
+    assert session.script.lines[-1] == "hx.save_plan(plan, 'next.toml', machine=records[0].machine)"
+    assert "hx.compensate(model, 'mine.hexcomp')" in session.script.lines
+
+
+def test_the_next_circle_tells_apart_what_was_found(session: Session) -> None:
+    circle = session.records[0].circles[2].model_copy(update={"platform_rpy_deg": (3.0, 0.0, 0.0)})
+    test = NextTest(circle, 1500.0, 9.0, ("backlash:4", "reversal_spike:4"))
+    session.found = replace(session.ask(), next_test=test)
+    assert session.plan_next(Path("next.toml")) == "tells backlash:4 from reversal_spike:4"
+    plan = hx.load_plan("next.toml")
+    assert (plan.circles, plan.feeds_mm_min) == ((circle,), (1500.0,))
+    assert plan.gauge == session.records[0].gauge
+    assert plan.machine_file() == session.samples.machine
+    with pytest.raises(hx.InputError, match="no circle tells apart"):
+        hx.plan_next_test(replace(session.found, next_test=None))
+
+
+def test_a_plan_names_a_machine_of_its_own_beside_it(session: Session) -> None:
+    machine = session.samples.machine.model_copy(update={"name": "mine"})
+    hx.save_plan(hx.load_plan("thesis"), "own.toml", "A comment.", machine)
+    assert hx.load_plan("own.toml").machine_file().name == "mine"
+    assert Path("own.toml").read_text(encoding="utf-8").startswith("# A comment.\n")

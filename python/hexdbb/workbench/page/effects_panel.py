@@ -123,7 +123,7 @@ class EffectsPanel:
             ui.label(known).classes("wb-small wb-value-known")
         slider.on(
             "update:model-value",
-            lambda event: self._drag(parameter.label, float(event.args[0])),
+            lambda event: self._drag(parameter.label, float(event.args)),
             throttle=THROTTLE_S,
         )
         self._values.append(_Value(parameter.label, slider, number, unit))

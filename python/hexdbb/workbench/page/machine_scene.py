@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 from nicegui import ui
+from nicegui.elements.scene.scene_object3d import Object3D
 from numpy.typing import NDArray
 
 from hexdbb.kinematics import guideway_ends, platform_points
@@ -63,6 +64,7 @@ class MachineScene:
         self._ball.move(*stand.ball)
         self._moved_ball.move(*stand.moved_ball)
         self._cup.move(*stand.cup)
+        self._bar.move(*((stand.cup + stand.ball) / 2.0)).rotate_R(_along(stand.ball - stand.cup))
 
     def _open(self) -> None:
         self._view = MachineView(self._session.samples, self._session.selection, self._session.shown)
@@ -110,6 +112,7 @@ class MachineScene:
                 ui.scene.extrusion(outline, PLATFORM_MM).move(z=height_mm).material("#9FB3C8", 0.85)
             with ui.scene.group() as self._moved:
                 ui.scene.extrusion(outline, PLATFORM_MM).move(z=height_mm).material(MOVED, 0.35)
+            self._bar = self._rod(stand.cup, stand.ball, 2.0, "#C08A00")
             self._ball = ui.scene.sphere(BALL_MM).material("#1F2933")
             self._moved_ball = ui.scene.sphere(BALL_MM).material(MOVED)
             self._cup = ui.scene.sphere(BALL_MM * 1.2).material("#C08A00")
@@ -117,9 +120,9 @@ class MachineScene:
         centre = (0.0, 0.0, 0.5 * float(stand.position[2]))
         self._scene.move_camera(0.55 * reach_mm, -0.7 * reach_mm, 0.65 * reach_mm, *centre, duration=0)
 
-    def _rod(self, start: Floats, end: Floats, radius_mm: float, colour: str) -> None:
+    def _rod(self, start: Floats, end: Floats, radius_mm: float, colour: str) -> Object3D:
         rod = ui.scene.cylinder(radius_mm, radius_mm, float(np.linalg.norm(end - start)), 12).material(colour)
-        rod.move(*((start + end) / 2.0)).rotate_R(_along(end - start))
+        return rod.move(*((start + end) / 2.0)).rotate_R(_along(end - start))
 
 
 def _along(direction: Floats) -> list[list[float]]:
