@@ -50,6 +50,7 @@ say "Is anything still missing?"
 run hexdbb discover demo/today.parquet -m demo/model.toml
 run hexdbb compare demo/today.parquet -m demo/model.toml --plot demo/after
 run hexdbb history -m demo/model.toml
+run hexdbb report demo/today.parquet -m demo/model.toml -o demo/report.html --tolerance "G(b)=80"
 
 say "A fault that no formula knows: guideway 1 has a dent, 30 µm deep"
 machine_with demo/dent.toml <<'TOML'

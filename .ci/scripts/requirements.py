@@ -12,8 +12,8 @@ def requirements(pyproject: Path) -> list[str]:
     """Return all requirements of a pyproject.toml in the syntax of pip: build system, dependencies, every extra."""
     content = tomllib.loads(pyproject.read_text(encoding="utf-8"))
     project = content["project"]
-    extras = project["optional-dependencies"].values()
-    return [*content["build-system"]["requires"], *project["dependencies"], *(each for extra in extras for each in extra)]
+    extras = [each for extra in project["optional-dependencies"].values() for each in extra]
+    return [*content["build-system"]["requires"], *project["dependencies"], *extras]
 
 
 if __name__ == "__main__":

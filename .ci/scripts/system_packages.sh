@@ -12,15 +12,16 @@ if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
 fi
 
 packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libgtest-dev libbenchmark-dev)
+# Reports on paper: WeasyPrint draws with Pango.
+packages+=(libpango-1.0-0 libpangoft2-1.0-0 fonts-liberation)
+# The browser that the tests of pages drive. Ubuntu has it as a snap only: the tests are skipped there without one.
+if grep -qx 'ID=debian' /etc/os-release 2>/dev/null; then
+  packages+=(chromium)
+fi
 # The Python of the distribution has `venv` and its headers in separate packages; any other Python includes them.
 if [ "$("$python" -c 'import sys; print(sys.base_prefix)')" = /usr ]; then
   version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
   packages+=("python$version-venv" "python$version-dev")
-fi
-
-# The browser in which the tests open pages, where none is there: Debian has it as a package, Ubuntu as a snap only.
-if ! command -v chromium >/dev/null && ! command -v chromium-browser >/dev/null && ! command -v google-chrome >/dev/null; then
-  packages+=(chromium)
 fi
 
 if [ "${HEXDBB_LINUXCNC:-OFF}" = ON ]; then

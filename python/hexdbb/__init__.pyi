@@ -35,7 +35,13 @@ from .api import (
     propose_plan as propose_plan,
 )
 from .api import (
+    rank_contributions as rank_contributions,
+)
+from .api import (
     remove_effect as remove_effect,
+)
+from .api import (
+    report as report,
 )
 from .api import (
     simulated_rig as simulated_rig,

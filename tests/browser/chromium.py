@@ -28,8 +28,7 @@ def executable() -> str:
 
 def arguments() -> list[str]:
     """Return the options that it needs here: three dimensions drawn by software, no sandbox as root."""
-    drawing = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-    return [*drawing, *(["--no-sandbox"] if os.geteuid() == 0 else [])]
+    return ["--enable-unsafe-swiftshader", *(["--no-sandbox"] if os.geteuid() == 0 else [])]
 
 
 @pytest.fixture(scope="session")

@@ -55,6 +55,13 @@ def _compensation(folder: Path, run: Run) -> None:
     (folder / "path.csv").write_text(poses, encoding="utf-8")
 
 
+def _report(folder: Path, run: Run) -> None:
+    """Measure one machine twice, and diagnose it."""
+    run("hexdbb-run --plan thesis --rate 20 --seed 11 -o before.parquet", folder)
+    run("hexdbb-run --plan thesis --rate 20 --seed 11 -o after.parquet --note 'moved to the other hall'", folder)
+    run("hexdbb diagnose before.parquet -m model.toml", folder)
+
+
 def _planning(folder: Path, run: Run) -> None:
     """Link the pages' plans, which commands name from the project's folder."""
     (folder / "docs").symlink_to(ROOT / "docs")
@@ -87,6 +94,7 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "docs/ledger.md": _today,
     "docs/planning.md": _planning,
     "docs/measuring.md": _measuring,
+    "docs/report.md": _report,
     "docs/simulated-rig.md": _simulated_rig,
     "docs/thesis-tables.md": _thesis_tables,
 }

@@ -17,6 +17,7 @@ from hexdbb.api.analysis import (
 )
 from hexdbb.api.control import compensate, plan_next_test, propose_plan
 from hexdbb.api.measuring import measure, simulated_rig
+from hexdbb.api.reporting import rank_contributions, report
 
 __all__ = [
     "add_effect",
@@ -31,7 +32,9 @@ __all__ = [
     "predict",
     "preview_effect",
     "propose_plan",
+    "rank_contributions",
     "remove_effect",
+    "report",
     "simulated_rig",
     "table_of",
 ]

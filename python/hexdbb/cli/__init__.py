@@ -17,6 +17,7 @@ COMMANDS = {
     "effects": "list the effects a model can have; write their handbook",
     "discover": "find the effect that a model lacks",
     "compare": "compare prediction and measurement: ISO 230-4 quantities, where the model fails",
+    "report": "write one page to hand over: verdict, contributions ranked, circles, what to measure next",
     "add": "add an effect to a model and fit it",
     "undo": "undo the last change of a model",
     "history": "list the changes of a model, step by step",

@@ -19,6 +19,7 @@ from hexdbb.errors import InputError
 from hexdbb.files.results import JsonResult
 from hexdbb.ledger.json_form import AddedJson, HistoryJson, UndoneJson
 from hexdbb.machine import shipped
+from hexdbb.reporting.json_form import ReportJson
 
 DECLARED: dict[str, type[JsonResult]] = {
     "diagnose": DiagnosisJson,
@@ -28,6 +29,7 @@ DECLARED: dict[str, type[JsonResult]] = {
     "undo": UndoneJson,
     "history": HistoryJson,
     "eds": EdsCheckJson,
+    "report": ReportJson,
 }
 """Declared result of each command that has a schema."""
 COMMANDS = tuple(DECLARED)

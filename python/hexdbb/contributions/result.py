@@ -134,9 +134,13 @@ class Contributions:
 
     records: tuple[RecordContributions, ...] = field(default=())
 
+    def json_form(self) -> ContributionsJson:
+        """Return them as declared for JSON."""
+        return ContributionsJson(tuple(_record_json(each) for each in self.records))
+
     def to_json(self) -> dict[str, Any]:
         """Return them as one object: micrometres, per cent."""
-        return ContributionsJson(tuple(_record_json(each) for each in self.records)).to_json()
+        return self.json_form().to_json()
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Return one row for each contribution of each record, in the order of rank, one array a column."""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from matplotlib.axes import Axes
 
+from hexdbb.charts.lines import near
 from hexdbb.comparison.reversals import Reversal
 
-NEAR_DEG = 7.0
-"""Reversals nearer than this share one name: the names would cover one another."""
 ROOM = 0.35
 """Part of a panel's height left free above its lines for the names."""
 
@@ -23,7 +22,7 @@ def mark_reversals(axes: Axes, reversals: Sequence[Reversal], meant: Sequence[st
         return
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + ROOM * (high - low))
-    for group in _near(reversals):
+    for group in near(reversals):
         angle_deg = sum(each.angle_deg for each in group) / len(group)
         is_meant = any(f"slider {each.slider}" in meant for each in group)
         colour = "0.15" if is_meant else "0.6"
@@ -43,15 +42,3 @@ def mark_reversals(axes: Axes, reversals: Sequence[Reversal], meant: Sequence[st
             zorder=6,
         )
         name.set_in_layout(False)  # it stands inside the panel: the layout need not measure it, which is slow
-
-
-def _near(reversals: Sequence[Reversal]) -> Iterator[list[Reversal]]:
-    """Yield reversals, by angle, that share one name."""
-    group: list[Reversal] = []
-    for each in sorted(reversals, key=lambda each: each.angle_deg):
-        if group and each.angle_deg - group[0].angle_deg > NEAR_DEG:
-            yield group
-            group = []
-        group.append(each)
-    if group:
-        yield group

@@ -18,13 +18,14 @@ from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
 from matplotlib.text import Text
 
+from hexdbb.charts.lines import SMOOTHED_OVER_DEG, largest_drawn_mm
 from hexdbb.charts.magnification import choose_scale
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison, iso230
 from hexdbb.files.atomic_file import replacing, require_folder
 from hexdbb.files.plain_text import printable
 from hexdbb.plan import Circle
-from hexdbb.plots.panels import SMOOTHED_OVER_DEG, draw_quantities, draw_residual
-from hexdbb.plots.polar import draw_polar, largest_drawn_mm, legend_handles
+from hexdbb.plots.panels import draw_quantities, draw_residual
+from hexdbb.plots.polar import draw_polar, legend_handles
 from hexdbb.plots.residual_pages import directions_page, harmonics_page, predictors_page
 
 OVERVIEW_COLUMNS = 4

@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
 from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
-from hexdbb.comparison import QUANTITIES, UM_PER_MM, CircleComparison
-from hexdbb.comparison.circles import DIRECTION_NAMES, SHORT_DIRECTION_NAMES
-from hexdbb.comparison.iso230 import FloatArray, Path
+from hexdbb.charts.lines import curve, quantity_rows, residual_path, smoothed
+from hexdbb.comparison import UM_PER_MM, CircleComparison
+from hexdbb.comparison.circles import DIRECTION_NAMES
 from hexdbb.plots.marks import mark_reversals
-from hexdbb.plots.polar import curve
 
-SMOOTHED_OVER_DEG = 3
-"""Arc over which the dark residual line is averaged; a divisor of 360."""
-BREAK_DEG = 15
-"""Arc without a sample at which the line breaks; fast circles may have one in four degrees only."""
 SMOOTHED_WIDTHS = {1: 2.4, -1: 1.0}
 """Broad below narrow, so that both directions are seen where they coincide."""
 
@@ -31,8 +26,7 @@ def draw_residual(axes: Axes, circle: CircleComparison, meant: Sequence[str] = (
     """
     axes.axhline(0.0, color="0.35", linewidth=0.8, zorder=1)
     for part in circle.directions:
-        measured, predicted = part.measured, part.predicted
-        residual = Path(measured.angle_rad, measured.deviation_mm - predicted.deviation_mm, measured.nominal_radius_mm)
+        residual = residual_path(part)
         angle, residual_um = curve(residual)
         axes.plot(np.degrees(angle), residual_um, color=MEASURED_COLOURS[part.direction], linewidth=0.5, alpha=0.6)
         axes.plot(
@@ -52,18 +46,6 @@ def draw_residual(axes: Axes, circle: CircleComparison, meant: Sequence[str] = (
     mark_reversals(axes, circle.reversals, meant)
 
 
-def smoothed(residual: Path) -> tuple[FloatArray, FloatArray]:
-    """Return middle angle (deg) and mean (µm) of each arc with a sample; nan where the line breaks (`BREAK_DEG`)."""
-    count = 360 // SMOOTHED_OVER_DEG
-    arc = np.minimum((np.degrees(residual.angle_rad) // SMOOTHED_OVER_DEG).astype(np.int64), count - 1)
-    samples = np.bincount(arc, minlength=count)
-    total_um = UM_PER_MM * np.bincount(arc, weights=residual.deviation_mm, minlength=count)
-    there = np.flatnonzero(samples)
-    angle_deg = (there + 0.5) * SMOOTHED_OVER_DEG
-    breaks = np.flatnonzero(np.diff(angle_deg) > BREAK_DEG) + 1
-    return np.insert(angle_deg, breaks, np.nan), np.insert(total_um[there] / samples[there], breaks, np.nan)
-
-
 def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
     """Write the ISO 230-4 quantities, measured and predicted, as a table."""
     axes.set_axis_off()
@@ -81,17 +63,6 @@ def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
     for cell in table.get_celld().values():
         cell.set_linewidth(0.4)
         cell.set_edgecolor("0.8")
-
-
-def quantity_rows(circle: CircleComparison) -> Iterator[tuple[str, float | None, float | None]]:
-    """Yield label, measured and predicted value (mm) of each quantity: once per direction, or once for both."""
-    for quantity in QUANTITIES:
-        parts = circle.directions[:1] if quantity.of_both else circle.directions
-        for part in parts:
-            label = (
-                quantity.symbol if quantity.of_both else f"{quantity.symbol}, {SHORT_DIRECTION_NAMES[part.direction]}"
-            )
-            yield label, part.measured_quantities[quantity.key], part.predicted_quantities[quantity.key]
 
 
 def _text(value_mm: float | None) -> str:

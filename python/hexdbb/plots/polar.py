@@ -8,7 +8,6 @@ between the two stays visible.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -17,41 +16,13 @@ from matplotlib.lines import Line2D
 from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.charts.colours import GRID_COLOUR, MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS
+from hexdbb.charts.lines import curve, drawn_paths
 from hexdbb.charts.magnification import Scale
-from hexdbb.comparison import UM_PER_MM, CircleComparison
+from hexdbb.comparison import CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES
-from hexdbb.comparison.iso230 import FULL_TURN_RAD, MAX_GAP_RAD, FloatArray, Path
+from hexdbb.comparison.iso230 import FULL_TURN_RAD
 
 GRID_LABEL_ANGLE_DEG = 67.5
-
-
-def drawn_paths(circle: CircleComparison) -> list[tuple[int, Path, Path]]:
-    """Return direction, measured and predicted path of each direction, the measured centre offset removed from both."""
-    centre = circle.set_up_centre_mm
-    return [
-        (part.direction, part.measured, part.predicted)
-        if centre is None
-        else (part.direction, part.measured.about(centre), part.predicted.about(centre))
-        for part in circle.directions
-    ]
-
-
-def largest_drawn_mm(circles: Iterable[CircleComparison]) -> float:
-    """Return the largest absolute deviation that the plots of these circles show."""
-    return max(
-        float(np.abs(path.deviation_mm).max())
-        for circle in circles
-        for _, *paths in drawn_paths(circle)
-        for path in paths
-    )
-
-
-def curve(path: Path) -> tuple[FloatArray, FloatArray]:
-    """Return angle (rad) and deviation (µm) of a path as a line: closed, and broken where samples are missing."""
-    angle = np.append(path.angle_rad, path.angle_rad[0] + FULL_TURN_RAD)
-    deviation_um = UM_PER_MM * np.append(path.deviation_mm, path.deviation_mm[0])
-    gaps = np.flatnonzero(np.diff(angle) > MAX_GAP_RAD) + 1
-    return np.insert(angle, gaps, np.nan), np.insert(deviation_um, gaps, np.nan)
 
 
 def draw_polar(axes: PolarAxes, circle: CircleComparison, scale: Scale, fine: bool) -> None:

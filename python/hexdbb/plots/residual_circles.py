@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
+from hexdbb.charts.lines import residual_path, smoothed
 from hexdbb.comparison import UM_PER_MM, CircleComparison
-from hexdbb.comparison.circles import DIRECTION_NAMES, DirectionComparison, compare_circles
-from hexdbb.comparison.iso230 import FloatArray, Path
+from hexdbb.comparison.circles import DIRECTION_NAMES, compare_circles
+from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.plots.marks import mark_reversals
-from hexdbb.plots.panels import smoothed
 from hexdbb.samples import Samples
 
 COLUMNS = 3
@@ -66,9 +66,9 @@ def _draw(axes: Axes, before: CircleComparison, after: CircleComparison | None, 
     axes.axhline(0.0, color="0.6", linewidth=0.6, zorder=1)
     for part in before.directions:
         colours = PREDICTED_COLOURS if after is None else MEASURED_COLOURS
-        axes.plot(*smoothed(_residual(part)), color=colours[part.direction], linewidth=1.1, zorder=2)
+        axes.plot(*smoothed(residual_path(part)), color=colours[part.direction], linewidth=1.1, zorder=2)
     for part in () if after is None else after.directions:
-        axes.plot(*smoothed(_residual(part)), color=PREDICTED_COLOURS[part.direction], linewidth=1.1, zorder=3)
+        axes.plot(*smoothed(residual_path(part)), color=PREDICTED_COLOURS[part.direction], linewidth=1.1, zorder=3)
     fall = f"{UM_PER_MM * before.rms_mm:.2f} µm RMS"
     if after is not None:
         fall = f"{UM_PER_MM * before.rms_mm:.2f} µm -> {UM_PER_MM * after.rms_mm:.2f} µm RMS"
@@ -78,12 +78,6 @@ def _draw(axes: Axes, before: CircleComparison, after: CircleComparison | None, 
     axes.set_xticks(np.arange(0, 361, 90))
     axes.tick_params(labelsize=7)
     axes.grid(color="0.92", linewidth=0.5)
-
-
-def _residual(part: DirectionComparison) -> Path:
-    """Return the residual of the mean of the laps as a path."""
-    measured, predicted = part.measured, part.predicted
-    return Path(measured.angle_rad, measured.deviation_mm - predicted.deviation_mm, measured.nominal_radius_mm)
 
 
 def _legend(has_after: bool) -> list[Line2D]:

@@ -260,6 +260,13 @@ class Session:
             self.script.add(call("hx.compensate", Name("model"), str(path)))
             return list(data.left_out)
 
+    def write_report(self, path: Path) -> str:
+        """Write the report of the records with the model; return its verdict: ``hexdbb report``."""
+        with self._doing(f"writing {path}") as table:
+            found = api.report(table, self.model, path)
+            self.script.add(call("hx.report", Name("samples"), Name("model"), str(path)))
+        return found.verdict
+
     def plan_next(self, path: Path, progress: Progress = _nothing) -> str:
         """Write the plan of the next circle; return what it is for.
 

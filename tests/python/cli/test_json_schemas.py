@@ -84,6 +84,7 @@ def test_what_is_printed_is_what_the_schemas_say(printed: Callable[[str], Any]) 
         ("diagnose", f"diagnose run.parquet {model} --json"),
         ("compare", f"compare run.parquet {model} --json --no-plot"),
         ("add", f"add bar_length run.parquet {model} --json"),
+        ("report", f"report run.parquet {model} --json -o run.html --tolerance F=20"),
         ("history", f"history {model} --json"),
         ("undo", f"undo {model} --json"),
     ):

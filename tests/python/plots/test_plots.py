@@ -17,12 +17,13 @@ from matplotlib.text import Text
 from tests.python.comparison.made_up import MakeRecord, compared
 
 from hexdbb.charts import choose_scale
+from hexdbb.charts.lines import curve, drawn_paths, largest_drawn_mm
 from hexdbb.charts.magnification import LARGEST_SHARE_OF_RADIUS, SERIES
 from hexdbb.comparison import Comparison
 from hexdbb.comparison.iso230 import even_angles, make_path
 from hexdbb.errors import RunError
 from hexdbb.plots import comparison_pages, save_figure
-from hexdbb.plots.polar import curve, draw_polar, drawn_paths, largest_drawn_mm
+from hexdbb.plots.polar import draw_polar
 
 RESIDUAL = ["-state", "-directions", "-harmonics"]
 """Pages of the residual, after those of the circles."""

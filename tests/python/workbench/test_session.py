@@ -166,6 +166,8 @@ def test_what_follows_is_written_and_in_the_script(session: Session, monkeypatch
         session.plan_next(Path("next.toml"))
     assert session.script.lines[-1] == "hx.save_plan(plan, 'next.toml', machine=records[0].machine)"
     assert "hx.compensate(model, 'mine.hexcomp')" in session.script.lines
+    assert session.write_report(Path("report.html"))
+    assert "backlash" in Path("report.html").read_text(encoding="utf-8")
 
 
 def test_the_next_circle_tells_apart_what_was_found(session: Session) -> None:

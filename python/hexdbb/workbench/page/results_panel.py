@@ -23,6 +23,7 @@ class ResultsPanel:
             with ui.row().classes("wb-actions"):
                 for name, action in (
                     ("Save model as", lambda: self._asked("model.toml", self._save)),
+                    ("Report", lambda: self._asked("report.html", self._report)),
                     ("Next circle", lambda: self._asked("next-plan.toml", self._plan)),
                     ("Compensation", lambda: self._asked(".hexcomp", self._compensate)),
                     ("Copy as script", self._script),
@@ -58,6 +59,9 @@ class ResultsPanel:
     def _compensate(self, path: Path) -> str:
         left_out = self._session.write_compensation(path)
         return "; ".join([f"{path}: written", *(f"left out: {name} ({why})" for name, why in left_out)])
+
+    def _report(self, path: Path) -> str:
+        return f"{path}: written. {self._session.write_report(path)}"
 
     def _plan(self, path: Path) -> str:
         return f"{path}: written, a circle that {self._session.plan_next(path)}; hexdbb-run --plan {path} drives it"
