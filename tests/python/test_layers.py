@@ -204,8 +204,9 @@ ALLOWED: dict[str, set[str]] = {
         "ledger",
         "comparison",
         "discovery",
-        "plots",
         "api",
+        "charts",
+        "_core",
     },
     # the rig's line
     "rig": {"errors", "files", "machine"},

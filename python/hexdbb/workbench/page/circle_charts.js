@@ -6,6 +6,9 @@ const INK = "#1F2933", FAINT = "#D9D9D9", MUTED = "#595959", FITTED = "#767676";
 const TEXT = { color: INK, fontSize: 12 };
 const NEAR_DEG = 2.0; // readings this near to the cursor are highlighted: a few in each lap
 const TURN = 360;
+const POLAR_MS = 110; // while a value is dragged the polar chart follows nine times a second, the unrolled one always
+const REST_MS = 60; // points follow a value that is dragged when it rests this long
+const STANDING = /^(measured|nominal|cursor|near)/; // series that do not change with the model
 
 const number = (value, digits = 1) => (value >= 0 ? "+" : "\u2212") + Math.abs(value).toFixed(digits);
 
@@ -79,15 +82,29 @@ export default {
       this.legend = this.measured.directions;
       this.hasFitted = predicted.directions.some((each) => each.fitted.length);
       this.draw(Boolean(measured));
-      this.mark();
       this.drawn = (this.drawn ?? 0) + 1;
       this.$el.dataset.drawn = this.drawn;
     },
     draw(whole) {
+      // The curves at once; the points and the cursor when the browser has time, so that dragging does not wait for them.
       if (!this.predicted) return;
-      this.charts.polar.setOption(this.polarOption(), whole);
-      this.charts.unrolled.setOption(this.unrolledOption(), whole);
-      this.charts.against.setOption(this.againstOption(), whole);
+      const kept = (option, names) => whole ? option : { ...names, series: option.series.filter((each) => !STANDING.test(each.id)) };
+      const now = performance.now();
+      const drawPolar = () => {
+        const polar = this.polarOption();
+        this.charts.polar.setOption(kept(polar, { radiusAxis: polar.radiusAxis }), whole);
+        this.polarAt = now;
+      };
+      const isSoon = !whole && now - (this.polarAt ?? 0) < POLAR_MS;
+      this.charts.unrolled.setOption(kept(this.unrolledOption(), {}), whole);
+      if (!isSoon) drawPolar();
+      clearTimeout(this.rest);
+      this.rest = setTimeout(() => {
+        if (isSoon) drawPolar();
+        const against = this.againstOption();
+        this.charts.against.setOption(kept(against, {}), whole);
+        this.mark();
+      }, whole ? 0 : REST_MS);
     },
     pairs() {
       return this.measured.directions.map((each, index) => [each, this.predicted.directions[index]]);
@@ -183,7 +200,7 @@ export default {
         yAxis: { type: "value", scale: true, name: "residual, µm", nameLocation: "middle", nameGap: 40, nameTextStyle: TEXT,
           axisLabel: TEXT, splitNumber: 4, splitLine: { lineStyle: { color: FAINT } } },
         series: this.pairs().map(([measured, predicted], index) => ({
-          id: `points${index}`, type: "scatter", data: predicted.points, symbolSize: 3, animation: false, z: 2,
+          id: `points${index}`, type: "scatter", large: true, largeThreshold: 500, data: predicted.points, symbolSize: 3, animation: false, z: 2,
           itemStyle: { color: measured.predictedColour, opacity: 0.55 }, encode: { x: 0, y: 1 },
         })).concat([{ id: "near", type: "scatter", data: [], symbolSize: 8, silent: true, animation: false, z: 5,
           itemStyle: { color: "transparent", borderColor: INK, borderWidth: 1.5 } }]),
