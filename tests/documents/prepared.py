@@ -56,9 +56,9 @@ def _compensation(folder: Path, run: Run) -> None:
 
 
 def _report(folder: Path, run: Run) -> None:
-    """Measure one machine twice, and diagnose it."""
-    run("hexdbb-run --plan thesis --rate 20 --seed 11 -o before.parquet", folder)
-    run("hexdbb-run --plan thesis --rate 20 --seed 11 -o after.parquet --note 'moved to the other hall'", folder)
+    """Measure a machine, and another in its place; diagnose the first."""
+    run("hexdbb-run --plan thesis --rate 10 --seed 11 -o before.parquet", folder)
+    run("hexdbb-run --plan thesis --rate 10 --seed 12 -o after.parquet --note 'the other machine'", folder)
     run("hexdbb diagnose before.parquet -m model.toml", folder)
 
 
