@@ -2,7 +2,7 @@
 
 ::
 
-    from tests.browser.chromium import browser, opened, violations  # `browser` is a fixture of the session
+    from tests.browser.chromium import browser, opened, violations  # `browser` is a fixture of the module
 
     def test_page(browser: Browser) -> None:
         with opened(browser, "file:///tmp/report.html", width=390) as page:  # fails on a console error at the end

@@ -1,4 +1,7 @@
-"""Headless Chromium for tests: one process a session, a page for each test that allows no console error."""
+"""Headless Chromium for tests: one process a module, as Playwright allows one at a time; a page for each test.
+
+A page allows no console error.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +32,7 @@ def arguments() -> list[str]:
     return ["--enable-unsafe-swiftshader", *(["--no-sandbox"] if os.geteuid() == 0 else [])]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Start the browser of the distribution; tests of pages are skipped where there is none."""
     found = executable()

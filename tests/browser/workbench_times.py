@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 import tempfile
+import time
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
@@ -90,8 +91,8 @@ def _dragged(page: Page, box: dict[str, float]) -> float:
     page.mouse.move(box["x"] + box["width"] / 2.0, y)
     page.mouse.down()
     page.evaluate("window.drawnAt = []; window.beginsAt = performance.now()")
-    steps = 0
-    while page.evaluate("performance.now() - window.beginsAt") < 1e3 * DRAG_S:
+    steps, ends_s = 0, time.monotonic() + DRAG_S
+    while time.monotonic() < ends_s:
         steps += 1
         page.mouse.move(box["x"] + box["width"] * (0.5 + 0.4 * np.sin(0.15 * steps)), y)
     page.mouse.up()
