@@ -3,7 +3,7 @@
 python -m tests.faults --table docs/fault-table.md --realtime --pairs 40 --seed 1
 python -m tests.faults --only "answer twice"
 python -m tests.faults --kills 100 --seed 1
-python -m tests.faults --soak 50
+python -m tests.faults --soak 50 --table docs/soak.md
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line."""
     options = _options(arguments)
     if options.soak:
-        return 1 if report(options.soak) else 0
+        return 1 if report(options.soak, options.table) else 0
     if options.kills:
         kills = killed(options.kills, options.seed, options.jobs)
         failed = sum(bool(each.unmet) for each in kills)

@@ -181,7 +181,9 @@ FAULTS: list[Fault] = [
     # answers
     _proxy("answer lost", tpdo(3), drop, must_pass=True),
     _proxy("answers of a node lost", tpdo(3), drop, r"node 3 ", count=FOREVER),
-    _proxy("every tenth answer of a node lost", tpdo(3), drop, r"\w", count=FOREVER, every=10, how_often="every tenth"),
+    _proxy(
+        "every tenth answer of a node lost", tpdo(3), drop, r"node 3 ", count=FOREVER, every=10, how_often="every tenth"
+    ),
     _proxy("answer twice", GAUGE, twice, r"node 7 ", may_pass=True),
     _proxy("all answers of a node twice", GAUGE, twice, r"node 7 ", count=FOREVER, may_pass=True),
     Fault("answer after the next SYNC", CAPTURING, ONCE, r"node 7 ", _late_once, may_pass=True),

@@ -15,17 +15,12 @@ from tests.circle_plan import circle_plan
 from tests.faults.bus_log import BusLog
 from tests.faults.proxy import proxied
 from tests.faults.transformations import Rule
+from tests.rigs import rig_in_thread
 
 from hexdbb.capture.simulated import simulated_rig
 from hexdbb.cli.run import command
 from hexdbb.errors import HexdbbError
-from hexdbb.files.validation import load_toml
-from hexdbb.machine import shipped_machine
 from hexdbb.record import Record, read_record
-from hexdbb.rig.bus import Rig
-from hexdbb.rig.faults import parse_fault
-from hexdbb.rig.socketcand import SocketcandServer
-from hexdbb.rig.truth import TruthFile
 
 RATE_HZ = 50.0
 """Cycles in a second: slow, so that a desktop's stalls of some 20 ms to 50 ms do not end a run in real time, and a run
@@ -105,7 +100,7 @@ def run(
     """
     truth, record = prepared(folder, plan), folder / RECORD
     begin_s = time.monotonic()
-    rig = rig_in_thread(truth, rig_faults, seed) if lockstep else rig_in_process(truth, rig_faults, seed)
+    rig = (rig_in_thread if lockstep else rig_in_process)(*rig_options(truth, rig_faults, seed))
     with rig as port, proxied(port, [rule.fresh(rule.at_s) for rule in rules], 1 / RATE_HZ, seed) as proxy:
         status, message = (_called if lockstep else _started)(options(folder, proxy.bus, lockstep))
         duration_s = time.monotonic() - begin_s
@@ -132,27 +127,15 @@ def command_line(words: Sequence[str]) -> list[str]:
     return [sys.executable, "-c", "from hexdbb.cli.run import main; main()", *words]
 
 
-@contextmanager
-def rig_in_thread(truth: Path, faults: Sequence[str], seed: int) -> Iterator[int]:
-    """Serve a rig in a thread of this process and yield its port."""
-    hidden = load_toml(truth, TruthFile).model_copy(update={"seed": seed})
-    rig = Rig(shipped_machine(), hidden, [parse_fault(spec) for spec in faults], stall_tolerance_s=1.0)
-    server = SocketcandServer(0, rig.receive, rig.poll, rig.controller_gone)
-    rig.transmit, rig.on_bus_lost = server.transmit, server.disconnect_all
-    thread = threading.Thread(target=server.serve, name="rig", daemon=True)
-    thread.start()
-    try:
-        yield server.port
-    finally:
-        server.stop()
-        thread.join()
+def rig_options(truth: Path, faults: Sequence[str], seed: int) -> list[str]:
+    """Return the options of ``hexdbb rig``."""
+    return ["--truth", str(truth), "--seed", str(seed), *(word for fault in faults for word in ("--fault", fault))]
 
 
 @contextmanager
-def rig_in_process(truth: Path, faults: Sequence[str], seed: int) -> Iterator[int]:
+def rig_in_process(*options: str) -> Iterator[int]:
     """Serve a rig in a process of its own and yield its port."""
-    options = ["--truth", str(truth), "--seed", str(seed)]
-    with simulated_rig([*options, *(word for fault in faults for word in ("--fault", fault))]) as bus:
+    with simulated_rig(options) as bus:
         yield int(bus.rpartition(":")[2])
 
 

@@ -7,102 +7,246 @@ beside how late this computer wakes a process that sleeps, measured meanwhile.
 from __future__ import annotations
 
 import os
+import platform
+import re
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
 import time
-from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from tests.faults.runs import PLAN, RECORD, prepared
+from numpy.typing import NDArray
+from tests.faults.runs import DEADLINE_S, RECORD, command_line, prepared
+
+from hexdbb.capture.realtime import FIFO_PRIORITY
+from hexdbb.files.atomic_file import write_text
 
 ROOT = Path(__file__).parents[2]
-SOURCE = ROOT / "cpp" / "src" / "identifiability.cpp"
 RATES_HZ = (50, 250)
 SLEEP_S = 0.004
 """Period of the sleeper that measures the lateness: a cycle at 250 Hz."""
+CONFIGURE = ("-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DHEXDBB_TESTS=ON")
+"""The engine with its tests, as `make test` compiles it."""
+
+SUMMARY = re.compile(r"(\d+) of (\d+) samples, .*, (\d+) missed cycles")
+"""What `hexdbb-run` prints at the end of a complete run."""
+
+HEAD = """# Real time while the computer compiles
+
+Made by `python -m tests.faults --soak {runs} --table docs/soak.md`; nothing here is written by hand.
+Without a fault the controller has no reason to stop: every run should end complete. One circle is driven {runs} times
+at each rate, in real time, on {computer} with {cores} cores, **while {cores} processes compile the engine**.
+The controller requests real-time scheduling (SCHED_FIFO) for itself, and is given it here for the simulated rig too, a
+process of its own: real nodes do not wait for a compiler ({granted}).
+Load average {before:.1f} before the compilation began, {after:.1f} at the end: what is above {cores} is work that
+waits, that of others on this computer included.
+
+- *Lateness*: how much later than asked a thread of the same scheduling wakes that sleeps 4 ms, measured during all runs
+  of a rate. It is what this computer does to any program. A cycle lasts 20 ms at 50 Hz and 4 ms at 250 Hz; a SYNC later
+  than half a cycle is left out and counted as *missed*.
+- *Missing*: samples planned and not in a record said to be complete, at most 1 %.
+- *Short*: driven to its end, but more than 1 % of the samples are missing, and the record says so. *Stopped*: the
+  controller stopped the axes.
+
+| rate | complete | short | stopped | missing: median, worst | missed: median, worst | lateness: median | 99 % | worst |
+|---|---|---|---|---|---|---|---|---|
+"""
 
 
 @dataclass(frozen=True)
 class Soaked:
-    """One run: its rate, exit status, last message, and the lateness of this computer, ms: median, 99 %, largest."""
+    """One run.
+
+    Attributes
+    ----------
+    rate_hz : int
+    exit_status : int or None
+        None of a run that did not end.
+    message : str
+        Error of a run that did not succeed, else samples and missed cycles.
+    missing, missed : int
+        Samples missing from a complete record, and SYNCs left out.
+    late_ms : ndarray
+        Lateness of a sleeping process during the run, ms.
+    """
 
     rate_hz: int
-    exit_status: int
+    exit_status: int | None
     message: str
-    late_ms: tuple[float, float, float]
+    missing: int
+    missed: int
+    late_ms: NDArray[np.float64]
+
+    @property
+    def is_short(self) -> bool:
+        """Whether the run was driven to its end, but its record lacks too many samples."""
+        return self.exit_status == 1 and "planned samples are missing" in self.message
+
+    def __str__(self) -> str:
+        median, most, worst = np.percentile(self.late_ms, [50.0, 99.0, 100.0])
+        return f"{self.rate_hz} Hz: {self.message} (lateness {median:.1f}, {most:.1f}, {worst:.1f} ms)"
 
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Compile a source of the engine again and again, one process a core, for the length of the context."""
+    """Compile the engine into a scratch directory, again and again, one process a core."""
     end = threading.Event()
-    command = ["c++", "-std=c++20", "-O2", f"-I{ROOT / 'cpp' / 'include'}", "-I/usr/include/eigen3", "-c", str(SOURCE)]
+    with tempfile.TemporaryDirectory() as scratch:
+        subprocess.run(["cmake", "-S", str(ROOT), "-B", scratch, *CONFIGURE], check=True, capture_output=True)
+        build = ["cmake", "--build", scratch, "--parallel", str(cores()), "--clean-first"]
 
-    def compile_again() -> None:
-        while not end.is_set():
-            subprocess.run([*command, "-o", os.devnull], check=False, capture_output=True)
+        def compile_again() -> None:
+            while not end.is_set():
+                with subprocess.Popen(build, stdout=subprocess.DEVNULL, start_new_session=True) as process:
+                    while process.poll() is None and not end.wait(0.2):
+                        pass
+                    if process.poll() is None:
+                        os.killpg(process.pid, signal.SIGTERM)
 
-    threads = [threading.Thread(target=compile_again, daemon=True) for _ in range(os.cpu_count() or 1)]
-    for each in threads:
-        each.start()
-    try:
-        yield
-    finally:
-        end.set()
-        for each in threads:
-            each.join()
+        thread = threading.Thread(target=compile_again)
+        thread.start()
+        try:
+            yield
+        finally:
+            end.set()
+            thread.join()
+
+
+def cores() -> int:
+    """Return the number of processors of this computer that may be used."""
+    return len(os.sched_getaffinity(0))
 
 
 def soak(runs: int) -> Iterator[Soaked]:
     """Yield the outcome of `runs` runs at each rate."""
-    with tempfile.TemporaryDirectory() as name, compiling():
-        folder = Path(name)
+    with tempfile.TemporaryDirectory() as name:
         for number in range(runs):
             for rate_hz in RATES_HZ:
-                yield _one(folder, rate_hz, number)
+                yield _one(Path(name), rate_hz, number)
 
 
 def _one(folder: Path, rate_hz: int, seed: int) -> Soaked:
-    truth = prepared(folder, PLAN)
-    late: list[float] = []
-    end = threading.Event()
-    sleeper = threading.Thread(target=_measure, args=(end, late), daemon=True)
-    sleeper.start()
-    words = ["--plan", str(folder / "plan.toml"), "--truth", str(truth)]
-    words += ["--seed", str(seed), "--rate", str(rate_hz), "--realtime", "--overwrite", "-o", str(folder / RECORD)]
-    program = "import sys; from hexdbb.cli.run import main; sys.argv[0] = 'hexdbb-run'; main()"
-    done = subprocess.run([sys.executable, "-c", program, *words], capture_output=True, text=True, check=False)
-    end.set()
-    sleeper.join()
-    lines = done.stderr.strip().splitlines()
-    late_ms = 1e3 * np.percentile(late, [50.0, 99.0, 100.0])
-    return Soaked(rate_hz, done.returncode, lines[-1] if lines and done.returncode else "", tuple(map(float, late_ms)))
+    truth, record = prepared(folder), folder / RECORD
+    with _rig_that_never_waits(truth, seed) as bus, _lateness() as late_s:
+        words = ["--plan", str(folder / "plan.toml"), "--bus", bus, "--yes", "--rate", str(rate_hz)]
+        words += ["--realtime", "--overwrite", "-o", str(record)]
+        try:
+            done = subprocess.run(command_line(words), capture_output=True, text=True, timeout=DEADLINE_S)
+        except subprocess.TimeoutExpired:
+            return Soaked(rate_hz, None, f"not ended after {DEADLINE_S:g} s", 0, 0, 1e3 * np.array(late_s))
+    late_ms = 1e3 * np.array(late_s)
+    if done.returncode:
+        message = (done.stderr.strip().splitlines() or [""])[-1].replace(f"{folder}/", "").removeprefix("error: ")
+        return Soaked(rate_hz, done.returncode, message, 0, 0, late_ms)
+    said = SUMMARY.search(done.stdout)
+    if said is None:
+        raise RuntimeError(f"hexdbb-run printed: {done.stdout}")
+    kept, planned, missed = map(int, said.groups())
+    return Soaked(rate_hz, 0, said[0], planned - kept, missed, late_ms)
 
 
-def _measure(end: threading.Event, late: list[float]) -> None:
-    while not end.is_set():
-        due_s = time.monotonic() + SLEEP_S
-        time.sleep(SLEEP_S)
-        late.append(time.monotonic() - due_s)
+@contextmanager
+def _rig_that_never_waits(truth: Path, seed: int) -> Iterator[str]:
+    """Serve a rig that no compiler keeps waiting: real nodes have processors of their own. Yield its bus."""
+    command = [sys.executable, "-m", "hexdbb.cli", "rig", "--exit-with-parent", "--truth", str(truth)]
+    with subprocess.Popen(
+        [*command, "--seed", str(seed)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
+        try:
+            assert process.stdout is not None
+            address = process.stdout.readline().split()[-1]
+            with suppress(PermissionError):
+                _real_time(process.pid)
+            yield f"socketcand:{address}"
+        finally:
+            process.terminate()
 
 
-def report(runs: int) -> int:
-    """Run, print every run and a summary; return the number of runs without a complete record."""
-    found = []
-    for each in soak(runs):
-        found.append(each)
-        late = ", ".join(f"{value:.1f}" for value in each.late_ms)
-        outcome = "complete" if each.exit_status == 0 else each.message
-        print(
-            f"{each.rate_hz} Hz: {outcome} (this computer wakes late by {late} ms: median, 99 %, largest)", flush=True
-        )
-    for rate_hz in RATES_HZ:
-        counts = Counter(each.exit_status == 0 for each in found if each.rate_hz == rate_hz)
-        print(f"{rate_hz} Hz: {counts[True]} of {counts.total()} runs complete")
+def _real_time(pid: int) -> None:
+    """Give a process, or this thread (0), the scheduling that the controller requests for itself."""
+    os.sched_setscheduler(pid, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY))
+
+
+@contextmanager
+def _lateness() -> Iterator[list[float]]:
+    """Measure in a thread how late it wakes, s, for the length of the context."""
+    end, late_s = threading.Event(), list[float]()
+
+    def measure() -> None:
+        with suppress(PermissionError):
+            _real_time(0)
+        while not end.is_set():
+            due_s = time.monotonic() + SLEEP_S
+            time.sleep(SLEEP_S)
+            late_s.append(time.monotonic() - due_s)
+
+    thread = threading.Thread(target=measure, daemon=True)
+    thread.start()
+    try:
+        yield late_s
+    finally:
+        end.set()
+        thread.join()
+
+
+def report(runs: int, table: Path | None) -> int:
+    """Run, print every run, write the page; return the number of runs without a complete record."""
+    before, found = os.getloadavg()[0], list[Soaked]()
+    with compiling():
+        for each in soak(runs):
+            found.append(each)
+            print(each, flush=True)
+        after = os.getloadavg()[0]
+    text = page(found, runs, before, after)
+    print(text)
+    if table is not None:
+        write_text(table, text)
     return sum(each.exit_status != 0 for each in found)
+
+
+def page(found: Sequence[Soaked], runs: int, load_before: float, load_after: float) -> str:
+    """Return the page of the soak."""
+    computer = f"{platform.machine()}, {platform.system()}"
+    try:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY))
+        os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+        granted = "granted"
+    except PermissionError:
+        granted = "not granted on this computer"
+    head = {"runs": runs, "computer": computer, "cores": cores(), "granted": granted}
+    lines = [HEAD.format(before=load_before, after=load_after, **head)]
+    for rate_hz in RATES_HZ:
+        of_rate = [each for each in found if each.rate_hz == rate_hz]
+        complete = [each for each in of_rate if each.exit_status == 0]
+        median, most, worst = np.percentile(np.concatenate([each.late_ms for each in of_rate]), [50.0, 99.0, 100.0])
+        cells = (
+            f"{rate_hz} Hz",
+            f"{len(complete)} of {len(of_rate)}",
+            str(sum(each.is_short for each in of_rate)),
+            str(sum(each.exit_status != 0 and not each.is_short for each in of_rate)),
+            _middle_and_worst([each.missing for each in complete]),
+            _middle_and_worst([each.missed for each in complete]),
+            f"{median:.2f} ms",
+            f"{most:.1f} ms",
+            f"{worst:.0f} ms",
+        )
+        lines.append(f"| {' | '.join(cells)} |\n")
+    stopped = [each for each in found if each.exit_status != 0]
+    if stopped:
+        lines.append(
+            "\n## Runs that did not end complete\n\n| rate | largest lateness in this run | message |\n|---|---|---|\n"
+        )
+        for each in stopped:
+            most, worst = np.percentile(each.late_ms, [99.0, 100.0])
+            lines.append(f"| {each.rate_hz} Hz | {most:.0f}, {worst:.0f} ms | {each.message} |\n")
+    return "".join(lines)
+
+
+def _middle_and_worst(counts: Sequence[int]) -> str:
+    return f"{np.median(counts):.0f}, {max(counts)}" if counts else "–"

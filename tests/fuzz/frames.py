@@ -16,10 +16,10 @@ from hexdbb.capture.boot import add_devices
 from hexdbb.capture.checks import find_fault
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.link import Link
-from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
-from hexdbb.capture.watch import Watch
+from hexdbb.capture.watch import watch_over
 from hexdbb.machine import shipped_machine
+from hexdbb.plan import load_plan
 
 DRIVE = "1{node:02X} 37 96 A0 86 01 00 08"
 CYCLE = "\n".join([DRIVE.format(node=0x80 + node) for node in range(1, 7)] + ["187 00 00 80 3F 00"])
@@ -86,19 +86,11 @@ def read(path: Path) -> object:
     bus, nodes = ScriptedBus(frames_of(path.read_text(errors="replace"))), list(range(1, 8))
     supervision = Supervision(nodes, link().notify, 0.3)
     exchange = Exchange(bus, nodes[:6], 7, supervision.on_frame)  # type: ignore[arg-type]
-    watch = Watch(
-        feedback=exchange.feedback,
-        supervision=supervision,
-        labels=LABELS,
-        window=30_000,
-        range_um=1000.0,
-        counts_per_mm=10_000.0,
-        max_stall=25,
-        max_missed=250,
-        expected=[100_000] * 6,
-        plausibility=Plausibility(10_000.0, 0.004, 250.0, 12.5, 0.5, 50),
-        gauge_watched=True,
+    machine, gauge = shipped_machine(), load_plan("thesis").gauge
+    watch = watch_over(
+        exchange, supervision, LABELS, machine, gauge, cycle_s=0.004, ball_mm_s=12.5, expected=[100_000] * 6
     )
+    watch.gauge_watched = True
     for node in nodes:  # the network is made once; every input finds it as nodes that are operational leave it
         link().notify(0x700 + node, bytearray([NMT_OPERATIONAL]), 0.0)
     messages = []

@@ -83,7 +83,7 @@ def outcome_of(chosen: Format, data: bytes) -> Outcome:
         return Outcome(chosen.name, FAILED, fault, data) if fault else Outcome(chosen.name, REFUSED, str(error))
     except HungError:
         return Outcome(chosen.name, FAILED, f"not read after {LONGEST_S} s", data)
-    except Exception as error:
+    except Exception as error:  # the finding itself: what a user would see as a traceback, whatever its type
         return Outcome(chosen.name, FAILED, f"{type(error).__name__}: {str(error)[:200]!r} {_place(error)}", data)
     finally:
         path.write_bytes(good)

@@ -89,6 +89,7 @@ class GuardedBus:
         except (can.CanError, OSError):
             raise
         except Exception as error:
+            # Drivers raise whatever their libraries raise (ctypes, serial ports): the bus is lost, by any name.
             raise can.CanOperationError(f"cannot send: {one_line(error)}") from error
 
     def notes(self) -> list[str]:
@@ -103,7 +104,7 @@ class GuardedBus:
         except (can.CanError, OSError):
             raise
         except Exception as error:
-            # Drivers parse what comes from outside, and raise what their parsers raise.
+            # Drivers parse what comes from outside, and raise what their parsers raise: the bus is lost, by any name.
             raise can.CanOperationError(f"cannot receive: {one_line(error)}") from error
 
 

@@ -23,23 +23,18 @@ from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
-from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
 from hexdbb.capture.supervision import Supervision
 from hexdbb.capture.transport import one_line
-from hexdbb.capture.watch import Fault, Watch
+from hexdbb.capture.watch import Fault, watch_over
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
-from hexdbb.record.plausibility import frozen_after
 from hexdbb.trajectory import Phase, Programme, approach
 
 log = logging.getLogger(__name__)
 
-MAX_MISSED = 250
-"""Largest number of cycles missed in one run: one second at 250 Hz. A computer that stalls more often is not fit for a
-real-time run, and each stall leaves a gap in the samples."""
 MAX_LOST = 0.01
 """Largest share of the planned samples that a complete record may lack: four degrees of a circle; what is lost more
 leaves gaps in the fit, and has a cause that should be known."""
@@ -128,33 +123,23 @@ class _Run:
         machine, cycle_s = request.machine, request.cycle_s
         can_setup = machine.can_setup
         self.request, self.programme, self.devices, self.progress = request, programme, devices, progress
+        self.link = link
         self.counts_per_mm = can_setup.counts_per_mm
         labels = tuple(device.label for device in devices)
         limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
         supervision = Supervision([device.node_id for device in devices], link.notify, limit_s, request.silent_after)
         exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
         self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0, cycle_s)
-        self.watch = Watch(
-            feedback=exchange.feedback,
-            supervision=supervision,
-            labels=labels,
-            window=round(can_setup.limits.following_error_mm * abs(self.counts_per_mm)),
-            range_um=min(can_setup.limits.gauge_range_um, request.plan.gauge.range_um),
-            counts_per_mm=self.counts_per_mm,
-            max_stall=int(can_setup.rpdo_timeout_ms / 1000.0 / cycle_s),
-            max_missed=MAX_MISSED,
+        self.watch = watch_over(
+            exchange,
+            supervision,
+            labels,
+            machine,
+            request.plan.gauge,
+            cycle_s=cycle_s,
+            ball_mm_s=max(run.feed_mm_min for run in programme.runs) / 60.0,
             expected=self.loop.counts,
-            plausibility=Plausibility(
-                counts_per_mm=self.counts_per_mm,
-                cycle_s=cycle_s,
-                velocity_mm_s=can_setup.limits.velocity_mm_s,
-                ball_mm_s=max(run.feed_mm_min for run in programme.runs) / 60.0,
-                noise_um=request.plan.gauge.noise_um or 0.0,
-                repeats=frozen_after(request.plan.gauge),
-                reading_step_um=can_setup.limits.gauge_step_um,
-            ),
             real_time=clock.real_time,
-            late_s=exchange.late_s,
             interrupts=interrupts,
         )
         self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
@@ -173,7 +158,8 @@ class _Run:
             cause = self._move(programme, samples) or self._too_few(samples, programme)
             try:
                 samples.flush()
-                record = journal.finish(complete=cause is None, reason=cause, until_s=samples.until_s)
+                notes = [*self.progress.notes, *self.link.notes()]
+                record = journal.finish(cause is None, cause, samples.until_s, {"notes": notes})
             except RunError as error:
                 if cause is not None and str(error) in cause:
                     raise RunError(cause) from None
@@ -263,8 +249,12 @@ class _Run:
         lost = planned - samples.count
         if lost <= MAX_LOST * planned:
             return None
-        repeated, slot = self.loop.repeated
-        why = "" if slot is None else f"{self.watch.labels[slot]}: {repeated} answers too many: "
+        (repeated, slot), labels = self.loop.repeated, self.watch.labels
+        causes = [] if slot is None else [f"{labels[slot]}: {repeated} answers too many"]
+        causes += self.watch.supervision.late_answers(labels)
+        if self.loop.missed:
+            causes.append(f"SYNCs not sent because they were late or answers were waited for: {self.loop.missed}")
+        why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "
             f"with their SYNC (expected at most {MAX_LOST:.0%})"

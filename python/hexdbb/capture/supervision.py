@@ -82,6 +82,8 @@ class Supervision:
         Monotonic time of the last heartbeat, by node id.
     missing_in_a_row : list of int
         Consecutive SYNCs without an answer, by slot.
+    unanswered : list of int
+        All SYNCs without an answer in time, by slot.
     foreign_syncs : int
         SYNCs received: of another producer, since no bus returns this controller's own.
     """
@@ -95,6 +97,7 @@ class Supervision:
     malformed: dict[int, str] = field(default_factory=dict)
     heard_s: dict[int, float] = field(default_factory=dict)
     missing_in_a_row: list[int] = field(default_factory=lambda: [0] * SLOTS)
+    unanswered: list[int] = field(default_factory=lambda: [0] * SLOTS)
     foreign_syncs: int = 0
 
     def on_frame(self, can_id: int, data: bytearray, timestamp: float) -> None:
@@ -117,9 +120,17 @@ class Supervision:
             if any(self.missing_in_a_row):
                 self.missing_in_a_row = [0] * SLOTS
             return
+        for slot in feedback.missing:
+            self.unanswered[slot] += 1
         self.missing_in_a_row = [
             count + 1 if slot in feedback.missing else 0 for slot, count in enumerate(self.missing_in_a_row)
         ]
+
+    def late_answers(self, labels: Sequence[str]) -> list[str]:
+        """Return whose answers did not come in time: those of every node, and of the one with most beyond that."""
+        every, most = min(self.unanswered), max(self.unanswered)
+        said = [(labels[self.unanswered.index(most)], most - every), ("every node", every)]
+        return [f"{who}: no answer in time to {count} SYNC{'s' * (count > 1)}" for who, count in said if count]
 
     def silent(self) -> list[int]:
         """Return the slots that have left `silent_after` consecutive SYNCs unanswered."""

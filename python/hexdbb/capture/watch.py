@@ -5,10 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from hexdbb.capture.exchange import Feedback
+from hexdbb.capture.exchange import Exchange, Feedback
 from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import Supervision
+from hexdbb.machine import MachineFile
+from hexdbb.plan import Gauge
+from hexdbb.record.plausibility import frozen_after
+
+MAX_MISSED = 250
+"""Largest number of cycles missed in one run: one second at 250 Hz. A computer that stalls more often is not fit for a
+real-time run, and each stall leaves a gap in the samples."""
 
 
 @dataclass(frozen=True)
@@ -100,3 +107,66 @@ class Watch:
         """Return how late a slot's answers come as part of a message, or an empty text."""
         late_s = self.late_s.get(slot)
         return "" if late_s is None else f", the last {1e3 * late_s:.1f} ms after its SYNC"
+
+
+def watch_over(
+    exchange: Exchange,
+    supervision: Supervision,
+    labels: tuple[str, ...],
+    machine: MachineFile,
+    gauge: Gauge,
+    *,
+    cycle_s: float,
+    ball_mm_s: float,
+    expected: list[int],
+    real_time: bool = False,
+    interrupts: Interrupts | None = None,
+) -> Watch:
+    """Return what the checks examine on a machine, with the limits of its file and of the plan's gauge.
+
+    Parameters
+    ----------
+    exchange, supervision : Exchange, Supervision
+        Sources of answers, EMCYs and heartbeats.
+    labels : tuple of str
+        Name of the node of each slot: drives 1 to 6, gauge.
+    machine : MachineFile
+        Limits and scale.
+    gauge : Gauge
+        Range, noise and resolution.
+    cycle_s : float
+        Communication cycle, s.
+    ball_mm_s : float
+        Largest feed of the ball, mm/s.
+    expected : list of int
+        Targets (counts) that the positions of the last SYNC belong to, shape (6,); updated by the caller.
+    real_time : bool
+        Whether SYNCs are sent at fixed times.
+    interrupts : Interrupts, optional
+        Whether a signal has asked the program to end.
+    """
+    can_setup = machine.can_setup
+    limits = can_setup.limits
+    return Watch(
+        feedback=exchange.feedback,
+        supervision=supervision,
+        labels=labels,
+        window=round(limits.following_error_mm * abs(can_setup.counts_per_mm)),
+        range_um=min(limits.gauge_range_um, gauge.range_um),
+        counts_per_mm=can_setup.counts_per_mm,
+        max_stall=int(can_setup.rpdo_timeout_ms / 1000.0 / cycle_s),
+        max_missed=MAX_MISSED,
+        expected=expected,
+        plausibility=Plausibility(
+            counts_per_mm=can_setup.counts_per_mm,
+            cycle_s=cycle_s,
+            velocity_mm_s=limits.velocity_mm_s,
+            ball_mm_s=ball_mm_s,
+            noise_um=gauge.noise_um or 0.0,
+            repeats=frozen_after(gauge),
+            reading_step_um=limits.gauge_step_um,
+        ),
+        real_time=real_time,
+        late_s=exchange.late_s,
+        interrupts=Interrupts() if interrupts is None else interrupts,
+    )

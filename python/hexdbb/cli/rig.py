@@ -6,6 +6,7 @@ import logging
 import os
 import signal
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -80,9 +81,7 @@ def command(
     """Serve the rig until it is stopped."""
     logging.basicConfig(stream=sys.stderr, format="hexdbb rig: %(message)s")
     logging.getLogger("hexdbb").setLevel(logging.DEBUG if verbose else logging.WARNING)
-    machine = load_machine(machine_path) if machine_path is not None else shipped_machine()
-    truth = _truth(truth_path, seed)
-    rig = Rig(machine, truth, [parse_fault(spec) for spec in faults], stall_tolerance_s)
+    rig, truth = simulated(machine_path, truth_path, seed, faults, stall_tolerance_s)
     if write_truth is not None:
         _write(write_truth, truth)
     elif no_serve:
@@ -90,6 +89,19 @@ def command(
     if no_serve:
         return
     _serve(rig, port, once=once, exit_with_parent=exit_with_parent)
+
+
+def simulated(
+    machine_path: Path | None,
+    truth_path: Path | None,
+    seed: int | None,
+    faults: Sequence[str],
+    stall_tolerance_s: float,
+) -> tuple[Rig, TruthFile]:
+    """Return the rig of a command line, and the truth it hides."""
+    machine = load_machine(machine_path) if machine_path is not None else shipped_machine()
+    truth = _truth(truth_path, seed)
+    return Rig(machine, truth, [parse_fault(spec) for spec in faults], stall_tolerance_s), truth
 
 
 def _serve(rig: Rig, port: int, *, once: bool, exit_with_parent: bool) -> None:

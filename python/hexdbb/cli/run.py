@@ -20,7 +20,6 @@ from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
 from hexdbb.cli.consoles import drop, run_console
 from hexdbb.cli.exits import reports_errors, unwritable
-from hexdbb.cli.run_compensated import compensated
 from hexdbb.cli.run_conditions import conditions_asked, conditions_options, numbered
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
@@ -131,6 +130,8 @@ def command(
     asked = conditions_asked(operator, notes, temperature_c)
     request.metadata.update(conditions_metadata(request.plan.conditions, asked))
     if compensation_path is not None:
+        from hexdbb.cli.run_compensated import compensated  # models take half a second to import
+
         request = compensated(request, compensation_path, temperature_c, progress)
     request.metadata.update(
         bus=bus_spec or "simulated rig",

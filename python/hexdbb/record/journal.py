@@ -145,7 +145,13 @@ class Journal:
         if self._stream is None:
             self.journal_path.unlink()
 
-    def finish(self, complete: bool = True, reason: str | None = None, until_s: float = math.inf) -> Record:
+    def finish(
+        self,
+        complete: bool = True,
+        reason: str | None = None,
+        until_s: float = math.inf,
+        metadata: Mapping[str, Any] | None = None,
+    ) -> Record:
         """Write the Parquet record and remove the journal; the samples are checked once.
 
         Parameters
@@ -156,6 +162,8 @@ class Journal:
             Why it did not; kept in the record's metadata as ``incomplete_because``.
         until_s : float
             Time (``t_s``) from which samples are left out.
+        metadata : mapping, optional
+            What became known while capturing; replaces entries that the journal was opened with.
 
         Raises
         ------
@@ -172,6 +180,7 @@ class Journal:
         except BadRowError as error:
             raise RunError(f"{self.path}: not written: {error}; the journal is kept") from None
         record.path = self.path
+        record.metadata.update(metadata or {})
         before = record.columns["t_s"] < until_s
         if not before.any():
             self.journal_path.unlink()

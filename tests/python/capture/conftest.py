@@ -1,4 +1,4 @@
-"""A small plan, the rig as a process, and `hexdbb-run` as another; what the rig holds is read over its bus."""
+"""A small plan, a rig in a thread or as a process, and `hexdbb-run`; what the rig holds is read over its bus."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from pathlib import Path
 import can
 import pytest
 from tests.circle_plan import circle_plan
+from tests.programs import called
+from tests.rigs import rig_in_thread
 
 from hexdbb.capture.cia402 import DriveState, state_of
 
@@ -22,27 +24,28 @@ PLAN = circle_plan()
 EXACT = 'schema = "hexdbb.truth/1"\ndrive = {lag_s = 1e-9}\ngauge = {noise_um = 0, resolution_um = 0}\n'
 """A machine without errors whose drives reach their targets: the record is known in advance."""
 
-RATE_HZ = 100.0
+RATE_HZ = 50.0
 
 
 @pytest.fixture
 def command(plan: Path, tmp_path: Path) -> Callable[..., list[str]]:
-    """Return the command line of `hexdbb-run` with the small plan and a record named `run.parquet`."""
+    """Return the command line of `hexdbb-run` in lockstep, with the small plan and a record named `run.parquet`."""
 
     def line(*words: object) -> list[str]:
         program = str(Path(sys.executable).with_name("hexdbb-run"))
-        return [program, *map(str, ("--plan", plan, "-o", tmp_path / "run.parquet", *words))]
+        standing = ("--plan", plan, "-o", tmp_path / "run.parquet", "--lockstep", "--rate", RATE_HZ)
+        return [program, *map(str, (*standing, *words))]
 
     return line
 
 
 @pytest.fixture
-def run(command: Callable[..., list[str]]) -> Callable[..., subprocess.CompletedProcess[str]]:
-    """Run `hexdbb-run` in lockstep at `RATE_HZ` unless options say otherwise."""
+def run(plan: Path, tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Call `hexdbb-run` in lockstep at `RATE_HZ` unless options say otherwise; the record is named `run.parquet`."""
 
     def finished(*words: object) -> subprocess.CompletedProcess[str]:
-        line = command("--lockstep", "--rate", RATE_HZ, *words)
-        return subprocess.run(line, capture_output=True, text=True, timeout=120)
+        standing = ("--plan", plan, "-o", tmp_path / "run.parquet", "--lockstep", "--rate", RATE_HZ)
+        return called("hexdbb-run", *standing, *words)
 
     return finished
 
@@ -61,14 +64,14 @@ def exact(tmp_path: Path) -> Path:
     return path
 
 
-class RigProcess:
+class RunningRig:
     """A running rig.
 
     Its objects are read after a run, over a connection of its own.
     """
 
-    def __init__(self, process: subprocess.Popen[str], address: str, log: Path) -> None:
-        self.process, self.address, self.log = process, address, log
+    def __init__(self, address: str, log: Path) -> None:
+        self.address, self.log = address, log
         self._observer: can.BusABC | None = None
 
     @property
@@ -97,10 +100,6 @@ class RigProcess:
     def close(self) -> None:
         if self._observer is not None:
             self._observer.shutdown()
-        self.process.terminate()
-        self.process.wait(timeout=10)
-        assert self.process.stdout is not None
-        self.process.stdout.close()
 
     def states(self, nodes: list[int]) -> list[DriveState]:
         return [state_of(self.read(node, 0x6041, "H")) for node in nodes]
@@ -111,19 +110,32 @@ class RigProcess:
 
 @pytest.fixture
 def start_rig(tmp_path: Path) -> Callable[..., object]:
-    """Return a context that starts a rig with options and ends it."""
+    """Return a context that serves a rig with options in a thread of the test."""
 
     @contextmanager
-    def started(*options: object) -> Iterator[RigProcess]:
+    def started(*options: object) -> Iterator[RunningRig]:
         log = tmp_path / "rig.log"
-        command = [sys.executable, "-m", "hexdbb.cli", "rig", "-v", "--exit-with-parent", *map(str, options)]
-        with log.open("w") as err:
-            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=err, text=True)
-        assert process.stdout is not None
-        rig = RigProcess(process, process.stdout.readline().split()[-1], log)
-        try:
-            yield rig
-        finally:
-            rig.close()
+        with rig_in_thread(*options, log=log) as port:
+            rig = RunningRig(f"127.0.0.1:{port}", log)
+            try:
+                yield rig
+            finally:
+                rig.close()
 
     return started
+
+
+@pytest.fixture
+def rig_process(tmp_path: Path) -> Iterator[tuple[RunningRig, subprocess.Popen[str]]]:
+    """Start a rig as a process of its own."""
+    log = tmp_path / "rig.log"
+    command = [sys.executable, "-m", "hexdbb.cli", "rig", "-v", "--exit-with-parent"]
+    with log.open("w") as err, subprocess.Popen(command, stdout=subprocess.PIPE, stderr=err, text=True) as process:
+        assert process.stdout is not None
+        rig = RunningRig(process.stdout.readline().split()[-1], log)
+        try:
+            yield rig, process
+        finally:
+            rig.close()
+            process.terminate()
+            process.wait(timeout=10)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import re
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
+from tests.rigs import rig_in_thread
 from tests.truth.held_out import held_out_plans
 
 from hexdbb.compensation import make_compensation, write_compensation
@@ -28,13 +28,8 @@ NOISE_UM = 0.5
 EFFECTS = ("backlash", "pitch_cyclic", "gravity_sag")
 
 
-def command(program: str, *words: object, folder: Path) -> subprocess.CompletedProcess[str]:
-    line = [str(Path(sys.executable).with_name(program)), *map(str, words)]
-    return subprocess.run(line, capture_output=True, text=True, cwd=folder, timeout=300)
-
-
 def told(program: str, *words: object, folder: Path) -> str:
-    done = command(program, *words, folder=folder)
+    done = called(program, *words, folder=folder)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -90,7 +85,7 @@ def test_a_wrong_file_is_refused_before_a_bus_is_looked_for(
     damage(folder)
     there = sorted(folder.iterdir())
     line = ("--plan", "plan.toml", "--compensation", "sp120.hexcomp", "-o", "after.parquet")
-    done = command("hexdbb-run", *line, "--bus", "socketcand:127.0.0.1:1", *words, folder=folder)
+    done = called("hexdbb-run", *line, "--bus", "socketcand:127.0.0.1:1", *words, folder=folder)
     assert done.returncode == 2, done.stderr
     assert done.stderr.count("\n") == 1, done.stderr
     assert re.search(rf"^error: {said}", done.stderr), done.stderr
@@ -101,7 +96,7 @@ def test_more_correction_than_the_file_allows_is_refused_by_place_and_slider(fol
     model = new_model(shipped_machine(), ["leg_length"])
     model = model.with_values(np.full(6, 0.5), np.full(6, np.nan), np.ones(6, bool))
     write_compensation(make_compensation(model, max_correction_mm=0.1), folder / "sp120.hexcomp")
-    done = command("hexdbb-run", "--compensation", "sp120.hexcomp", "-o", "a.parquet", folder=folder)
+    done = called("hexdbb-run", "--compensation", "sp120.hexcomp", "-o", "a.parquet", folder=folder)
     assert done.returncode == 2
     line = (
         r"error: thesis: circle 0, .*: slider \d: correction of \d+\.\d µm"
@@ -121,20 +116,25 @@ def closed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     fitted = load_plan(ROOT / "docs" / "plans" / "best-5.toml")
     fast = {"feeds_mm_min": (3000.0,), "laps": 1}
     (folder / "fitted.toml").write_text(dump_toml(fitted.model_copy(update=fast)), encoding="utf-8")
-    (folder / "unseen.toml").write_text(dump_toml(unseen_plan(fast)), encoding="utf-8")
+    (folder / "unseen.toml").write_text(dump_toml(unseen_plan({**fast, "directions": (1,)})), encoding="utf-8")
     (folder / "truth.toml").write_text(dump_toml(faulty_truth()), encoding="utf-8")
-    rig = ("--truth", "truth.toml", "--rate", RATE_HZ)
-    told("hexdbb-run", "--plan", "fitted.toml", *rig, "-o", "fitted.parquet", folder=folder)
+    measured(folder, "--plan", "fitted.toml", "-o", "fitted.parquet")
     geometry = [term.effect for term in new_model(shipped_machine()).terms if term.effect != "bar_length"]
     effects = ",".join([*geometry, *EFFECTS])
     told("hexdbb", "model", "new", "sp120", "-o", "model.toml", "--effects", effects, folder=folder)
     told("hexdbb", "model", "new", "sp120", "-o", "nominal.toml", "--effects", "none", folder=folder)
     told("hexdbb", "diagnose", "fitted.parquet", "-m", "model.toml", folder=folder)
     told("hexdbb", "compensate", "model.toml", "-o", "sp120.hexcomp", folder=folder)
-    told("hexdbb-run", "--plan", "unseen.toml", *rig, "-o", "before.parquet", folder=folder)
-    compensated = ("--compensation", "sp120.hexcomp", "-o", "after.parquet")
-    told("hexdbb-run", "--plan", "unseen.toml", *rig, *compensated, folder=folder)
+    measured(folder, "--plan", "unseen.toml", "-o", "before.parquet")
+    measured(folder, "--plan", "unseen.toml", "--compensation", "sp120.hexcomp", "-o", "after.parquet")
     return folder
+
+
+def measured(folder: Path, *words: object) -> None:
+    """Measure on a rig with the hidden faults."""
+    with rig_in_thread("--truth", folder / "truth.toml") as port:
+        bus = ("--bus", f"socketcand:127.0.0.1:{port}", "--yes", "--lockstep", "--rate", RATE_HZ)
+        told("hexdbb-run", *words, *bus, folder=folder)
 
 
 def unseen_plan(fast: dict[str, object]) -> Plan:

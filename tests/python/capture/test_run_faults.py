@@ -1,7 +1,8 @@
 """Every fault stops all six axes together and keeps what was captured; seen in the rig itself, over its bus.
 
-The rig runs as one process, `hexdbb-run` as another. After the run the states of the drives are read; a drive that was
-not stopped by then is stopped by the rig when its controller disconnects, which its log shows.
+`hexdbb-run` is a process of its own where it is killed, interrupted or runs out of disk. After the run the states of
+the drives are read; a drive that was not stopped by then is stopped by the rig when its controller disconnects, which
+its log shows.
 """
 
 from __future__ import annotations
@@ -13,16 +14,18 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import can
 import pyarrow as pa
 import pytest
+from tests.python.capture.conftest import PLAN, RunningRig
 
 from hexdbb.capture.cia402 import DriveState
 from hexdbb.record import Record, read_record, recover
 
-RATE_HZ = 100.0
+RATE_HZ = 50.0
 FAULT_S = 6.0
 """In the middle of the capture, counted from when the drives are enabled."""
 DRIVES = list(range(1, 7))
@@ -35,7 +38,7 @@ FAULTS = [
     (
         "following-error:1",
         1,
-        r"node 1 \(slider 1\): object 60(41|64):00 (is .*(following error|from its target)|fell .* behind its target)",
+        r"node 1 \(slider 1\): object 60(41|64):00 (is .*(following error|EMCY 8611h|from its target)|fell .* target)",
         STOPPED,
     ),
     ("gauge-out-of-range", 7, r"node 7 \(gauge\): object 6150:01 is 03h, not valid, positive overload", STOPPED),
@@ -139,20 +142,29 @@ def test_what_is_wrong_before_motion_is_refused_and_nothing_moves(
     assert list(tmp_path.glob("run*")) == []
 
 
+@pytest.fixture
+def many_laps(tmp_path: Path) -> Path:
+    """Return a plan that takes long enough for a signal to come in the middle of it."""
+    path = tmp_path / "many-laps.toml"
+    path.write_text(PLAN.replace("laps = 1", "laps = 60"))
+    return path
+
+
 def wait_for_samples(process: subprocess.Popen[str], record: Path) -> None:
-    """Wait until the journal holds samples, which it does some time after it is there."""
+    """Wait until the journal holds more samples than a test asks of the record."""
     journal = record.with_name(record.name + ".journal")
-    while not holds_a_batch(journal):
+    while rows_of(journal) <= 60:
         assert process.poll() is None, process.communicate()[1]
         time.sleep(0.02)
 
 
-def holds_a_batch(journal: Path) -> bool:
-    try:
-        with pa.ipc.open_stream(journal.read_bytes()) as stream:
-            return stream.read_next_batch().num_rows > 0
-    except (OSError, StopIteration, pa.ArrowInvalid):
-        return False
+def rows_of(journal: Path) -> int:
+    """Return the number of samples in the whole batches of a journal."""
+    rows = 0
+    with suppress(OSError, StopIteration, pa.ArrowInvalid), pa.ipc.open_stream(journal.read_bytes()) as stream:
+        while True:
+            rows += stream.read_next_batch().num_rows
+    return rows
 
 
 @pytest.mark.parametrize(
@@ -169,10 +181,11 @@ def test_interrupted_run_stops_and_keeps(
     cause: str,
     start_rig: Callable[..., object],
     command: Callable[..., list[str]],
+    many_laps: Path,
     tmp_path: Path,
 ) -> None:
     with start_rig() as rig:
-        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
         process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
         wait_for_samples(process, tmp_path / "run.parquet")
         process.send_signal(number)
@@ -188,9 +201,9 @@ def test_interrupted_run_stops_and_keeps(
 
 
 def test_impatient_user_still_sees_the_cause_and_what_was_kept(
-    command: Callable[..., list[str]], tmp_path: Path
+    command: Callable[..., list[str]], many_laps: Path, tmp_path: Path
 ) -> None:
-    line = command("--plan", "thesis", "--seed", 1)
+    line = command("--plan", many_laps, "--seed", 1)
     process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
     wait_for_samples(process, tmp_path / "run.parquet")
     while process.poll() is None and process.stderr is not None:
@@ -203,9 +216,9 @@ def test_impatient_user_still_sees_the_cause_and_what_was_kept(
 
 
 def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
-    command: Callable[..., list[str]], tmp_path: Path
+    command: Callable[..., list[str]], many_laps: Path, tmp_path: Path
 ) -> None:
-    line = command("--plan", "thesis", "--seed", 1)
+    line = command("--plan", many_laps, "--seed", 1)
     process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True, start_new_session=True)
     wait_for_samples(process, tmp_path / "run.parquet")
     os.killpg(process.pid, signal.SIGINT)
@@ -215,10 +228,10 @@ def test_ctrl_c_in_the_terminal_reaches_the_controller_and_not_its_rig(
 
 
 def test_emergency_cut_short_stops_the_axes_and_keeps_cause_and_record(
-    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+    start_rig: Callable[..., object], command: Callable[..., list[str]], many_laps: Path, tmp_path: Path
 ) -> None:
     with start_rig() as rig:
-        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
         process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
         wait_for_samples(process, tmp_path / "run.parquet")
         rig.observer.send(can.Message(arbitration_id=0x083, data=b"\x10\x23", is_extended_id=False))
@@ -231,12 +244,12 @@ def test_emergency_cut_short_stops_the_axes_and_keeps_cause_and_record(
 
 
 def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
-    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+    start_rig: Callable[..., object], command: Callable[..., list[str]], many_laps: Path, tmp_path: Path
 ) -> None:
     with start_rig() as rig:
-        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
-        # No file beyond 1000 blocks: the system's own limit stands in for a full disk.
-        limited = ["bash", "-c", 'ulimit -f 1000; exec "$@"', "bash", *line]
+        line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
+        # No file beyond 400 blocks: the system's own limit stands in for a full disk.
+        limited = ["bash", "-c", 'ulimit -f 400; exec "$@"', "bash", *line]
         done = subprocess.run(limited, capture_output=True, text=True, timeout=120)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
         assert "no client on the bus" not in rig.log.read_text()
@@ -250,10 +263,10 @@ def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
 
 
 def test_killed_controller_leaves_standing_axes_and_a_journal_to_recover(
-    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+    start_rig: Callable[..., object], command: Callable[..., list[str]], many_laps: Path, tmp_path: Path
 ) -> None:
     with start_rig() as rig:
-        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
+        line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
         process = subprocess.Popen(line, stderr=subprocess.DEVNULL)
         wait_for_samples(process, tmp_path / "run.parquet")
         process.kill()
@@ -266,14 +279,17 @@ def test_killed_controller_leaves_standing_axes_and_a_journal_to_recover(
 
 
 def test_rig_that_dies_ends_the_run_and_keeps_what_was_captured(
-    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
+    rig_process: tuple[RunningRig, subprocess.Popen[str]],
+    command: Callable[..., list[str]],
+    many_laps: Path,
+    tmp_path: Path,
 ) -> None:
-    with start_rig() as rig:
-        line = command("--bus", rig.bus, "--yes", "--lockstep", "--plan", "thesis")
-        process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
-        wait_for_samples(process, tmp_path / "run.parquet")
-        rig.process.kill()
-        _, said = process.communicate(timeout=60)
+    rig, serving = rig_process
+    line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
+    process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+    wait_for_samples(process, tmp_path / "run.parquet")
+    serving.kill()
+    _, said = process.communicate(timeout=60)
     assert process.returncode == 1
     message = said.splitlines()[-1]
     assert re.match(r"error: bus: ", message)

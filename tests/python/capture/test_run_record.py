@@ -9,12 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
+from tests.python.capture.conftest import EXACT, PLAN
 
 from hexdbb.plan import Conditions
 from hexdbb.record import TARGET_COLUMNS, Record, read_record
 
 Run = Callable[..., subprocess.CompletedProcess[str]]
-RATE_HZ = 100.0
+RATE_HZ = 50.0
 FEED_MM_S = 150.0
 HALF_A_COUNT_MM = 0.5 / 10000.0
 
@@ -24,17 +26,26 @@ def recorded(done: subprocess.CompletedProcess[str], tmp_path: Path) -> Record:
     return read_record(tmp_path / "run.parquet")
 
 
-def test_exact_machine_stands_at_its_targets_and_reads_zero(run: Run, exact: Path, tmp_path: Path) -> None:
-    record = recorded(run("--truth", exact), tmp_path)
+@pytest.fixture(scope="module")
+def ideal(tmp_path_factory: pytest.TempPathFactory) -> Record:
+    """Return the record of the small plan on a machine without errors."""
+    folder = tmp_path_factory.mktemp("ideal")
+    (folder / "plan.toml").write_text(PLAN)
+    (folder / "truth.toml").write_text(EXACT)
+    words = ("--plan", "plan.toml", "--rate", RATE_HZ, "--truth", "truth.toml", "-o", "run.parquet")
+    return recorded(called("hexdbb-run", *words, folder=folder), folder)
+
+
+def test_exact_machine_stands_at_its_targets_and_reads_zero(ideal: Record) -> None:
+    record = ideal
     targets = np.column_stack([record.columns[name] for name in TARGET_COLUMNS])
     # One SYNC of wrong pairing would be 1.5 mm of feed; half a count is the encoder's rounding.
     assert np.abs(record.sliders_mm - targets).max() <= HALF_A_COUNT_MM * (1 + 1e-6)
     assert np.abs(record.reading_mm).max() < 6 * HALF_A_COUNT_MM
 
 
-def test_columns_of_one_lap(run: Run, exact: Path, tmp_path: Path) -> None:
-    record = recorded(run("--truth", exact), tmp_path)
-    columns = record.columns
+def test_columns_of_one_lap(ideal: Record) -> None:
+    record, columns = ideal, ideal.columns
     n = len(record)
     assert n == int(2 * np.pi * 100.0 / FEED_MM_S * RATE_HZ) + 1
     assert np.diff(columns["t_s"]) == pytest.approx(1.0 / RATE_HZ)

@@ -1,15 +1,15 @@
-"""Bad input through the commands, as processes: one clear line, exit status 2, nothing written, nothing moved."""
+"""Bad input through the commands: one clear line, exit status 2, nothing written, nothing moved."""
 
 from __future__ import annotations
 
 import re
 import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
 
 from hexdbb.kinematics import inverse
 from hexdbb.machine import shipped
@@ -17,7 +17,6 @@ from hexdbb.model import new_model, save_model
 from hexdbb.plan import load_plan
 from hexdbb.record import SLIDER_COLUMNS, Record, write_record
 
-PROGRAMS = {"hexdbb": "hexdbb.cli", "hexdbb-run": "hexdbb.cli.run"}
 SHIPPED = {"plan.toml": shipped("plans", "thesis.toml"), "machine.toml": shipped("sp120.toml")}
 
 
@@ -43,11 +42,8 @@ def put_on_circle(record: Record) -> None:
 
 
 def run(folder: Path, line: str) -> subprocess.CompletedProcess[str]:
-    """Run a command line in a folder, in a process of its own."""
-    program, *words = line.split()
-    start = f"from {PROGRAMS[program]} import main; main()"
-    command = [sys.executable, "-c", start, *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=60)
+    """Run a command line in a folder."""
+    return called(*line.split(), folder=folder)
 
 
 def contents(folder: Path) -> dict[Path, bytes]:

@@ -13,7 +13,7 @@ from tests.circle_plan import circle_plan
 from hexdbb.record import read_record
 
 PLAN = circle_plan()
-RUN = "-c 'from hexdbb.cli.run import main; main()' --plan plan.toml --rate 100 -o run.parquet"
+RUN = "-c 'from hexdbb.cli.run import main; main()' --plan plan.toml --rate 50 -o run.parquet"
 
 
 @pytest.fixture

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
 
 from hexdbb import kinematics
 from hexdbb.comparison import compare
@@ -27,10 +27,7 @@ RESIDUAL = ("-state", "-directions", "-harmonics")
 
 
 def run_compare(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """Run the command in a process of its own, as from a shell."""
-    program = "from hexdbb.cli import main; main()"
-    command = [sys.executable, "-c", program, "compare", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
+    return called("hexdbb", "compare", *arguments)
 
 
 def measured(plan: Plan, circles: int, seed: int) -> Record:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
 from tests.truth.simulate import simulate
 
 from hexdbb import _core
@@ -57,8 +57,7 @@ def model_path(tmp_path: Path) -> Path:
 
 
 def hexdbb(*arguments: object, folder: Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "hexdbb.cli", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, cwd=folder, timeout=60)
+    return called("hexdbb", *arguments, folder=folder)
 
 
 def test_what_is_corrected_and_what_is_left_out() -> None:

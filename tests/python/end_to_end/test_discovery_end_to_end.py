@@ -1,6 +1,6 @@
 """A hidden fault found over real CAN frames: rig, controller, record, compare, discover, add, only noise left.
 
-Rig and controller are processes of their own, every step is the command a user types; the rig computes the fault by
+Rig and controller are processes of their own, every step is a command as a user types it; the rig computes the fault by
 stepping a play operator in time, with nothing of the engine in it.
 """
 
@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.programs import called
 
 from hexdbb.files.validation import dump_toml
 from hexdbb.plan import load_plan
@@ -44,8 +45,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def told(folder: Path, *words: str) -> dict[str, Any]:
     """Run a command of `hexdbb` in a folder; give the object it prints."""
-    command = [sys.executable, "-m", "hexdbb.cli", *words, "--json"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
+    done = called("hexdbb", *words, "--json", folder=folder)
     assert done.returncode == 0, done.stderr
     found: dict[str, Any] = json.loads(done.stdout)
     return found

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
 
 from hexdbb.diagnosis import diagnose
 from hexdbb.files.validation import dump_toml
@@ -94,13 +95,8 @@ def test_truth_is_recovered_within_stated_uncertainty(record):
 
 def test_commands_tell_the_same_story(record, folder):
     model = folder / "model.toml"
-    told = subprocess.run(
-        command("diagnose", record.path, "-m", model, "--json"), check=True, capture_output=True, text=True
-    )
-    diagnosis = json.loads(told.stdout)
+    diagnosis = json.loads(called("hexdbb", "diagnose", record.path, "-m", model, "--json").stdout)
     assert diagnosis["rank"] == 21
     assert diagnosis["usable"]
-    told = subprocess.run(
-        command("compare", record.path, "-m", model, "--json", "--no-plot"), check=True, capture_output=True, text=True
-    )
-    assert json.loads(told.stdout)["rms_um"] == pytest.approx(diagnosis["rms_after_um"], rel=1e-6)
+    compared = json.loads(called("hexdbb", "compare", record.path, "-m", model, "--json", "--no-plot").stdout)
+    assert compared["rms_um"] == pytest.approx(diagnosis["rms_after_um"], rel=1e-6)

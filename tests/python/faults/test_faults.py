@@ -7,8 +7,11 @@ all.
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from tests.faults.catalogue import fault_named
+from tests.faults.runs import run
 from tests.faults.trials import try_faults
 
 TRIED = (
@@ -41,3 +44,12 @@ TRIED = (
 def test_fault_leaves_no_wrong_sample_and_has_its_name(name: str) -> None:
     trial = try_faults([fault_named(name)], lockstep=True, seed=1)
     assert trial.unmet == (), trial.message
+
+
+def test_what_was_skipped_while_moving_is_noted_in_the_record(tmp_path: Path) -> None:
+    done = run(tmp_path, fault_named("message that is no frame").rules(True))
+    assert done.fired > 0
+    assert done.record is not None
+    assert any(
+        note.startswith("bus: skipped, message that cannot be parsed: ") for note in done.record.metadata["notes"]
+    )

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import io
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +10,7 @@ import pytest
 from matplotlib.figure import Figure
 from rich.table import Table
 from rich.text import Text
+from tests.programs import called
 
 from hexdbb.files.plain_text import TextConsole, plain_text, printable
 from hexdbb.ledger.history import History
@@ -66,9 +65,7 @@ def test_commands_print_no_control_characters_of_files(tmp_path: Path, arguments
         if wrong:
             machine.write_text(machine.read_text().replace("length_mm = 400.0", "length_mm = -400.0"))
         (tmp_path / "m.toml").unlink(missing_ok=True)
-        done = subprocess.run(
-            [sys.executable, "-m", "hexdbb.cli", *command], capture_output=True, text=True, cwd=tmp_path, check=False
-        )
+        done = called("hexdbb", *command, folder=tmp_path)
         assert done.returncode == (2 if wrong else 0), done.stderr
         assert "\x1b" not in done.stdout + done.stderr
         assert "\x07" not in done.stdout + done.stderr

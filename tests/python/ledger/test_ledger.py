@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.programs import called
 from tests.truth.cases import case
 from tests.truth.plans import discovery_plan
 from tests.truth.simulate import Pace, simulate
@@ -253,8 +253,7 @@ def test_a_held_value_is_freed_not_refused(without: Model) -> None:
 
 
 def hexdbb(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "hexdbb.cli", *words]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
+    return called("hexdbb", *words, folder=folder)
 
 
 def test_the_commands_add_read_aloud_and_undo(record: Record, without: Model, tmp_path: Path) -> None:

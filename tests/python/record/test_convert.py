@@ -1,18 +1,16 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from tests.programs import called
 
 from hexdbb.record import Journal, Record, journal_path, read_record, write_record
 
 
 def hexdbb(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    """Run the command line in a process of its own."""
-    program = "from hexdbb.cli import main; main()"
-    return subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False)
+    return called("hexdbb", *arguments)
 
 
 def test_record_to_text_form_and_back(record: Record, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""A controller for the tests of the rig: python-can and canopen over a real TCP connection to a rig process."""
+"""A controller for the tests of the rig: python-can and canopen over a real TCP connection to a rig."""
 
 from __future__ import annotations
 
@@ -9,11 +9,13 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager
+from functools import cache
 from pathlib import Path
 
 import can
 import canopen
 import pytest
+from tests.rigs import rig_in_thread
 
 from hexdbb.machine import shipped
 
@@ -21,6 +23,13 @@ DRIVES, GAUGE = range(1, 7), 7
 WAIT_S = 20.0
 ENABLE = (0x06, 0x07, 0x0F)
 CUP_MM, BALL_MM, BAR_MM = (0.0, 0.0, 340.0), (0.0, 0.0, 60.0), 100.0
+
+
+@cache
+def dictionary(node: int) -> canopen.ObjectDictionary:
+    """Return a node's objects, which tests do not change."""
+    name = "ballbar_gauge.eds" if node == GAUGE else "hexglider_drive.eds"
+    return canopen.import_od(str(shipped("eds", name)), node)
 
 
 class Controller:
@@ -31,12 +40,7 @@ class Controller:
         self.bus = can.Bus(interface="socketcand", channel="can0", host="127.0.0.1", port=port, tcp_tune=True)
         self.network = canopen.Network(self.bus)
         self.nodes = {
-            node: self.network.add_node(
-                canopen.RemoteNode(
-                    node, str(shipped("eds", "ballbar_gauge.eds" if node == GAUGE else "hexglider_drive.eds"))
-                )
-            )
-            for node in (*DRIVES, GAUGE)
+            node: self.network.add_node(canopen.RemoteNode(node, dictionary(node))) for node in (*DRIVES, GAUGE)
         }
         for node in self.nodes.values():
             node.sdo.RESPONSE_TIMEOUT = WAIT_S
@@ -164,11 +168,11 @@ def connect() -> Callable[[int], Controller]:
 
 @pytest.fixture
 def start() -> Iterator[Start]:
-    """Start a rig with options, and a controller on its bus."""
+    """Serve a rig with options in a thread, and connect a controller to its bus."""
     with ExitStack() as stack:
 
         def begin(*arguments: str) -> Controller:
-            port, _ = stack.enter_context(_rig_process(*arguments))
+            port = stack.enter_context(rig_in_thread(*arguments))
             controller = Controller(port)
             stack.callback(controller.close)
             return controller

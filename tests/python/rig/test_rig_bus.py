@@ -1,4 +1,4 @@
-"""The rig as a process, over real socketcand frames: SDO, PDO re-mapping, NMT, motion, supervision."""
+"""The rig over real socketcand frames: SDO, PDO re-mapping, NMT, motion, supervision."""
 
 from __future__ import annotations
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from tests.programs import called
 
 from hexdbb.cli import cli
 from hexdbb.files.validation import load_toml
@@ -23,7 +24,7 @@ RIG = [sys.executable, "-c", "from hexdbb.cli import main; main()", "rig"]
 
 
 def ended(*arguments: str) -> tuple[int, str, str]:
-    done = subprocess.run([*RIG, *arguments], capture_output=True, text=True, check=False, timeout=60)
+    done = called("hexdbb", "rig", *arguments)
     return done.returncode, done.stdout, done.stderr
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import called
 
 from hexdbb.record import write_record
 from hexdbb.studies.thesis.circular_test import joint_plane_circle
@@ -17,8 +17,7 @@ from hexdbb.studies.thesis.tables import GIVEN, SEVEN, all_values
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "hexdbb.cli", "thesis", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+    return called("hexdbb", "thesis", *arguments)
 
 
 @pytest.fixture
