@@ -80,4 +80,6 @@ By hand, into files of your own:
   hexdbb diagnose my.parquet -m my-model.toml
   hexdbb compare my.parquet -m my-model.toml
   hexdbb discover my.parquet -m my-model.toml
+In the browser:
+  hexdbb workbench demo/today.parquet -m demo/model.toml
 TEXT

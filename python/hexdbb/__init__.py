@@ -19,8 +19,9 @@ models                `new_model`, `load_model`, `save_model`, `Model`, `effect_
 why does it err       `diagnose`, `predict`, `compare`, `discover`, `discover_all`
 what is missing       `add_effect`, `remove_effect`, `undo`, `history`; an effect of your own: `effect`,
                       `load_effects`, `draft_effect`
+what if               `preview_effect`, `switched_off`, `with_value`: models to predict with, not kept
 to hand over          `report`, `rank_contributions`
-what follows          `compensate`, `propose_plan`
+what follows          `compensate`, `propose_plan`, `plan_next_test`, `save_plan`
 errors                `HexdbbError`: `InputError` (bad input), `RunError` (what failed while running)
 ====================  ==================================================================================================
 

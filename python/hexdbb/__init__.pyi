@@ -23,7 +23,13 @@ from .api import (
     measure as measure,
 )
 from .api import (
+    plan_next_test as plan_next_test,
+)
+from .api import (
     predict as predict,
+)
+from .api import (
+    preview_effect as preview_effect,
 )
 from .api import (
     propose_plan as propose_plan,
@@ -67,8 +73,15 @@ from .model import (
 from .model import (
     save_model as save_model,
 )
+from .model import (
+    switched_off as switched_off,
+)
+from .model import (
+    with_value as with_value,
+)
 from .plan import Plan as Plan
 from .plan import load_plan as load_plan
+from .plan import save_plan as save_plan
 from .plan import shipped_plans as shipped_plans
 from .record import Record as Record
 from .record import read_record as read_record

@@ -186,6 +186,28 @@ ALLOWED: dict[str, set[str]] = {
         "capture",
         "_core",
     },
+    # seen and played with: a view of what the commands do
+    "workbench": {
+        "errors",
+        "files",
+        "threads",
+        "units",
+        "machine",
+        "kinematics",
+        "plan",
+        "record",
+        "model",
+        "effects",
+        "samples",
+        "predictors",
+        "diagnosis",
+        "ledger",
+        "comparison",
+        "discovery",
+        "api",
+        "charts",
+        "_core",
+    },
     # the rig's line
     "rig": {"errors", "files", "machine"},
     "capture": {"errors", "files", "machine", "plan", "record", "trajectory"},
@@ -338,6 +360,7 @@ NAME_BLIND = (
     "plots",
     "evidence",
     "discovery",
+    "workbench",
 )
 """Parts that work on any list of effects and know none by name."""
 

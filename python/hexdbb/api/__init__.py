@@ -11,10 +11,11 @@ from hexdbb.api.analysis import (
     discover_all,
     draft_effect,
     predict,
+    preview_effect,
     remove_effect,
     table_of,
 )
-from hexdbb.api.control import compensate, propose_plan
+from hexdbb.api.control import compensate, plan_next_test, propose_plan
 from hexdbb.api.measuring import measure, simulated_rig
 from hexdbb.api.reporting import rank_contributions, report
 
@@ -27,7 +28,9 @@ __all__ = [
     "discover_all",
     "draft_effect",
     "measure",
+    "plan_next_test",
     "predict",
+    "preview_effect",
     "propose_plan",
     "rank_contributions",
     "remove_effect",

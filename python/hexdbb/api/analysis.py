@@ -217,3 +217,23 @@ def add_effect(measured: Measured, model: Model, choice: str, *, robust: bool = 
 def remove_effect(measured: Measured, model: Model, choice: str, *, robust: bool = False) -> Diagnosis:
     """Remove an effect, or some of its elements, from a model and fit the rest; see `add_effect`."""
     return ledger.remove_effect(table_of(measured), model, choice, robust=robust)
+
+
+def preview_effect(measured: Measured, model: Model, *choices: str) -> Model:
+    """Return a model with some effects more, fitted, to be looked at before any is added; the ledger stays as it is.
+
+    Parameters
+    ----------
+    measured : Record, sequence of Record, or Samples
+    model : Model
+    choices : str
+        As `add_effect` takes them, together.
+
+    Raises
+    ------
+    InputError
+        As `add_effect`.
+    RunError
+        The fit did not end in a usable solution.
+    """
+    return ledger.preview_effect(table_of(measured), model, *choices)

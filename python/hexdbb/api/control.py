@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hexdbb import _core
 from hexdbb.compensation import MAX_CORRECTION_MM, make_compensation, write_compensation
+from hexdbb.discovery import Discovery
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model, new_model
@@ -83,6 +84,34 @@ def propose_plan(
     unknowns = planned_unknowns(new_model(chosen), aim, _noise_mm(template), rate_hz)
     request = PlanRequest(template, chosen, unknowns, circles, criterion, off_nominal=aim is not None)
     return propose(request, progress)
+
+
+def plan_next_test(found: Discovery, *, like: Plan | Path | str = "standard") -> Plan:
+    """Return the plan of the circle that tells apart what a discovery could not.
+
+    Parameters
+    ----------
+    found : Discovery
+        As `discover` returns it, its verdict `ambiguous`.
+    like : Plan, path or name of a shipped plan
+        Directions and laps are taken from it; gauge and cup are those of the record.
+
+    Raises
+    ------
+    InputError
+        The discovery has no such circle.
+    """
+    test = found.next_test
+    if test is None:
+        raise InputError(f"no circle tells apart what was found: the verdict is {found.verdict} (expected ambiguous)")
+    template, record = like if isinstance(like, Plan) else load_plan(like), found.samples.records[0]
+    changed = {
+        "gauge": record.gauge,
+        "mounts": (record.mount(test.circle.mount),),
+        "circles": (test.circle,),
+        "feeds_mm_min": (test.feed_mm_min,),
+    }
+    return template.model_copy(update=changed)
 
 
 def _noise_mm(plan: Plan) -> float:

@@ -23,6 +23,7 @@ COMMANDS = {
     "history": "list the changes of a model, step by step",
     "compensate": "write compensation data for motion controllers, or a corrected path",
     "plan": "check, propose and compare plans: reach, limits, identifiability",
+    "workbench": "see and play with records and a model in a page of the browser",
     "thesis": "the method of the thesis: reference contours, linear estimator, tables",
     "convert": "convert between record (.parquet) and text form (.csv)",
     "recover": "write the record of an interrupted capture",

@@ -11,11 +11,10 @@ from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option, plan_noise_mm
 from hexdbb.cli.plan_tables import print_circles, print_comparison
 from hexdbb.errors import InputError
-from hexdbb.files.atomic_file import refuse_existing, write_text
-from hexdbb.files.validation import dump_toml, parse_toml
+from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.machine import SHIPPED_MACHINE, load_machine
 from hexdbb.model import new_model
-from hexdbb.plan import Plan, load_plan
+from hexdbb.plan import Plan, load_plan, save_plan
 from hexdbb.planning import CRITERIA, GRIDS, PlanRequest, RequiredClearances, planned_unknowns, propose
 from hexdbb.units import readable_unit
 
@@ -96,9 +95,8 @@ def propose_command(
     )
     with message_console().status("planning") as status:
         plan = propose(request, status.update)
-    _write(
-        plan, f"{circles} circles that determine most of {aim or 'all errors of the machine'}, by {criterion}", output
-    )
+    what = f"{circles} circles that determine most of {aim or 'all errors of the machine'}, by {criterion}"
+    save_plan(plan, output, f"{what}; chosen by hexdbb plan propose.")
     print_circles(plan)
     found = {str(output): (plan, assess_plan(plan, model, rate_hz, noise_um, str(output)))}
     try:
@@ -109,12 +107,6 @@ def propose_command(
     if aim is not None:
         _print_aim(aim, {name: each for name, (_, each) in found.items()})
     say(f"{output}: plan written", err=True)
-
-
-def _write(plan: Plan, what: str, output: Path) -> None:
-    text = f"# {what}; chosen by hexdbb plan propose.\n{dump_toml(plan)}"
-    parse_toml(text, Plan, str(output))
-    write_text(output, text)
 
 
 def _print_aim(aim: str, found: dict[str, PlanAssessment]) -> None:

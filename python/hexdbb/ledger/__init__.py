@@ -2,6 +2,7 @@
 
 from hexdbb.ledger.change import add_effect, fit_model, remove_effect
 from hexdbb.ledger.history import History, history
+from hexdbb.ledger.preview import preview_effect
 from hexdbb.ledger.undo import undo
 
-__all__ = ["History", "add_effect", "fit_model", "history", "remove_effect", "undo"]
+__all__ = ["History", "add_effect", "fit_model", "history", "preview_effect", "remove_effect", "undo"]

@@ -8,6 +8,7 @@ from hexdbb.model.ledger import LedgerStep, Size, Snapshot
 from hexdbb.model.model import Model, new_model
 from hexdbb.model.own import OwnEffect, OwnEffects, Shape, ShapedEffect, Tabulate, Tabulated, is_shaped
 from hexdbb.model.terms import MountKey, Parameter, Term, new_term
+from hexdbb.model.variants import switched_off, with_value
 
 __all__ = [
     "Choice",
@@ -33,4 +34,6 @@ __all__ = [
     "new_model",
     "new_term",
     "save_model",
+    "switched_off",
+    "with_value",
 ]

@@ -5,6 +5,7 @@ from hexdbb.plan.conditions import Conditions
 from hexdbb.plan.file import CircleRun, Circles, Mounts, Plan, check_ids, load_plan, shipped_plans
 from hexdbb.plan.gauge import LEAST_NOISE_MM, Gauge
 from hexdbb.plan.mount import Mount
+from hexdbb.plan.saved import save_plan
 
 __all__ = [
     "LEAST_NOISE_MM",
@@ -19,5 +20,6 @@ __all__ = [
     "Plan",
     "check_ids",
     "load_plan",
+    "save_plan",
     "shipped_plans",
 ]

@@ -9,6 +9,7 @@ from hexdbb.samples.prediction import (
     normal_equations,
     port_sensitivity,
     predict,
+    predict_poses,
 )
 from hexdbb.samples.table import Samples
 from hexdbb.samples.whole import PLANNED
@@ -24,4 +25,5 @@ __all__ = [
     "normal_equations",
     "port_sensitivity",
     "predict",
+    "predict_poses",
 ]

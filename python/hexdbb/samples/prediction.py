@@ -90,6 +90,28 @@ def predict(samples: Samples, model: Model) -> Prediction:
     return Prediction(reading_mm, samples.reading_mm - reading_mm)
 
 
+def predict_poses(samples: Samples, model: Model) -> tuple[Floats, Floats]:
+    """Compute where the platform stands under a model.
+
+    Returns
+    -------
+    position_mm : ndarray, shape (n, 3)
+        Reference point, base frame.
+    rotation : ndarray, shape (n, 3, 3)
+
+    Raises
+    ------
+    InputError
+        As `predict`.
+    """
+    pose, status = _core.forward_table(samples.engine(model), samples.block(model))
+    failed = np.flatnonzero(status)
+    if len(failed):
+        row = int(failed[0])
+        raise InputError(f"{_place(samples, row)}: the sliders' place has no pose ({status_name(int(status[row]))})")
+    return pose[:, :3].copy(), pose[:, 3:].reshape(-1, 3, 3).copy()
+
+
 def linearise(samples: Samples, model: Model) -> Linearised:
     """Predict the readings of samples with their derivatives with respect to the model's values.
 

@@ -31,6 +31,7 @@ NOT_RUN = {
     r"^make ": "builds the tree the test runs in, or calls this test",
     r"^\. ": "the test's interpreter is the environment",
     r"socketcan:can0": "needs a CAN interface",
+    r"^hexdbb workbench": "serves until it is ended, at an address drawn anew; tests/python/workbench opens it",
     r"^(?:cmake|sudo|pip|git) ": "builds or installs; held by tests of their own",
 }
 PAGES_NOT_RUN = {"docs/closed-loop.md": "250 readings a second for minutes; `make closed-loop` does it, five machines"}

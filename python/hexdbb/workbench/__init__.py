@@ -1,0 +1,12 @@
+"""The workbench: a local page in which a model is seen, tried, extended and taken back.
+
+=============  =========================================================================================================
+session        `Session`: records, a model, and actions that call what the commands call; every one is a line of Python
+page           what the browser shows of a session; the only modules that import NiceGUI
+server         the page served to this computer alone: loopback, a token, origin and host checked
+=============  =========================================================================================================
+"""
+
+from hexdbb.workbench.session import Session
+
+__all__ = ["Session"]

@@ -1,0 +1,135 @@
+"""The effects of the model: each switched on or off, each value dragged; the charts follow."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nicegui import ui
+
+from hexdbb.model import Parameter, Term
+from hexdbb.units import readable_unit, shown_factor, shown_unit
+from hexdbb.workbench.page.attributes import attribute, mark
+from hexdbb.workbench.page.running import refused
+from hexdbb.workbench.session import Session
+
+THROTTLE_S = 0.03
+"""Shortest time between two values of a slider that is dragged: 30 curves a second."""
+REACH_SIGMAS = 3.0
+"""Reach of a slider in prior standard deviations, where the value lies within it: what the value may well be."""
+STEPS = 400
+"""Steps of a slider: a pixel or two each."""
+
+
+@dataclass
+class _Value:
+    label: str
+    slider: ui.slider
+    number: ui.label
+    unit: str
+
+
+class EffectsPanel:
+    """A row for each effect, its values inside."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._switches: dict[str, ui.switch] = {}
+        self._values: list[_Value] = []
+        with ui.element("section").classes("wb-card").props('aria-labelledby="effects-title"'):
+            with ui.row().classes("wb-title"):
+                with ui.element("h2").props('id="effects-title"'):
+                    ui.label("What the model has")
+                self._back = ui.button("Back to the fit", on_click=session.back_to_fit).props("flat dense no-caps")
+            ui.label("Switch an effect off, or drag a value: the charts follow; the model stays as it is.").classes(
+                "wb-small"
+            )
+            self._rows = ui.element("div").classes("wb-effects")
+        self.draw(anew=True)
+
+    def draw(self, anew: bool) -> None:
+        """Draw the switches and sliders as the session has them; all rows again where the model is another."""
+        session = self._session
+        self._back.set_enabled(not session.tried.is_nothing)
+        if anew:
+            self._build()
+        shown = session.shown
+        values = {each.label: (each, value) for each, value in zip(shown.parameters(), shown.values, strict=True)}
+        for effect, switch in self._switches.items():
+            switch.value = effect not in session.tried.off
+        for each in self._values:
+            parameter, value = values[each.label]
+            size = float(value) * shown_factor(parameter.unit)
+            each.slider.value = size
+            each.number.set_text(f"{size:.4g} {each.unit}")
+
+    def _build(self) -> None:
+        self._switches, self._values = {}, []
+        self._rows.clear()
+        with self._rows:
+            for term in self._ordered():
+                self._row(term)
+
+    def _ordered(self) -> list[Term]:
+        """Return the effects, those added last first."""
+        added = [step.effect for step in self._session.model.ledger if step.what == "add"]
+        return sorted(
+            self._session.model.terms, key=lambda term: -added.index(term.effect) - 1 if term.effect in added else 0
+        )
+
+    def _row(self, term: Term) -> None:
+        info = self._session.model.info(term.effect)
+        parameters = [each for each in self._session.model.parameters() if each.effect == term.effect]
+        with ui.element("div").classes("wb-effect"):
+            switch = (
+                ui.switch(value=True)
+                .props("dense")
+                .props(attribute("aria-label", term.effect))
+                .props(mark(f"switch {term.effect}"))
+            )
+            switch.on("update:model-value", lambda event, name=term.effect: self._switch(name, bool(event.args[0])))
+            self._switches[term.effect] = switch
+            with ui.expansion(term.effect, caption=info.physics).props("dense") as inside:
+                opened = ui.element("div").classes("wb-values")
+        inside.on_value_change(lambda event: self._fill(opened, parameters) if event.value else None)
+
+    def _fill(self, opened: ui.element, parameters: list[Parameter]) -> None:
+        """Make the sliders of an effect when it is opened first."""
+        if opened.default_slot.children:
+            return
+        with opened:
+            for each in parameters:
+                if not each.is_coefficient:
+                    self._slider(each)
+            if parameters and parameters[0].is_coefficient:
+                ui.label("A learned function: its coefficients are not values one by one.").classes("wb-small")
+        self.draw(anew=False)
+
+    def _slider(self, parameter: Parameter) -> None:
+        shown = self._session.shown
+        index = [each.label for each in shown.parameters()].index(parameter.label)
+        factor, unit = shown_factor(parameter.unit), readable_unit(shown_unit(parameter.unit))
+        value, sigma = float(shown.values[index]) * factor, float(shown.sigma[index]) * factor
+        reach = max(REACH_SIGMAS * parameter.prior_sigma * factor, 1.5 * abs(value - parameter.start))
+        low, high = parameter.start - reach, parameter.start + reach
+        name = f"{parameter.element} {parameter.name}"
+        with ui.element("div").classes("wb-value"):
+            ui.label(name).classes("wb-value-name")
+            number = ui.label().classes("wb-value-number")
+            slider = ui.slider(min=low, max=high, step=(high - low) / STEPS, value=value)
+            slider.props("dense").props(attribute("aria-label", parameter.label)).props(
+                mark(f"value {parameter.label}")
+            )
+            known = f"± {sigma:.3g} {unit}" if sigma == sigma else "not known on its own"
+            ui.label(known).classes("wb-small wb-value-known")
+        slider.on(
+            "update:model-value",
+            lambda event: self._drag(parameter.label, float(event.args)),
+            throttle=THROTTLE_S,
+        )
+        self._values.append(_Value(parameter.label, slider, number, unit))
+
+    def _switch(self, effect: str, on: bool) -> None:
+        refused(lambda: self._session.switch(effect, on))
+
+    def _drag(self, label: str, value: float) -> None:
+        refused(lambda: self._session.set_value(label, value))

@@ -1,0 +1,64 @@
+"""The page as a whole: what stands where, and what is drawn again when the session changes."""
+
+from __future__ import annotations
+
+import asyncio
+
+from nicegui import ui
+
+from hexdbb.workbench.page.circle_panel import CirclePanel
+from hexdbb.workbench.page.editor_panel import EditorPanel
+from hexdbb.workbench.page.effects_panel import EffectsPanel
+from hexdbb.workbench.page.head import Head
+from hexdbb.workbench.page.ladder import Ladder
+from hexdbb.workbench.page.missing_panel import MissingPanel
+from hexdbb.workbench.page.results_panel import ResultsPanel
+from hexdbb.workbench.session import Session
+
+
+class Page:
+    """One tab.
+
+    Parameters
+    ----------
+    session : Session
+        Shared by all tabs.
+    allow_code : bool
+        Whether effects of the user's own may be written here.
+    """
+
+    def __init__(self, session: Session, allow_code: bool) -> None:
+        self._session = session
+        self._client = ui.context.client
+        self._loop = asyncio.get_running_loop()
+        self._is_waiting = False
+        self._model = session.model
+        with ui.element("div").classes("wb-page"):
+            self._head = Head(session)
+            with ui.element("div").classes("wb-left"):
+                self._missing = MissingPanel(session)
+                self._ladder = Ladder(session)
+            with ui.element("div").classes("wb-middle"):
+                self._circle = CirclePanel(session)
+            with ui.element("div").classes("wb-right"):
+                self._effects = EffectsPanel(session)
+                if allow_code:
+                    EditorPanel(session)
+                ResultsPanel(session)
+        self._client.on_delete(session.listen(self._heard))
+
+    def _heard(self) -> None:
+        """Take note of a change, in whichever thread it was made; many at once are drawn once."""
+        if not self._is_waiting:
+            self._is_waiting = True
+            self._loop.call_soon_threadsafe(self._draw)
+
+    def _draw(self) -> None:
+        self._is_waiting = False
+        with self._client:
+            self._circle.draw()
+            self._head.draw()
+            self._missing.draw()
+            self._effects.draw(anew=self._session.model is not self._model)
+            self._ladder.draw()
+        self._model = self._session.model

@@ -1,0 +1,120 @@
+"""The page in a real browser: names with HTML in them, accessibility, two tabs, files changed or gone meanwhile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, expect
+from tests.browser.chromium import browser, opened, violations
+from tests.python.workbench.served import Served, drawn, marked, number, served
+
+import hexdbb as hx
+
+__all__ = ["browser"]
+
+MARKUP = "<img src=x onerror=alert(1)><b>bold"
+EFFECTS = f"""
+from hexdbb import effect
+
+@effect(port="reading", unit="mm", prior_sigma=0.01, name={MARKUP + '"' + "'"!r})
+def strange(samples):
+    '''A <script>alert(2)</script> in the docstring.'''
+    return samples["velocity_mm_s"][:, 0]
+"""
+
+
+@pytest.fixture
+def workbench(folder: Path) -> Iterator[Served]:
+    with served(folder, "today.parquet", "-m", "model.toml") as started:
+        yield started
+
+
+@pytest.fixture
+def marked_up(folder: Path) -> Iterator[Served]:
+    """Serve a record, a machine, a model and an effect whose names are HTML."""
+    record = hx.read_record("today.parquet")
+    record.machine = record.machine.model_copy(update={"name": MARKUP})
+    hx.write_record(record, folder / f"{MARKUP}.parquet")
+    (folder / "mine.py").write_text(EFFECTS, encoding="utf-8")
+    (own,) = hx.load_effects("mine.py")
+    model = hx.new_model(record.machine, ["leg_length", "cup_position", "bar_length"]).knowing_effects([own])
+    hx.save_model(hx.add_effect(record, hx.diagnose(record, model).model, own.name).model, folder / f"{MARKUP}.toml")
+    with served(folder, f"{MARKUP}.parquet", "-m", f"{MARKUP}.toml", "--effects", "mine.py") as started:
+        yield started
+
+
+def test_names_with_markup_are_shown_as_they_are(browser: Browser, marked_up: Served) -> None:
+    with opened(browser, marked_up.address) as page:
+        page.on("dialog", lambda dialog: pytest.fail(dialog.message))
+        drawn(page)
+        expect(marked(page, "about")).to_contain_text(MARKUP)
+        expect(page.locator(".wb-effects")).to_contain_text(MARKUP)
+        expect(page.locator(".wb-effects")).to_contain_text("A <script>alert(2)</script> in the docstring.")
+        expect(marked(page, "ladder")).to_contain_text(MARKUP)
+        page.locator(".wb-effects .q-expansion-item").first.click()
+        marked(page, "Copy as script").click()
+        expect(marked(page, "script-text")).to_contain_text("onerror=alert(1)")
+        assert page.locator("img[src=x]").count() == 0
+
+
+@pytest.mark.parametrize("width", [1440, 390])
+def test_nothing_is_wrong_for_those_who_see_or_point_differently(
+    browser: Browser, workbench: Served, width: int
+) -> None:
+    with opened(browser, workbench.address, width=width) as page:
+        drawn(page)
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        page.locator(".wb-effects .q-expansion-item").first.click()
+        marked(page, "value leg_length:1 longer").wait_for()
+        page.wait_for_timeout(500)  # Quasar fades what it opens: contrast is that of the end
+        assert violations(page) == []
+
+
+def test_two_tabs_show_one_session(browser: Browser, workbench: Served) -> None:
+    with opened(browser, workbench.address) as one, opened(browser, workbench.address, width=390) as other:
+        drawn(one), drawn(other)
+        before_um = number(other, "rms")
+        marked(one, "switch leg_length").click()
+        expect(marked(other, "rms")).not_to_have_text(f"{before_um:.2f}")
+        expect(marked(other, "switch leg_length")).to_have_attribute("aria-checked", "false")
+        other.get_by_role("button", name="Back to the fit").click()
+        expect(marked(one, "rms")).to_have_text(f"{before_um:.2f}")
+        expect(marked(one, "switch leg_length")).to_have_attribute("aria-checked", "true")
+
+
+def test_a_value_follows_the_keyboard(browser: Browser, workbench: Served) -> None:
+    with opened(browser, workbench.address) as page:
+        drawn(page)
+        before_um = number(page, "rms")
+        page.get_by_role("button", name="leg_length").click()
+        slider = marked(page, "value leg_length:1 longer")
+        slider.locator("[tabindex='0']").focus()
+        for _ in range(20):
+            page.keyboard.press("ArrowRight")
+        expect(marked(page, "rms")).not_to_have_text(f"{before_um:.2f}")
+        assert number(page, "rms") > before_um
+        assert number(page, "fitted") == before_um
+
+
+def test_a_model_changed_meanwhile_is_said_and_kept(browser: Browser, workbench: Served, folder: Path) -> None:
+    with opened(browser, workbench.address) as page:
+        drawn(page)
+        other = hx.add_effect(hx.read_record("today.parquet"), hx.load_model("model.toml"), "backlash:4").model
+        hx.save_model(other, "model.toml")
+        written = (folder / "model.toml").read_bytes()
+        marked(page, "undo").click()
+        expect(page.get_by_role("alert")).to_contain_text("model.toml: was changed since it was opened")
+        expect(page.locator(".wb-warning")).to_contain_text("changed on disk by another program")
+        assert (folder / "model.toml").read_bytes() == written
+        page.get_by_role("button", name="Reload").click()
+        expect(marked(page, "ladder")).to_contain_text("added backlash of slider 4")
+
+
+def test_a_record_that_is_gone_is_said(browser: Browser, workbench: Served, folder: Path) -> None:
+    with opened(browser, workbench.address) as page:
+        drawn(page)
+        (folder / "today.parquet").unlink()
+        marked(page, "switch leg_length").click()
+        expect(page.locator(".wb-warning")).to_contain_text("today.parquet: no longer there")
