@@ -77,11 +77,11 @@ def quantity_rows(circle: CircleComparison) -> Iterator[tuple[str, float | None,
             yield label, part.measured_quantities[quantity.key], part.predicted_quantities[quantity.key]
 
 
-def near(reversals: Sequence[Reversal]) -> Iterator[list[Reversal]]:
-    """Yield reversals, by angle, that share one name."""
+def near(reversals: Sequence[Reversal], apart_deg: float = NEAR_DEG) -> Iterator[list[Reversal]]:
+    """Yield reversals, by angle, that share one name: those of a group span no more than `apart_deg`."""
     group: list[Reversal] = []
     for each in sorted(reversals, key=lambda each: each.angle_deg):
-        if group and each.angle_deg - group[0].angle_deg > NEAR_DEG:
+        if group and each.angle_deg - group[0].angle_deg > apart_deg:
             yield group
             group = []
         group.append(each)

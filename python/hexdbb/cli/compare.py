@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from rich.progress import Progress
@@ -18,6 +20,12 @@ from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+PICTURES = {"first": (".png",), "all": (".png", ".pdf")}
+"""Suffixes of the files that each choice of pages writes."""
+
 
 @click.command("compare")
 @records_argument
@@ -28,8 +36,13 @@ from hexdbb.files.atomic_file import refuse_existing
     "prefix",
     metavar="PREFIX",
     type=click.Path(path_type=Path),
-    help="Write PREFIX.png and PREFIX.svg (and PREFIX-circleN.* where there are several circles); "
-    "without it NAME-compare.* beside the first record.",
+    help="Write PREFIX.png (and PREFIX.pdf with --pages all); without it NAME-compare.* beside the first record.",
+)
+@click.option(
+    "--pages",
+    type=click.Choice(["first", "all"]),
+    help="first: what matters first as one PNG (default); all: PREFIX.pdf beside it, which holds every circle, the "
+    "predictors of the residual, both directions combined and harmonics on sheets of A4.",
 )
 @click.option("--no-plot", is_flag=True, help="Write no pictures.")
 @click.option("--no-cause", is_flag=True, help="Do not look for the likely cause: some seconds less.")
@@ -39,6 +52,7 @@ def command(
     model_path: Path,
     effects_path: Path | None,
     prefix: Path | None,
+    pages: str | None,
     no_plot: bool,
     no_cause: bool,
     as_json: bool,
@@ -50,24 +64,26 @@ def command(
     circle, feed and direction; where the residual is largest and which circumstances are over-represented there; the
     part common to both directions and the part that reverses with direction; harmonics; predictors of the residual
     among the variables of the machine's state, those last that only go with the likely cause. The cup of a mount that
-    the model does not know is fitted first, which is stated. Draws polar plots with a stated magnification, and the
-    residual against each predictor.
+    the model does not know is fitted first, which is stated. Draws what matters first as one PNG: the circle of
+    the largest residual with a stated magnification, all circles ranked, the best predictors; on request all in a PDF.
 
     \b
     RECORD is a Parquet record or a text-form CSV. Examples:
       hexdbb compare demo.parquet -m model.toml
-      hexdbb compare monday.parquet tuesday.csv -m model.toml --plot week
+      hexdbb compare monday.parquet tuesday.csv -m model.toml --plot week --pages all
       hexdbb compare demo.parquet -m model.toml --json --no-plot > comparison.json
     """
     stem = prefix or records[0].with_name(f"{records[0].stem}-compare")
     if prefix and no_plot:
         raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")
-    if not no_plot:
-        refuse_existing(stem.with_name(f"{stem.name}.png"), overwrite=True)
+    if pages and no_plot:
+        raise InputError(f"--pages {pages} together with --no-plot: expected one of them")
+    for suffix in () if no_plot else PICTURES[pages or "first"]:
+        refuse_existing(stem.with_name(stem.name + suffix), overwrite=True)
     messages = message_console()
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
         comparison = _comparison(records, model_path, effects_path, not no_cause, progress)
-        written = [] if no_plot else _draw(comparison, stem, progress)
+        written = [] if no_plot else _draw(comparison, stem, pages == "all", progress)
     if as_json:
         say(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
     else:
@@ -84,13 +100,18 @@ def _comparison(
     return compare(read_samples(paths, progress.console), model, find_cause=find_cause)
 
 
-def _draw(comparison: Comparison, stem: Path, progress: Progress) -> list[Path]:
-    from hexdbb.plots import comparison_pages, save_figure  # matplotlib takes a second to import
+def _draw(comparison: Comparison, stem: Path, is_all: bool, progress: Progress) -> list[Path]:
+    from hexdbb.plots import comparison_pages, save_figure, save_pdf  # matplotlib takes a second to import
 
     pages = comparison_pages(comparison)
-    task = progress.add_task("drawing", total=len(pages))
-    written: list[Path] = []
-    for page in pages:
-        written += save_figure(page.draw(), stem.with_name(f"{stem.name}{page.suffix}"))
-        progress.advance(task)
+    task = progress.add_task("drawing", total=len(pages) if is_all else 1)
+
+    def drawn() -> Iterator[Figure]:
+        for page in pages:
+            yield page.draw()
+            progress.advance(task)
+
+    written = save_figure(pages[0].draw(), stem, [".png"])
+    if is_all:
+        written.append(save_pdf(drawn(), stem.with_name(f"{stem.name}.pdf")))
     return written

@@ -15,7 +15,7 @@ from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
 from hexdbb.planning import spectrum_figure
-from hexdbb.plots.pages import FORMATS, save_figure
+from hexdbb.plots.saving import FORMATS, save_figure
 
 
 @click.command("compare", short_help="rank, condition and indices of plans side by side")

@@ -2,14 +2,16 @@
 
 ::
 
-    for page in comparison_pages(comparison):
-        save_figure(page.draw(), Path("demo-compare" + page.suffix))
+    pages = comparison_pages(comparison)  # what matters first is the first
+    save_figure(pages[0].draw(), Path("demo-compare"))
+    save_pdf((page.draw() for page in pages), Path("demo-compare.pdf"))
 """
 
 from hexdbb.plots.analysis_pages import diagnosis_pages, discovery_pages
 from hexdbb.plots.learned import learned_figure
-from hexdbb.plots.pages import Page, comparison_pages, save_figure, save_pages
+from hexdbb.plots.pages import comparison_pages
 from hexdbb.plots.residual_circles import residual_figure
+from hexdbb.plots.saving import Page, save_figure, save_pages, save_pdf
 
 __all__ = [
     "Page",
@@ -20,4 +22,5 @@ __all__ = [
     "residual_figure",
     "save_figure",
     "save_pages",
+    "save_pdf",
 ]

@@ -12,8 +12,8 @@ from hexdbb.discovery import Cause, Discovery, form_of
 from hexdbb.discovery.likely import subjects_of
 from hexdbb.discovery.words import SMALLEST_DEVIATION, capital, percent
 from hexdbb.plots.learned import learned_figure
-from hexdbb.plots.pages import Page
 from hexdbb.plots.residual_circles import residual_figure
+from hexdbb.plots.saving import Page
 from hexdbb.samples import predict
 
 

@@ -9,22 +9,23 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hexdbb.charts.colours import BAND_COLOUR, FORMULA_COLOUR, FUNCTION_COLOUR
+from hexdbb.charts.colours import BAND_COLOUR, FORMULA_COLOUR, FUNCTION_COLOUR, NOMINAL_COLOUR, RULE_COLOUR
 from hexdbb.errors import InputError
 from hexdbb.learned import Curve
 from hexdbb.learned.shown import place_words, sentence
 from hexdbb.learned.words import UM_PER_MM, shown_places
 from hexdbb.model import Model
+from hexdbb.plots.style import sheet, styled
 
-TITLE_CHARACTERS = 95
-"""Characters of 9 points across the figure."""
+TITLE_CHARACTERS = 100
+"""Characters of 8 points across the figure."""
 SUPTITLE_CHARACTERS = 85
 """Characters of 10 points across the figure."""
-SAMPLES_COLOUR = "0.75"
 BAND_SIGMAS = 2.0
 """Half the band's width in standard deviations: 95 % of the probability."""
 
 
+@styled
 def learned_figure(model: Model, name: str, formula: Sequence[Curve] = (), title: str = "") -> Figure:
     """Draw a learned effect of a model.
 
@@ -49,21 +50,19 @@ def learned_figure(model: Model, name: str, formula: Sequence[Curve] = (), title
         known = ", ".join(each.effect for each in model.learned) or "none"
         raise InputError(f"{name}: no learned effect of {model.name} (expected one of: {known})")
     curves, space = term.learned.curves(term.values), term.learned.space
-    figure = Figure(figsize=(7.5, 1.0 + 3.6 * len(curves)), layout="constrained")
+    figure = sheet(1.0 + 3.6 * len(curves))
     panels = figure.subplots(2 * len(curves), 1, squeeze=False, height_ratios=[4.0, 1.0] * len(curves))[:, 0]
     for component, curve in enumerate(curves):
         above, below = panels[2 * component], panels[2 * component + 1]
         _draw_function(above, curve, formula[component] if formula else None)
         place = place_words(space.hypothesis, component)
         said = place if formula else sentence(space.hypothesis, curve, space.period, component)
-        above.set_title(_wrapped(said, TITLE_CHARACTERS), fontsize=9)
+        above.set_title(_wrapped(said, TITLE_CHARACTERS))
         if space.hypothesis.variable.is_log:
             above.set_xscale("log")
             below.set_xscale("log")
         _draw_samples(below, curve, above, space.hypothesis.variable.is_log)
-    figure.suptitle(
-        _wrapped(title or f"{name}, band ± {BAND_SIGMAS:g} standard deviations", SUPTITLE_CHARACTERS), fontsize=10
-    )
+    figure.suptitle(_wrapped(title or f"{name}, band ± {BAND_SIGMAS:g} standard deviations", SUPTITLE_CHARACTERS))
     return figure
 
 
@@ -88,17 +87,16 @@ def _draw_function(axes: Axes, curve: Curve, formula: Curve | None) -> None:
             label="by its formula",
             marker=marker,
         )
-        axes.legend(fontsize=8, frameon=False)
-    axes.axhline(0.0, color="0.35", linewidth=0.8)
-    axes.set_ylabel("push, µm", fontsize=9)
-    axes.grid(color="0.88", linewidth=0.6)
+        axes.legend()
+    axes.axhline(0.0, color=NOMINAL_COLOUR, linewidth=0.8)
+    axes.set_ylabel("push, µm")
 
 
 def _draw_samples(axes: Axes, curve: Curve, above: Axes, is_log: bool) -> None:
     """Draw how densely the samples lie along the variable."""
     unit, at = shown_places(curve)
     widths = np.gradient(np.log(at) if is_log else at) if len(at) > 1 else np.ones(1)
-    axes.fill_between(at, np.nan_to_num(curve.samples) / widths, color=SAMPLES_COLOUR, step="mid")
+    axes.fill_between(at, np.nan_to_num(curve.samples) / widths, color=RULE_COLOUR, step="mid")
     axes.set(yticks=[], xlim=above.get_xlim(), ylim=(0.0, None))
-    axes.set_ylabel("samples", fontsize=8)
-    axes.set_xlabel(f"{curve.variable}, {unit}" if unit else curve.variable, fontsize=9)
+    axes.set_ylabel("samples")
+    axes.set_xlabel(f"{curve.variable}, {unit}" if unit else curve.variable)

@@ -1,44 +1,119 @@
-"""Marks of where sliders reverse, with their names, in pictures against the commanded polar angle."""
+"""Marks of where sliders reverse, with their numbers, in pictures against the commanded polar angle."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import Any
 
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.projections.polar import PolarAxes
 
+from hexdbb.charts.colours import NOMINAL_COLOUR, PAPER_COLOUR, TEXT_COLOUR
 from hexdbb.charts.lines import near
 from hexdbb.comparison.reversals import Reversal
+from hexdbb.plots.style import TEXT_PT, inside
 
-ROOM = 0.35
-"""Part of a panel's height left free above its lines for the names."""
+ROOM_PT = 24.0
+"""Height left free above the lines of a panel for two numbers on end, points."""
+LINE_PT = 10.0
+"""Distance of two numbers on end that do not cover one another, points."""
+POINTS_PER_IN = 72.0
+SPOKE_BEGINS, NUMBER_AT = 0.38, 0.29
+"""Parts of a polar plot's radius; its paths stay outside 0.4 (`magnification.LARGEST_SHARE_OF_RADIUS`)."""
+AROUND_DEG = 14.0
+"""Arc that a number takes at `NUMBER_AT` in a large polar plot."""
+KEY = "dotted: the slider of that number reverses; in bold what the likely cause acts at"
+"""What the marks are, for a picture's legend."""
 
 
-def mark_reversals(axes: Axes, reversals: Sequence[Reversal], meant: Sequence[str] = (), fontsize: float = 6.0) -> None:
-    """Mark reversals by lines with the sliders' names, those of the sliders meant (``slider 4``) in bold.
+def mark_reversals(
+    axes: Axes, reversals: Sequence[Reversal], size_in: tuple[float, float], meant: Sequence[str] = ()
+) -> None:
+    """Mark reversals by lines with the sliders' numbers; those of the sliders meant (``slider 4``) in bold.
 
     Call it last: it makes room above what is drawn.
+
+    Parameters
+    ----------
+    axes : Axes
+        Against degrees, 0 to 360.
+    reversals : sequence of Reversal
+    size_in : tuple of float
+        Width and height of the panel, about, inches: numbers nearer than a line of text share one place.
+    meant : sequence of str
     """
     if not reversals:
         return
     low, high = axes.get_ylim()
-    axes.set_ylim(low, high + ROOM * (high - low))
-    for group in near(reversals):
-        angle_deg = sum(each.angle_deg for each in group) / len(group)
-        is_meant = any(f"slider {each.slider}" in meant for each in group)
-        colour = "0.15" if is_meant else "0.6"
-        axes.axvline(angle_deg, color=colour, linewidth=1.0 if is_meant else 0.5, linestyle=":", zorder=1.5)
+    share = ROOM_PT / (POINTS_PER_IN * size_in[1])
+    axes.set_ylim(low, high + share / (1.0 - share) * (high - low))
+    for each in reversals:
+        inside(axes.axvline(each.angle_deg, **_line_style(_is_meant(each, meant)), zorder=1.5))
+    for angle_deg, numbers, is_meant in _names(reversals, 360.0 * LINE_PT / (POINTS_PER_IN * size_in[0]), meant):
         name = axes.annotate(
-            f"slider {', '.join(str(each.slider) for each in group)}",
+            numbers,
             (angle_deg, 1.0),
             xycoords=("data", "axes fraction"),
-            xytext=(0.0, -2.0),
+            xytext=(0.0, -1.0),
             textcoords="offset points",
             rotation=90.0,
             ha="center",
             va="top",
-            fontsize=fontsize,
-            color=colour,
-            fontweight="bold" if is_meant else "normal",
-            zorder=6,
+            **_text_style(is_meant),
         )
-        name.set_in_layout(False)  # it stands inside the panel: the layout need not measure it, which is slow
+        inside(name)
+
+
+def mark_reversals_around(axes: PolarAxes, reversals: Sequence[Reversal], meant: Sequence[str], named: bool) -> None:
+    """Mark reversals by spokes; in the middle the numbers, of all sliders where `named`, else of those meant."""
+    centre, rim = axes.get_ylim()
+    for each in reversals:
+        angle_rad = float(np.radians(each.angle_deg))
+        along = [centre + part * (rim - centre) for part in (SPOKE_BEGINS, 1.0)]
+        inside(*axes.plot([angle_rad, angle_rad], along, **_line_style(_is_meant(each, meant)), zorder=1.5))
+    for angle_deg, numbers, is_meant in _names(reversals, AROUND_DEG, meant):
+        if named or is_meant:
+            place = (float(np.radians(angle_deg)), centre + NUMBER_AT * (rim - centre))
+            inside(
+                axes.text(
+                    *place,
+                    numbers if named else numbers.partition(" ")[0],
+                    ha="center",
+                    va="center",
+                    **_text_style(is_meant),
+                )
+            )
+
+
+def _names(reversals: Sequence[Reversal], apart_deg: float, meant: Sequence[str]) -> Iterator[tuple[float, str, bool]]:
+    """Yield angle (deg), sliders' numbers, and whether one of them is meant; near a meant one others in brackets."""
+    for group in near(reversals, apart_deg):
+        first = [each for each in group if _is_meant(each, meant)]
+        chosen = first or group
+        numbers = ", ".join(str(each.slider) for each in chosen)
+        others = ", ".join(str(each.slider) for each in group if each not in chosen)
+        angle_deg = sum(each.angle_deg for each in chosen) / len(chosen)
+        yield angle_deg, f"{numbers} ({others})" if others else numbers, bool(first)
+
+
+def _is_meant(reversal: Reversal, meant: Sequence[str]) -> bool:
+    return f"slider {reversal.slider}" in meant
+
+
+def _line_style(is_meant: bool) -> dict[str, Any]:
+    return {
+        "color": TEXT_COLOUR if is_meant else NOMINAL_COLOUR,
+        "linewidth": 1.1 if is_meant else 0.6,
+        "linestyle": ":",
+    }
+
+
+def _text_style(is_meant: bool) -> dict[str, Any]:
+    return {
+        "fontsize": TEXT_PT,
+        "color": TEXT_COLOUR if is_meant else NOMINAL_COLOUR,
+        "fontweight": "bold" if is_meant else "normal",
+        "bbox": {"facecolor": PAPER_COLOUR, "edgecolor": "none", "pad": 0.3},
+        "zorder": 6,
+    }

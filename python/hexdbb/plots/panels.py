@@ -6,25 +6,29 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.transforms import Bbox
+from matplotlib.collections import LineCollection
 
-from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
+from hexdbb.charts.colours import MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS, RULE_COLOUR
 from hexdbb.charts.lines import curve, quantity_rows, residual_path, smoothed
 from hexdbb.comparison import UM_PER_MM, CircleComparison
-from hexdbb.comparison.circles import DIRECTION_NAMES
+from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES
 from hexdbb.plots.marks import mark_reversals
+from hexdbb.plots.style import all_inside, inside
 
 SMOOTHED_WIDTHS = {1: 2.4, -1: 1.0}
 """Broad below narrow, so that both directions are seen where they coincide."""
 
 
-def draw_residual(axes: Axes, circle: CircleComparison, meant: Sequence[str] = ()) -> None:
+def draw_residual(
+    axes: Axes, circle: CircleComparison, size_in: tuple[float, float], meant: Sequence[str] = ()
+) -> None:
     """Draw measured minus predicted reading (µm) against commanded polar angle, per direction.
 
     In light the mean of the laps at every angle, in dark its mean over arcs of `SMOOTHED_OVER_DEG`. Reversals of
-    sliders are marked, those `meant` (``slider 4``) in bold.
+    sliders are marked, those `meant` (``slider 4``) in bold; the panel's size, inches, limits how close
+    their numbers may be.
     """
-    axes.axhline(0.0, color="0.35", linewidth=0.8, zorder=1)
+    axes.axhline(0.0, color=NOMINAL_COLOUR, linewidth=0.8, zorder=1)
     for part in circle.directions:
         residual = residual_path(part)
         angle, residual_um = curve(residual)
@@ -34,35 +38,40 @@ def draw_residual(axes: Axes, circle: CircleComparison, meant: Sequence[str] = (
             color=PREDICTED_COLOURS[part.direction],
             linewidth=SMOOTHED_WIDTHS[part.direction],
             zorder=4,
-            label=f"{DIRECTION_NAMES[part.direction]}, RMS {UM_PER_MM * part.rms_mm:.2f} µm",
+            label=f"{SHORT_DIRECTION_NAMES[part.direction]}, RMS {UM_PER_MM * part.rms_mm:.2f} µm",
         )
+    against_angle(axes)
+    axes.set_xlabel("commanded polar angle, deg")
+    axes.set_ylabel("measured - predicted, µm")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, columnspacing=1.0)
+    all_inside(axes)
+    mark_reversals(axes, circle.reversals, size_in, meant)
+
+
+def against_angle(axes: Axes) -> None:
+    """Let a panel's abscissa be the commanded polar angle, degrees."""
     axes.set_xlim(0.0, 360.0)
-    axes.set_xticks(np.arange(0, 361, 45))
-    axes.set_xlabel("commanded polar angle, deg", fontsize=8)
-    axes.set_ylabel("measured - predicted, µm", fontsize=8)
-    axes.tick_params(labelsize=8)
-    axes.grid(color="0.88", linewidth=0.6)
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=8, frameon=False)
-    mark_reversals(axes, circle.reversals, meant)
+    axes.set_xticks(np.arange(0, 361, 90))
 
 
 def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
     """Write the ISO 230-4 quantities, measured and predicted, as a table."""
     axes.set_axis_off()
     rows = list(quantity_rows(circle))
-    table = axes.table(
-        cellText=[[_text(measured), _text(predicted)] for _, measured, predicted in rows],
-        rowLabels=[f"  {label}  " for label, _, _ in rows],
-        colLabels=["measured, µm", "predicted, µm"],
-        cellLoc="right",
-        rowLoc="left",
-        bbox=Bbox.from_bounds(0.2, 0.0, 0.8, 1.0),
+    lines = len(rows) + 1
+    columns = (
+        ("", [label for label, _, _ in rows], 0.02, "left"),
+        ("measured, µm", [_text(measured) for _, measured, _ in rows], 0.66, "right"),
+        ("predicted, µm", [_text(predicted) for _, _, predicted in rows], 0.98, "right"),
     )
-    table.auto_set_font_size(False)
-    table.set_fontsize(8)
-    for cell in table.get_celld().values():
-        cell.set_linewidth(0.4)
-        cell.set_edgecolor("0.8")
+    axes.set(xlim=(0.0, 1.0), ylim=(lines, 0.0))
+    for name, values, right, side in columns:
+        for line, value in enumerate([name, *values]):
+            inside(axes.text(right, line + 0.5, value, ha=side, va="center_baseline"))
+    rules = [[(0.0, line), (1.0, line)] for line in range(1, lines + 1)]
+    drawn = LineCollection(rules, colors=RULE_COLOUR, linewidths=[0.8, *[0.4] * len(rows)])
+    axes.add_collection(drawn, autolim=False)
+    inside(drawn)
 
 
 def _text(value_mm: float | None) -> str:

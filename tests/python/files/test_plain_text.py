@@ -16,7 +16,7 @@ from hexdbb.files.plain_text import TextConsole, plain_text, printable
 from hexdbb.ledger.history import History
 from hexdbb.machine import shipped
 from hexdbb.model.ledger import LedgerStep
-from hexdbb.plots.pages import save_figure
+from hexdbb.plots.saving import save_figure
 from hexdbb.record import Record
 from hexdbb.samples import Samples
 

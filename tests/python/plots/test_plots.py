@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import re
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -13,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 from tests.python.comparison.made_up import MakeRecord, compared
 
@@ -22,8 +25,9 @@ from hexdbb.charts.magnification import LARGEST_SHARE_OF_RADIUS, SERIES
 from hexdbb.comparison import Comparison
 from hexdbb.comparison.iso230 import even_angles, make_path
 from hexdbb.errors import RunError
-from hexdbb.plots import comparison_pages, save_figure
+from hexdbb.plots import comparison_pages, save_figure, save_pdf
 from hexdbb.plots.polar import draw_polar
+from hexdbb.plots.style import PAGE_IN, TEXT_PT
 
 RESIDUAL = ["-state", "-directions", "-harmonics"]
 """Pages of the residual, after those of the circles."""
@@ -100,12 +104,13 @@ def test_a_line_closes_a_full_circle_and_breaks_at_a_gap() -> None:
     assert np.flatnonzero(np.isnan(deviation_um)) == pytest.approx([np.sum(part < 1.0)])
 
 
-def test_one_circle_makes_one_page_and_several_an_overview_each(
+def test_one_circle_makes_one_page_and_several_a_summary_an_overview_and_each(
     comparison: Comparison, seven_circles: Comparison
 ) -> None:
     assert [page.suffix for page in comparison_pages(comparison)] == ["", *RESIDUAL]
     assert [page.suffix for page in comparison_pages(seven_circles)] == [
         "",
+        "-overview",
         *(f"-circle{k}" for k in range(7)),
         *RESIDUAL,
     ]
@@ -114,13 +119,13 @@ def test_one_circle_makes_one_page_and_several_an_overview_each(
 def test_pages_of_several_records_do_not_overwrite_each_other(make_record: MakeRecord) -> None:
     records = [make_record(backlash_off_centre, path=Path(name)) for name in ("monday.parquet", "tuesday.csv")]
     pages = comparison_pages(compared(records, [record.reading_mm for record in records]))
-    assert [page.suffix for page in pages] == ["", "-1-monday-circle0", "-2-tuesday-circle0", *RESIDUAL]
+    assert [page.suffix for page in pages] == ["", "-overview", "-1-monday-circle0", "-2-tuesday-circle0", *RESIDUAL]
     same = [replace(record, path=Path(day) / "demo.csv") for record, day in zip(records, "ab", strict=True)]
     suffixes = [page.suffix for page in comparison_pages(compared(same, [record.reading_mm for record in same]))]
-    assert len(set(suffixes)) == 3 + len(RESIDUAL)
+    assert len(set(suffixes)) == 4 + len(RESIDUAL)
 
 
-@pytest.mark.parametrize("page", [0, 3, -3, -2, -1])
+@pytest.mark.parametrize("page", [0, 1, 4, -3, -2, -1])
 def test_nothing_is_cut_off(seven_circles: Comparison, page: int) -> None:
     require_all_is_seen(comparison_pages(seven_circles)[page].draw())
 
@@ -152,7 +157,8 @@ def require_all_is_seen(figure: Figure) -> None:
     for text in texts:
         box = text.get_window_extent()
         assert box.x0 >= 0.0 and box.y0 >= 0.0 and box.x1 <= width and box.y1 <= height, text.get_text()
-        assert text.get_fontsize() >= 6.0, text.get_text()
+        assert text.get_fontsize() >= TEXT_PT, text.get_text()
+    assert all(has <= most for has, most in zip(figure.get_size_inches(), PAGE_IN, strict=True))
 
 
 def test_files_are_whole_stated_and_repeatable(comparison: Comparison, tmp_path: Path) -> None:
@@ -172,6 +178,42 @@ def test_files_are_whole_stated_and_repeatable(comparison: Comparison, tmp_path:
         "measured, clockwise",
     ):
         assert stated in words
+
+
+def test_all_pages_make_one_pdf_the_same_each_time(comparison: Comparison, tmp_path: Path) -> None:
+    pages = comparison_pages(comparison)
+    one, two = (save_pdf((page.draw() for page in pages), tmp_path / name) for name in ("one.pdf", "two.pdf"))
+    assert one.read_bytes() == two.read_bytes()
+    assert one.read_bytes().startswith(b"%PDF")
+    assert len(re.findall(rb"/Type /Page\b", one.read_bytes())) == len(pages) == 1 + len(RESIDUAL)
+
+
+def test_a_figure_is_laid_out_and_drawn_once(
+    comparison: Comparison, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Count what takes the time: layouts and drawings of whole figures."""
+    counted = {"draw": 0, "layout": 0}
+
+    def counting(name: str, whole: Callable[..., object]) -> Callable[..., object]:
+        def called(*args: object, **kwargs: object) -> object:
+            counted[name] += 1
+            return whole(*args, **kwargs)
+
+        return called
+
+    monkeypatch.setattr(Figure, "draw", counting("draw", Figure.draw))
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", counting("layout", ConstrainedLayoutEngine.execute))
+    figure = comparison_pages(comparison)[0].draw()
+    save_figure(figure, tmp_path / "a", [".png"])
+    save_pdf([figure], tmp_path / "a.pdf")
+    assert counted == {"draw": 2, "layout": 1}
+
+
+def test_more_than_a_sheet_holds_goes_on_the_next(make_record: MakeRecord) -> None:
+    record = make_record(backlash_off_centre, circles=8, feeds=(500.0, 753.98, 3000.0))
+    suffixes = [page.suffix for page in comparison_pages(compared([record], [record.reading_mm]))]
+    assert {"-overview", "-overview-2", "-circle7-2", "-directions-2", "-harmonics-2"} <= set(suffixes)
+    assert len(set(suffixes)) == len(suffixes)
 
 
 def test_a_place_that_cannot_be_written_is_named(comparison: Comparison, tmp_path: Path) -> None:

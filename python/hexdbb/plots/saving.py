@@ -1,0 +1,97 @@
+"""Pictures as files: PNG and SVG of one figure, one PDF of many."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import FigureCanvasPdf, PdfPages
+from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.figure import Figure
+
+from hexdbb.files.atomic_file import replacing, require_folder
+from hexdbb.plots.style import PNG_DPI, STYLE, finish
+
+
+def _png(figure: Figure, file: BinaryIO) -> None:
+    figure.set_dpi(PNG_DPI)
+    canvas: Any = FigureCanvasAgg(figure)
+    canvas.print_png(file)
+
+
+def _svg(figure: Figure, file: BinaryIO) -> None:
+    canvas: Any = FigureCanvasSVG(figure)
+    canvas.print_svg(file, metadata={"Date": None})
+
+
+FORMATS: dict[str, Callable[[Figure, BinaryIO], None]] = {".png": _png, ".svg": _svg}
+"""Suffix of a picture's file to the function that writes it: `savefig` would draw every figure twice."""
+
+
+@dataclass(frozen=True)
+class Page:
+    """One picture: `suffix` to add to the files' stem, and the function that draws it."""
+
+    suffix: str
+    draw: Callable[[], Figure]
+
+
+def save_figure(figure: Figure, stem: Path, suffixes: Sequence[str] = tuple(FORMATS)) -> list[Path]:
+    """Write a figure as STEM.png and STEM.svg, or those of the suffixes named; the same figure gives the same bytes.
+
+    Raises
+    ------
+    RunError
+        A file cannot be written; what stood in its place is untouched.
+    """
+    written = []
+    with mpl.rc_context(STYLE):
+        finish(figure)
+        for suffix in suffixes:
+            drawn = io.BytesIO()
+            FORMATS[suffix](figure, drawn)
+            written.append(_write(stem.with_name(stem.name + suffix), drawn.getvalue()))
+    return written
+
+
+def save_pages(pages: Sequence[Page], folder: Path) -> list[Path]:
+    """Write pages into a folder, which is made where there is none; each page's suffix is its file's name.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be made there.
+    RunError
+        A file cannot be written.
+    """
+    require_folder(folder)
+    folder.mkdir(exist_ok=True)
+    return [path for page in pages for path in save_figure(page.draw(), folder / page.suffix)]
+
+
+def save_pdf(figures: Iterable[Figure], path: Path) -> Path:
+    """Write figures as the sheets of one PDF; they may be drawn one by one. The same figures give the same bytes.
+
+    Raises
+    ------
+    RunError
+        The file cannot be written; what stood in its place is untouched.
+    """
+    drawn = io.BytesIO()
+    with mpl.rc_context(STYLE), PdfPages(drawn, metadata={"CreationDate": None}) as sheets:
+        for figure in figures:
+            finish(figure)
+            canvas: Any = FigureCanvasPdf(figure)
+            canvas.print_pdf(sheets)
+    return _write(path, drawn.getvalue())
+
+
+def _write(path: Path, content: bytes) -> Path:
+    with replacing(path) as temporary:
+        temporary.write_bytes(content)
+    return path
