@@ -101,6 +101,7 @@ def _draw_grid(axes: PolarAxes, scale: Scale, fine: bool) -> None:
     spokes = [np.array([[angle, scale.centre_um], [angle, rim_um]]) for angle in np.radians(angles_deg)]
     grid = LineCollection([*rings, *spokes], colors=GRID_COLOUR, linewidths=0.6, zorder=1.0)
     axes.add_collection(grid, autolim=False)
+    grid.set_clip_path(None)  # a collection's clip has another name in each SVG; the grid ends at the rim anyway
     nominal = axes.plot(DRAWN_TURN_RAD, 0.0 * DRAWN_TURN_RAD, color=NOMINAL_COLOUR, linewidth=0.9, zorder=2)
     inside(grid, *nominal)
     for angle_deg in angles_deg if fine else angles_deg[:1]:

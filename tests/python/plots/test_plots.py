@@ -148,11 +148,22 @@ def test_classes_are_named_below_their_panels(make_record: MakeRecord) -> None:
     assert [label.get_text() for label in panel.get_xticklabels()] == ["cw", "ccw"]
 
 
+def not_drawn(figure: Figure) -> set[int]:
+    """Return the labels of ticks outside their panel, which matplotlib keeps but does not draw."""
+    found = set()
+    for axis in (axis for axes in figure.axes for axis in (axes.xaxis, axes.yaxis)):
+        low, high = sorted(axis.get_view_interval())
+        found |= {id(tick.label1) for tick in axis.get_major_ticks() if not low <= tick.get_loc() <= high}
+    return found
+
+
 def require_all_is_seen(figure: Figure) -> None:
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     width, height = canvas.get_width_height()
+    hidden = not_drawn(figure)
     texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
+    texts = [text for text in texts if id(text) not in hidden]
     assert len(texts) > 40
     for text in texts:
         box = text.get_window_extent()
