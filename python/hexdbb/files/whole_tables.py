@@ -7,7 +7,7 @@ where `-206.4` becomes `-206`.
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.measure import Measurement
@@ -35,12 +35,18 @@ def whole(table: Table, console: Console, options: ConsoleOptions, long_lines: b
     least = [_least(column, console, options) for column in free.columns]
     beside = _width(free, console, options) - sum(wanted)
     room = options.max_width - beside
-    if sum(wanted) <= room:
-        yield _fixed(free, wanted)
-    elif sum(least) <= room or long_lines:
-        yield _fixed(free, _shared(wanted, least, room))
-    else:
+    if sum(least) > room and not long_lines:
         yield from long_form(table)
+        return
+    widths = _shared(wanted, least, room)
+    for column, width in zip(free.columns, widths, strict=True):
+        column.width, column.no_wrap = width, False  # what may not wrap fits; a heading wraps between words
+    total = sum(widths) + beside
+    if total > options.max_width:
+        free.width = total
+    elif table.min_width is not None:
+        free.min_width = min(table.min_width, options.max_width)
+    yield free
 
 
 def long_form(table: Table) -> Iterator[Text]:
@@ -59,6 +65,8 @@ def long_form(table: Table) -> Iterator[Text]:
         for heading, cell in zip(headings, cells, strict=True):
             if cell:
                 yield Text(f"{'  ' if goes_on else ''}{heading}{': ' if heading else ''}{cell}", overflow="fold")
+    if table.show_edge:
+        yield Text("")
 
 
 def _loose(table: Table) -> Table:
@@ -69,12 +77,6 @@ def _loose(table: Table) -> Table:
         column.overflow = "fold"
     free.min_width = None
     return free
-
-
-def _fixed(table: Table, widths: Iterable[int]) -> Table:
-    for column, width in zip(table.columns, widths, strict=True):
-        column.width = width
-    return table
 
 
 def _width(table: Table, console: Console, options: ConsoleOptions) -> int:
@@ -88,10 +90,10 @@ def _wanted(column: Column, console: Console, options: ConsoleOptions) -> int:
 
 def _least(column: Column, console: Console, options: ConsoleOptions) -> int:
     """Return the width that a column needs: of its longest word; where it holds numbers, of its longest cell."""
-    header, *cells = _measured(column, console, options)
+    heading, *cells = _measured(column, console, options)
     whole_cells = column.no_wrap or column.justify == "right"
     longest = max((each.maximum if whole_cells else each.minimum for each in cells), default=0)
-    return max(longest, header.maximum if column.no_wrap else header.minimum)
+    return max(longest, heading.minimum)
 
 
 def _measured(column: Column, console: Console, options: ConsoleOptions) -> list[Measurement]:
