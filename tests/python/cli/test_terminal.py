@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import os
 import re
+import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 
@@ -26,6 +28,7 @@ from hexdbb.rig.truth import random_truth
 OF_ROUNDING = re.compile(r"\d\.\d\de\+1\d")
 """Sizes of which a plan shows nothing, divided by what rounding leaves: no two computers agree on them."""
 GOLDEN = Path(__file__).parents[2] / "data" / "terminal"
+README = Path(__file__).parents[3] / "README.md"
 WIDTHS = (60, 80)
 STYLE = re.compile(r"\x1b\[[\d;]*m")
 COLOUR = re.compile(r"\x1b\[(?:[\d;]*;)?(?:3[0-8]|4[0-8]|9[0-7]|10[0-7])[;m]")
@@ -120,3 +123,17 @@ def test_a_table_is_narrowed_between_words_before_it_is_taken_apart() -> None:
         assert ("name: guideway_rotation_centre\nvalue, µm: -206.4 / -206.3\n" in printed) == taken_apart
         assert ("guideway_rotation_centre  -206.4 / -206.3  turned" in printed) != taken_apart
         assert max(map(len, printed.splitlines())) <= width
+
+
+@pytest.mark.parametrize(
+    ("program", "variable", "typed", "offered"),
+    [("hexdbb", "_HEXDBB_COMPLETE", "pla", "plan"), ("hexdbb-run", "_HEXDBB_RUN_COMPLETE", "--ver", "--version")],
+)
+def test_names_are_completed(program: str, variable: str, typed: str, offered: str) -> None:
+    asked = {variable: "bash_complete", "COMP_WORDS": f"{program} {typed}", "COMP_CWORD": "1"}
+    line = f"import sys; sys.argv[0] = {program!r}; from hexdbb_start import {program.replace('-', '_')} as run; run()"
+    done = subprocess.run(
+        [sys.executable, "-c", line], env={**os.environ, **asked}, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == f"plain,{offered}\n"
+    assert f'eval "$({variable}=bash_source {program})"' in README.read_text(encoding="utf-8")
