@@ -86,7 +86,7 @@ def times_of(page: Page, address: str, readings: int) -> Times:
 
 
 def _dragged(page: Page, box: dict[str, float]) -> float:
-    """Drag a slider to and fro; return the curves drawn in a second."""
+    """Drag a slider back and forth; return the curves drawn in a second."""
     y = box["y"] + box["height"] / 2.0
     page.mouse.move(box["x"] + box["width"] / 2.0, y)
     page.mouse.down()
