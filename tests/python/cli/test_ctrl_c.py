@@ -15,6 +15,8 @@ PROGRAMS = {
     "hexdbb": "from hexdbb_start import hexdbb; hexdbb()",
     "hexdbb-run": "from hexdbb_start import hexdbb_run as f; f()",
 }
+OBEYED = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+"""Tests that run in the background of a script inherit that the signal is ignored."""
 SIGNALLED = "import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n"
 CAUGHT = "try:\n    import interrupting\nexcept BaseException:\n    raise ImportError('failed to import') from None\n"
 
@@ -33,7 +35,7 @@ def test_while_packages_are_imported(program: str, module: str, words: list[str]
     """A module found before the real one gets the signal; the second source makes it another error."""
     (tmp_path / f"{module}.py").write_text(source, encoding="utf-8")
     (tmp_path / "interrupting.py").write_text(SIGNALLED, encoding="utf-8")
-    line = f"import sys; sys.path.insert(0, {str(tmp_path)!r}); {PROGRAMS[program]}"
+    line = f"{OBEYED}; import sys; sys.path.insert(0, {str(tmp_path)!r}); {PROGRAMS[program]}"
     done = subprocess.run(
         [sys.executable, "-c", line, *words], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
     )
