@@ -51,13 +51,13 @@ def opened(browser: Browser, address: str, width: int = 1440, dark: bool = False
     context = browser.new_context(viewport={"width": width, "height": HEIGHT}, color_scheme="dark" if dark else "light")
     page, wrong = context.new_page(), []
     page.set_default_timeout(TIMEOUT_MS)
-    page.on("console", lambda said: wrong.append(said.text) if said.type in ("error", "warning") else None)
+    page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
     page.on("pageerror", lambda error: wrong.append(str(error)))
     page.on("requestfailed", lambda request: wrong.append(f"{request.url}: {request.failure}"))
     try:
         page.goto(address)
         yield page
-        assert wrong == []
+        assert wrong == [], wrong
     finally:
         context.close()
 

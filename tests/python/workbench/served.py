@@ -54,7 +54,8 @@ def served(folder: Path, *words: str) -> Iterator[Served]:
         assert (process.returncode, said, errors) == (0, "", ""), errors
     finally:
         process.kill()
-        process.wait()
+        with process:  # closes its pipes
+            process.wait()
 
 
 def marked(page: Page, name: str) -> Locator:

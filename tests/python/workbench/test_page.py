@@ -118,3 +118,29 @@ def test_a_record_that_is_gone_is_said(browser: Browser, workbench: Served, fold
         (folder / "today.parquet").unlink()
         marked(page, "switch leg_length").click()
         expect(page.locator(".wb-warning")).to_contain_text("today.parquet: no longer there")
+
+
+def test_the_machine_follows_the_cursor_and_the_editor_needs_leave(browser: Browser, folder: Path) -> None:
+    with (
+        served(folder, "today.parquet", "-m", "model.toml", "--allow-code") as allowed,
+        opened(browser, allowed.address) as page,
+    ):
+        drawn(page)
+        marked(page, "3d").locator(".q-item").click()
+        expect(page.locator(".wb-scene canvas")).to_be_visible()
+        expect(page.locator(".wb-scene")).to_contain_text("as the model displaces it")
+        cursor = page.get_by_label("Angle of the cursor in degrees")
+        cursor.focus()
+        page.keyboard.press("PageUp")
+        expect(cursor).to_have_attribute("aria-valuenow", "10")
+        expect(page.locator(".wb-readout")).to_contain_text("10°: counter-clockwise measured")
+        marked(page, "editor").locator(".q-item").click()
+        marked(page, "source").fill("x = 1\n")
+        marked(page, "compete").click()
+        expect(page.get_by_role("alert")).to_contain_text("my_effects.py: declares no effect")
+
+
+def test_without_leave_there_is_no_editor(browser: Browser, workbench: Served) -> None:
+    with opened(browser, workbench.address) as page:
+        drawn(page)
+        assert marked(page, "source").count() == 0
