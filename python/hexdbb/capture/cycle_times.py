@@ -23,17 +23,23 @@ class CycleTimes:
         Cycles by the time since the SYNC before, in bins of `BIN_S`, shape (`BINS`,).
     gaps : list of int
         SYNCs by the number missed immediately before, shape (`GAPS`,); what missed none is not counted.
+    longest_s : float
+        Longest time between two SYNCs, s.
     """
 
     def __init__(self) -> None:
         self.times = [0] * BINS
         self.gaps = [0] * GAPS
+        self.longest_s = 0.0
         self._last_s: float | None = None
 
     def take(self, sync_s: float, missed: int) -> None:
         """Count one SYNC, sent at a monotonic time (s), before which some were missed."""
         if self._last_s is not None:
-            self.times[min(int((sync_s - self._last_s) / BIN_S), BINS - 1)] += 1
+            time_s = sync_s - self._last_s
+            self.times[min(int(time_s / BIN_S), BINS - 1)] += 1
+            if time_s > self.longest_s:
+                self.longest_s = time_s
         self._last_s = sync_s
         if missed:
             self.gaps[min(missed, GAPS - 1)] += 1
@@ -46,4 +52,4 @@ class CycleTimes:
         """Begin anew."""
         self.times[:] = [0] * BINS
         self.gaps[:] = [0] * GAPS
-        self._last_s = None
+        self.longest_s, self._last_s = 0.0, None

@@ -79,6 +79,7 @@ class States:
             "reading_um": None if math.isnan(progress.reading_um) else round(progress.reading_um, READING_DIGITS),
             "notes": list(progress.notes),
             "times": [] if times is None else _counted(times.times),
+            "longest_ms": 0.0 if times is None else round(1e3 * times.longest_s, 1),
             "gaps": [] if times is None else _counted(times.gaps),
             "nodes": [] if watch is None else _nodes(watch),
         }

@@ -1,4 +1,4 @@
-"""A page that watches a run, in a process of its own: started before anything moves, told what happens, never waited for.
+"""A page that watches a run, in a process of its own: started before anything moves, and never waited for.
 
 Samples come from the thread of the journal, when they are on disk, into a queue of bounded length; a thread of this
 module puts them and the state of the run into a pipe that it never waits for. What does not fit is dropped: the state
@@ -25,7 +25,7 @@ from hexdbb.errors import RunError
 from hexdbb.record.columns import Columns
 
 PERIOD_S = 0.2
-"""Time between two states told, s: the eye takes it for continuous, and it costs the interpreter, which the loop shares,
+"""Time between two states told, s: the eye takes it for continuous, and each costs the loop's interpreter
 half a millisecond."""
 WAITING_BATCHES = 64
 """Limits the queue: half a minute of samples, for a page that was stopped for a while."""

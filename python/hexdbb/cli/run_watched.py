@@ -34,9 +34,7 @@ def refuse_without_page(watch: bool) -> None:
 
 
 @contextmanager
-def watched(
-    request: Request, progress: RunProgress, console: Console, watch: bool, no_browser: bool
-) -> Iterator[None]:
+def watched(request: Request, progress: RunProgress, console: Console, watch: bool, no_browser: bool) -> Iterator[None]:
     """Let a page watch the run for the length of the context, if one is asked for, and print its address."""
     if not watch:
         yield

@@ -14,8 +14,6 @@ from hexdbb.pages import MISSING
 from hexdbb.workbench import Session
 
 
-
-
 @click.command("workbench")
 @click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
 @click.option(

@@ -42,8 +42,11 @@ def main() -> None:
         if "--open" in sys.argv[1:]:
             webbrowser.open(address)
 
+    def build() -> None:
+        LivePage(run, stop)
+
     with suppress(KeyboardInterrupt):
-        serve_page(lambda: LivePage(run, stop), "hexdbb-run", ready=ready)
+        serve_page(build, "hexdbb-run", ready=ready)
 
 
 def _fall_silent() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -17,17 +16,18 @@ Counted = Sequence[Sequence[int]]
 
 
 def bars(counted: Counted, bin_ms: float) -> list[tuple[float, int]]:
-    """Return the lower edge (ms) and count of at most `BARS` bars of one width, none left out between the first and last."""
+    """Return the lower edge (ms) and count of at most `BARS` bars of one width, gaps included."""
     if not counted:
         return []
     bins, counts = np.array(counted).T
     first, last = int(bins.min()), int(bins.max())
-    width = -(-(last - first + 1) // BARS)
+    width = -(-(last - first + 1) // (BARS - 1))
+    first -= first % width
     heights = np.bincount((bins - first) // width, weights=counts)
     return [(round((first + index * width) * bin_ms, 4), int(height)) for index, height in enumerate(heights)]
 
 
-def in_words(counted: Counted, bin_ms: float) -> str:
+def in_words(counted: Counted, bin_ms: float, longest_ms: float) -> str:
     """Return below which times shares of the cycles lie, and the longest one."""
     if not counted:
         return "no cycle yet"
@@ -37,4 +37,4 @@ def in_words(counted: Counted, bin_ms: float) -> str:
         f"{name} within {(bins[np.searchsorted(cumulated, share * cumulated[-1])] + 1) * bin_ms:.1f} ms"
         for share, name in SHARES.items()
     ]
-    return f"{cumulated[-1]:,} cycles: {', '.join(said)}, the longest {(bins[-1] + 1) * bin_ms:.1f} ms"
+    return f"{cumulated[-1]:,} cycles: {', '.join(said)}, the longest {longest_ms:.1f} ms"

@@ -25,8 +25,8 @@ export default {
       <section class="wb-card wb-live-nodes" aria-label="Nodes">
         <h2>Nodes</h2>
         <table>
-          <thead><tr><th scope="col">node</th><th scope="col">NMT</th><th scope="col">state</th><th scope="col">heartbeat, ms ago</th>
-            <th scope="col">SYNCs unanswered</th></tr></thead>
+          <thead><tr><th scope="col">node</th><th scope="col">NMT</th><th scope="col">state</th><th scope="col" class="wb-figures">heartbeat, ms ago</th>
+            <th scope="col" class="wb-figures">SYNCs unanswered</th></tr></thead>
           <tbody>
             <template v-for="each in nodes">
               <tr :data-node="each.label"><th scope="row">{{ each.label }}</th>
@@ -84,7 +84,7 @@ export default {
       this.charts.times.setOption({
         animation: false, grid: frame,
         xAxis: category(`ms since the SYNC before (planned ${cycle})`, times.map(([edge]) => edge.toFixed(1))),
-        yAxis: { ...value("cycles"), type: "log", min: 0.5, axisLabel: { ...TEXT, formatter: (count) => count < 1 ? "" : count } },
+        yAxis: { ...value("cycles"), type: "log", min: 0.5, startValue: 0.5, axisLabel: { ...TEXT, formatter: (count) => count < 1 ? "" : count } },
         series: [{ type: "bar", data: times.map(([, count]) => count || null), barCategoryGap: "8%", itemStyle: { color: BAR } }],
       });
     },
@@ -135,7 +135,7 @@ export default {
         series: [
           ...[-1, 1].map((side) => line(`grid${side}`, ring(side * count * division), FAINT, 1, 1)),
           line("nominal", ring(0), MUTED, 1, 1),
-          ...[...this.lines.values()].map((each) => line(`sweep${each.id}`, each.points, each.colour, 2.5, 3)),
+          ...[...this.lines.values()].map((each, index) => line(`sweep${each.id}`, each.points, each.colour, index ? 1.8 : 4, 3 + index)),
           {
             id: "label", type: "scatter", coordinateSystem: "polar", silent: true, symbolSize: 1, z: 5,
             data: [[count * division, 67.5, `+${count * division} µm`], [0, 67.5, "0"], [-count * division, 67.5, `\u2212${count * division} µm`]],

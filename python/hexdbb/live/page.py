@@ -1,4 +1,4 @@
-"""What the browser shows of a run: where it is, the growing trace, cycle times, following errors, nodes, a stop button."""
+"""What the browser shows of a run: where it is, the growing trace, cycle times, following errors, nodes, a button."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class LivePage:
         dress()
         with ui.element("div").classes("wb-page wb-live"):
             self._build_head()
-            with ui.element("main").classes("wb-live-main"):
+            with ui.element("div").classes("wb-live-main"):
                 self._charts = LiveCharts()
         ui.timer(PERIOD_S, self._draw)
 
@@ -94,7 +94,9 @@ class LivePage:
 
     def _draw_head(self, run: SeenRun) -> None:
         told, state = run.told, run.state
-        self._about.set_text("  ·  ".join(str(told[key]) for key in ("plan", "record", "machine", "pace") if key in told))
+        self._about.set_text(
+            "  ·  ".join(str(told[key]) for key in ("plan", "record", "machine", "pace") if key in told)
+        )
         place = state.get("place", "waiting for the run")
         if state.get("asked"):
             place = "The operator is asked to mount the bar, in the terminal"
@@ -144,7 +146,7 @@ def _shown(run: SeenRun) -> dict[str, Any]:
     return {
         "times": bars(times, bin_ms),
         "cycle": run.told.get("cycle_ms"),
-        "timesLabel": in_words(times, bin_ms),
+        "timesLabel": in_words(times, bin_ms, run.state.get("longest_ms", 0.0)),
         "gaps": [list(each) for each in gaps],
         "gapsLabel": f"{run.state.get('missed', 0)} missed, by the number in a row",
         "following": run.following_mm,

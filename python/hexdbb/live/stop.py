@@ -1,4 +1,4 @@
-"""The way back from page to run: SIGINT, as Ctrl-C sends it, so that there is one way to stop (`capture.interrupts`)."""
+"""The way back from page to run: SIGINT, as Ctrl-C sends it, so that there is one way to stop (`interrupts`)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Stop:
         self._run = os.getppid()
 
     def __call__(self) -> None:
-        """Ask the run to stop all six axes; raises `RunError` where it has ended: its number may be another's by now."""
+        """Ask the run to stop all six axes; raises `RunError` where it has ended: another may have its number."""
         if os.getppid() != self._run:
             raise RunError("the run's process has ended: there is nothing to stop")
         os.kill(self._run, signal.SIGINT)

@@ -1,6 +1,7 @@
 """Who may open a page: this computer, from the address that the terminal printed.
 
-Pages can write files or stop a machine, so that other programs' pages must not reach it. Of every request, web socket ones too:
+Pages can write files or stop a machine, so that other programs' pages must not reach them. Of every
+request, web socket ones too:
 
 - the server listens on the loopback interface only;
 - ``Host`` is this server's (no DNS name that was pointed here);
