@@ -1,7 +1,9 @@
-"""Cycle times of a run in real time, without a page, with one open in headless Chromium, and with one that hangs.
+"""Cycle times of a run without a page, with one open in headless Chromium, and with one that hangs.
 
-``python -m tests.browser.watch_times [ROUNDS]``: runs a plan of two laps at 250 Hz on the simulated rig in each of the
-three ways, in turns, and prints a table. Each run is a process of its own; the histogram is the loop's.
+``python -m tests.browser.watch_times [ROUNDS [--realtime]]``: runs a plan of two laps at 250 Hz on the simulated rig in
+each of the three ways, in turns, and prints a table. Each run is a process of its own; the histogram is the loop's. In
+lockstep, unless asked otherwise: the next SYNC when all nodes have answered, so that whatever holds up the loop shows,
+and a computer that does much else does not stop the run.
 """
 
 from __future__ import annotations
@@ -32,10 +34,11 @@ from hexdbb.plan import load_plan
 
 RATE_HZ = 250.0
 WAYS = ("without a page", "page open", "page hanging")
+LOCKSTEP, REAL_TIME = "--lockstep", "--realtime"
 SHARES = (0.5, 0.99, 0.999)
 
 
-def run(folder: str, with_page: bool) -> None:
+def run(folder: str, with_page: bool, lockstep: bool) -> None:
     """Measure once; print the page's address, then the histogram."""
     plan = load_plan(str(Path(folder) / "plan.toml"))
     record = Path(folder) / "run.parquet"
@@ -49,7 +52,7 @@ def run(folder: str, with_page: bool) -> None:
         programme = prepare(request)
         with (
             opened_bus(SimulatedRig(seed=5), request.machine) as bus,
-            running_clock(False, request.cycle_s, progress) as clock,
+            running_clock(lockstep, request.cycle_s, progress) as clock,
         ):
             measure(request, programme, bus, clock, progress)
 
@@ -67,9 +70,9 @@ def run(folder: str, with_page: bool) -> None:
     say(json.dumps({"counts": counts, "longest_s": times.longest_s, "missed": progress.missed}))
 
 
-def measured(folder: str, way: str, browser: Browser) -> dict[str, Any]:
+def measured(folder: str, way: str, pace: str, browser: Browser) -> dict[str, Any]:
     """Return the histogram of one run."""
-    words = [sys.executable, "-m", "tests.browser.watch_times", "--run", folder, way]
+    words = [sys.executable, "-m", "tests.browser.watch_times", "--run", folder, way, pace]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         if way == WAYS[0]:
@@ -99,7 +102,7 @@ def row(way: str, found: list[dict[str, Any]]) -> str:
     return f"| {way} | {total:,} | {' | '.join(limits)} | {longest_ms:.1f} | {sum(each['missed'] for each in found)} |"
 
 
-def main(rounds: int) -> None:
+def main(rounds: int, pace: str) -> None:
     """Print the table."""
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as driver:
         (Path(folder) / "plan.toml").write_text(long_plan(2))
@@ -107,7 +110,7 @@ def main(rounds: int) -> None:
         found: dict[str, list[dict[str, Any]]] = {way: [] for way in WAYS}
         for _ in range(rounds):
             for way in WAYS:
-                found[way].append(measured(folder, way, browser))
+                found[way].append(measured(folder, way, pace, browser))
         browser.close()
     print("| | cycles | half within, ms | 99 % | 99.9 % | longest | SYNCs missed |")
     print("|---|---|---|---|---|---|---|")
@@ -116,7 +119,8 @@ def main(rounds: int) -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] == ["--run"]:
-        run(sys.argv[2], sys.argv[3] != WAYS[0])
+    words = sys.argv[1:]
+    if words[:1] == ["--run"]:
+        run(words[1], words[2] != WAYS[0], words[3] == LOCKSTEP)
     else:
-        main(int(sys.argv[1]) if len(sys.argv) > 1 else 3)
+        main(int(words[0]) if words else 3, REAL_TIME if REAL_TIME in words else LOCKSTEP)
