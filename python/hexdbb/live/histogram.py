@@ -33,8 +33,10 @@ def in_words(counted: Counted, bin_ms: float, longest_ms: float) -> str:
         return "no cycle yet"
     bins, counts = np.array(sorted(map(tuple, counted))).T
     cumulated = np.cumsum(counts)
+    # The last bin may hold any time beyond the others.
+    limits_ms = np.append((bins[:-1] + 1) * bin_ms, longest_ms)
     said = [
-        f"{name} within {(bins[np.searchsorted(cumulated, share * cumulated[-1])] + 1) * bin_ms:.1f} ms"
+        f"{name} within {limits_ms[np.searchsorted(cumulated, share * cumulated[-1])]:.1f} ms"
         for share, name in SHARES.items()
     ]
     return f"{cumulated[-1]:,} cycles: {', '.join(said)}, the longest {longest_ms:.1f} ms"

@@ -102,5 +102,7 @@ def test_bars_hold_every_cycle_and_words_name_the_shares() -> None:
     assert (
         in_words(counted, 0.1, 230.0) == "1,000 cycles: half within 4.1 ms, 99.9 % within 4.8 ms, the longest 230.0 ms"
     )
+    beyond = "1 cycles: half within 230.0 ms, 99.9 % within 230.0 ms, the longest 230.0 ms"
+    assert in_words([(BINS - 1, 1)], 0.1, 230.0) == beyond
     assert bars([], 0.1) == []
     assert in_words([], 0.1, 0.0) == "no cycle yet"
