@@ -44,7 +44,7 @@ $(VENV)/.dependencies: pyproject.toml .ci/scripts/requirements.py | system
 # is in them needs nothing.
 .PHONY: ALWAYS
 $(VENV)/.python-files: ALWAYS | $(VENV)/.dependencies
-	@find python/hexdbb -name '*.py' | LC_ALL=C sort > $@.new
+	@find python/hexdbb python/hexdbb_start -name '*.py' | LC_ALL=C sort > $@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 # Without build isolation the build directory and the pybind11 of the environment are used again: a change compiles

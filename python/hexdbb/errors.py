@@ -28,6 +28,12 @@ class InputError(HexdbbError):
     exit_status = 2
 
 
+class InterruptError(HexdbbError):
+    """Raised where the user ended a command by Ctrl-C; the exit status is that of a shell for SIGINT."""
+
+    exit_status = 130
+
+
 class RunError(HexdbbError):
     """Raised where a measurement, fit or conversion was begun and failed; states what happened and what was kept."""
 

@@ -7,7 +7,8 @@ import importlib
 import click
 
 from hexdbb import __version__
-from hexdbb.cli.exits import reports_errors
+from hexdbb.cli.exits import Program, reports_errors
+from hexdbb_start import ends_at_once
 
 COMMANDS = {
     "rig": "run the simulated rig as a process of its own",
@@ -30,7 +31,7 @@ COMMANDS = {
 }
 
 
-class _LazyGroup(click.Group):
+class _LazyGroup(Program, click.Group):
     """Click group whose subcommands are the objects `command` of the modules `hexdbb.cli.<name>`."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -39,7 +40,8 @@ class _LazyGroup(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = importlib.import_module(f"hexdbb.cli.{cmd_name}").command
+        with ends_at_once():
+            command: click.Command = importlib.import_module(f"hexdbb.cli.{cmd_name}").command
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -1,5 +1,5 @@
 """`python -m hexdbb.cli`: the command `hexdbb` under a chosen interpreter."""
 
-from hexdbb.cli import main
+from hexdbb_start import hexdbb
 
-main()
+hexdbb()

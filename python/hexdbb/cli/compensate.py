@@ -9,7 +9,7 @@ import click
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.cli.consoles import say
+from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.compensation import (
@@ -109,23 +109,24 @@ def command(
         raise InputError("hexdbb compensate: --poses without -o (expected -o SLIDERS.csv)")
     for path in filter(None, (output, header)):
         refuse_existing(path, overwrite)
-    if model.suffix == SUFFIX:
-        data = read_compensation(model)
-    else:
-        known = existing_model(model, effects_path)
-        if reference_path is not None:
-            reference_temperature_c = _reference_temperature_c(known, reference_path, reference_temperature_c)
-        data = make_compensation(
-            known,
-            max_correction_mm=1e-3 * max_correction_um,
-            reversal_travel_mm=1e-3 * reversal_travel_um,
-            reference_temperature_c=reference_temperature_c,
-        )
-    summary = _summary(data)
-    if output is not None and poses is not None:
-        summary |= _correct_path(data, poses, output, temperature_c)
-    elif output is not None:
-        write_compensation(data, output)
+    with message_console().status("computing compensation"):
+        if model.suffix == SUFFIX:
+            data = read_compensation(model)
+        else:
+            known = existing_model(model, effects_path)
+            if reference_path is not None:
+                reference_temperature_c = _reference_temperature_c(known, reference_path, reference_temperature_c)
+            data = make_compensation(
+                known,
+                max_correction_mm=1e-3 * max_correction_um,
+                reversal_travel_mm=1e-3 * reversal_travel_um,
+                reference_temperature_c=reference_temperature_c,
+            )
+        summary = _summary(data)
+        if output is not None and poses is not None:
+            summary |= _correct_path(data, poses, output, temperature_c)
+        elif output is not None:
+            write_compensation(data, output)
     if header is not None:
         write_text(header, data.header())
     say(json.dumps(summary, indent=2, allow_nan=False) if as_json else _table(summary))

@@ -15,14 +15,15 @@ from rich.console import Console
 from hexdbb.files.plain_text import WIDTH, TextConsole, printable
 
 REDIRECTED_WIDTH = WIDTH
-"""Limits the line length, in characters, where stdout is not a terminal: rich would fold at its default of 80, and the
-table of `hexdbb plan compare` is 103 wide."""
+"""Limits the length of lines that can be wrapped, in characters, where stdout is not a terminal: rich would fold at its
+default of 80, and the table of `hexdbb plan compare` is 103 wide. A table that needs more has it."""
 
 
 def output_console() -> Console:
     """Return the console that a command prints its results to."""
     on_terminal = sys.stdout is not None and sys.stdout.isatty()  # None: closed by the shell (>&-)
-    return TextConsole(width=None if on_terminal else REDIRECTED_WIDTH, highlight=False)
+    width = None if on_terminal else REDIRECTED_WIDTH
+    return TextConsole(width=width, highlight=False, long_lines=not on_terminal)
 
 
 def message_console() -> Console:

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 from rich.table import Table
 
-from hexdbb.cli.consoles import output_console, say
+from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.effects import load_effects
 from hexdbb.effects.handbook import effect_infos, shown_size
 
@@ -64,5 +64,6 @@ def handbook(output: Path) -> None:
     """
     from hexdbb.effects.signature import write_handbook  # matplotlib takes a second to import
 
-    written = write_handbook(output)
+    with message_console().status("drawing every effect"):
+        written = write_handbook(output)
     say(f"{output}: {len(written)} files", err=True)

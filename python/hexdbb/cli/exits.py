@@ -1,15 +1,27 @@
-"""End of a command: exit status 0 done, 1 did not succeed, 2 wrong use; an error is one line on stderr."""
+"""End of a command: exit status 0 done, 1 did not succeed, 2 wrong use, 130 Ctrl-C; an error is one line on stderr."""
 
 from __future__ import annotations
 
 import sys
 from contextlib import suppress
+from typing import Any
 
 import click
 
 from hexdbb.cli.consoles import drop, end_output
-from hexdbb.errors import HexdbbError
+from hexdbb.errors import HexdbbError, InterruptError
 from hexdbb.files.plain_text import printable
+
+
+class Program(click.Command):
+    """Click command whose Ctrl-C is an error of hexdbb; click would print "Aborted!" and exit as after a failure."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """See `click.Command.invoke`."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise InterruptError("interrupted") from None
 
 
 def reports_errors(command: click.Command) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import click
 import numpy as np
 
-from hexdbb.cli.consoles import say
+from hexdbb.cli.consoles import message_console, say
 from hexdbb.identifiability import (
     Expectation,
     Observability,
@@ -99,15 +99,16 @@ def assess_plan(plan: Plan, model: Model, rate_hz: float, noise_um: float | None
         The machine cannot follow a circle.
     """
     noise_mm = plan_noise_mm(plan, noise_um)
-    sensitivity = plan_sensitivity(plan, with_every_effect(model), rate_hz, origin)
-    return PlanAssessment(
-        noise_um=noise_mm * 1000.0,
-        readings=sensitivity.readings,
-        observability=observability(sensitivity),
-        expected=expected_uncertainties(sensitivity, noise_mm),
-        minimal_set=[each.label for each in minimal_set(sensitivity)[0]],
-        detectable=detectable_sizes(sensitivity, noise_mm),
-    )
+    with message_console().status(f"{origin}: what it determines"):
+        sensitivity = plan_sensitivity(plan, with_every_effect(model), rate_hz, origin)
+        return PlanAssessment(
+            noise_um=noise_mm * 1000.0,
+            readings=sensitivity.readings,
+            observability=observability(sensitivity),
+            expected=expected_uncertainties(sensitivity, noise_mm),
+            minimal_set=[each.label for each in minimal_set(sensitivity)[0]],
+            detectable=detectable_sizes(sensitivity, noise_mm),
+        )
 
 
 def _expected_json(expected: Expectation) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import click
 import numpy as np
 
 from hexdbb.capture.bus_load import check_load
-from hexdbb.cli.consoles import say
+from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option
 from hexdbb.cli.plan_tables import LIMITED, print_assessment, print_clearances, print_motion
 from hexdbb.errors import InputError
@@ -57,15 +57,18 @@ def check(
         raise InputError(f"{model_path}: machine: {model.machine.name} (expected the plan's, {machine.name})")
     try:
         load = check_load(rate_hz, machine.can_setup.bitrate_bit_s, len(machine.can_setup.drive_nodes))
-        programme = plan_programme(plan, machine, 1.0 / rate_hz, plan_name)
+        with message_console().status(f"{plan_name}: path, reach and limits"):
+            programme = plan_programme(plan, machine, 1.0 / rate_hz, plan_name)
     except InputError as error:
         if as_json:
             say(json.dumps({"reachable": False, "reason": str(error)}, indent=2))
         raise
-    runs = [
-        {**_run_json(programme, index), **_margins(programme, index, machine)} for index in range(len(programme.runs))
-    ]
-    clearances = _clearances(plan, machine, plan_name)
+    with message_console().status(f"{plan_name}: margins and clearances"):
+        runs = [
+            {**_run_json(programme, index), **_margins(programme, index, machine)}
+            for index in range(len(programme.runs))
+        ]
+        clearances = _clearances(plan, machine, plan_name)
     assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
     if as_json:
         extent = {"rows": len(programme.table), "memory_bytes": int(programme.extent.memory_bytes)}

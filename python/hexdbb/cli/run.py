@@ -12,6 +12,7 @@ from pathlib import Path
 import click
 from rich.console import Console
 
+from hexdbb import __version__
 from hexdbb.capture import Interrupts
 from hexdbb.capture.buses import SimulatedRig, opened_bus, running_clock
 from hexdbb.capture.display import LIVE_PERIOD_S, display
@@ -19,7 +20,7 @@ from hexdbb.capture.request import Request, RunProgress, prepare
 from hexdbb.capture.session import measure
 from hexdbb.capture.setup import Confirm
 from hexdbb.cli.consoles import drop, run_console
-from hexdbb.cli.exits import reports_errors, unwritable
+from hexdbb.cli.exits import Program, reports_errors, unwritable
 from hexdbb.cli.run_conditions import conditions_asked, conditions_options, numbered
 from hexdbb.cli.run_watched import refuse_without_page, watch_options, watched
 from hexdbb.errors import InputError, RunError
@@ -54,7 +55,8 @@ Buses (any interface of python-can):
 """
 
 
-@click.command("hexdbb-run", help=HELP, context_settings={"help_option_names": ["-h", "--help"]})
+@click.command("hexdbb-run", cls=Program, help=HELP, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="hexdbb-run")
 @click.option(
     "--plan", "plan_name", default="thesis", show_default=True, help="Plan file, or the name of a shipped plan."
 )

@@ -10,7 +10,7 @@ import click
 from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
-from hexdbb.cli.consoles import output_console, say
+from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.plan import load_plan
@@ -62,14 +62,16 @@ def contours(
     for suffix in suffixes:
         refuse_existing(stem.with_name(f"{stem.name}{suffix}"), overwrite)
     test = _test(plan_name, identity)
-    found = reference_contours(test, _names(errors)) if errors is not None else reference_contours(test)
+    with message_console().status("computing contours"):
+        found = reference_contours(test, _names(errors)) if errors is not None else reference_contours(test)
     write_text(table, found.to_csv())
     written = [table]
     if not no_plot:
         from hexdbb.plots import save_figure  # matplotlib takes a second to import
         from hexdbb.studies.thesis.pictures import contours_figure
 
-        written += save_figure(contours_figure(found), stem)
+        with message_console().status("drawing"):
+            written += save_figure(contours_figure(found), stem)
     say(f"{len(found.unknowns)} contours: {', '.join(str(path) for path in written)}", err=True)
 
 
@@ -88,7 +90,8 @@ def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) 
       hexdbb thesis estimate demo.parquet --errors leg1,leg3,leg5,y1,y2
       hexdbb thesis estimate demo.csv --errors leg1,y1,cup_x,cup_y --json
     """
-    found = thesis_estimate_record(read_record(record_path), _names(errors), minimum_norm=minimum_norm)
+    with message_console().status("estimating"):
+        found = thesis_estimate_record(read_record(record_path), _names(errors), minimum_norm=minimum_norm)
     if as_json:
         say(json.dumps(_to_json(found), indent=2, allow_nan=False))
         return
@@ -116,7 +119,9 @@ def tables() -> None:
     """
     from hexdbb.studies.thesis.tables_page import tables_page
 
-    say(tables_page(), nl=False)
+    with message_console().status("computing Tables 5.1-5.8"):
+        page = tables_page()
+    say(page, nl=False)
 
 
 @command.command("pages")
@@ -137,7 +142,9 @@ def pages(directory: Path) -> None:
     """
     from hexdbb.studies.thesis.pages import write_pages
 
-    say(f"written: {', '.join(str(path) for path in write_pages(directory))}", err=True)
+    with message_console().status("computing and drawing"):
+        written = write_pages(directory)
+    say(f"written: {', '.join(map(str, written))}", err=True)
 
 
 def _test(plan_name: str | None, identity: int | None) -> CircularTest:

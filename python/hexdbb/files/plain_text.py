@@ -9,6 +9,9 @@ from typing import Any
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
+from rich.table import Table
+
+from hexdbb.files.whole_tables import whole
 
 WIDTH = 110
 """Characters a line: commands print as wide where they are redirected."""
@@ -28,19 +31,42 @@ def printable(text: str, kept: str = "\n\t") -> str:
 
 
 class TextConsole(Console):
-    """Console that shows the control characters of texts as escapes, and texts with brackets as they are."""
+    """Console that shows control characters as escapes, texts with brackets as they are, and tables whole.
 
-    def __init__(self, **options: Any) -> None:
+    Parameters
+    ----------
+    long_lines : bool
+        A table wider than the console stays a table, as files and pipes want it; else it is printed in its long form.
+    **options
+        See `rich.console.Console`.
+    """
+
+    def __init__(self, *, long_lines: bool = False, **options: Any) -> None:
         super().__init__(**{"markup": False, "emoji": False, **options})
+        self._long_lines = long_lines
+
+    def print(self, *objects: Any, **options: Any) -> None:
+        """See `rich.console.Console.print`; lines are never cut at the console's edge."""
+        super().print(*objects, **{"crop": False, **options})
 
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
         """See `rich.console.Console.render`; colours are added to these segments later."""
-        for segment in super().render(renderable, options):
+        options = options or self.options
+        for segment in self._segments(renderable, options):
             yield segment if segment.control else segment._replace(text=printable(segment.text))
+
+    def _segments(self, renderable: RenderableType, options: ConsoleOptions) -> Iterable[Segment]:
+        # Without headings it is the layout of something else, such as a progress bar.
+        if isinstance(renderable, Table) and renderable.show_header:
+            for part in whole(renderable, self, options, self._long_lines):
+                yield from super().render(part, options)
+        else:
+            yield from super().render(renderable, options)
 
 
 def plain_text(shown: RenderableType) -> str:
     """Return a renderable as text without colours, lines ended by a newline but for the last."""
     lines = io.StringIO()
-    TextConsole(file=lines, width=WIDTH, highlight=False, color_system=None).print(shown, soft_wrap=True)
+    console = TextConsole(file=lines, width=WIDTH, highlight=False, color_system=None, long_lines=True)
+    console.print(shown, soft_wrap=True)
     return lines.getvalue().rstrip("\n")

@@ -12,9 +12,9 @@ from hexdbb.capture.checks import CHECKS
 from hexdbb.capture.clock import Deadlines, Lockstep
 from hexdbb.capture.motion import STEP_TIMEOUT_S, STOP_TIMEOUT_S
 from hexdbb.capture.sdo import SDO_TIMEOUT_S, SDO_TRIES
-from hexdbb.capture.session import MAX_MISSED
 from hexdbb.capture.settings import FOLLOWING_ERROR_TIME_MS
 from hexdbb.capture.supervision import SILENT_AFTER
+from hexdbb.capture.watch import MAX_MISSED
 from hexdbb.machine import shipped_machine
 
 PAGE = (Path(__file__).parents[3] / "docs" / "measuring.md").read_text(encoding="utf-8")

@@ -1,0 +1,113 @@
+"""A set's hypotheses exchanged for better ones: looked at again, put into known words, given the better form."""
+
+from __future__ import annotations
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
+
+
+def settled(search: Search, node: Node) -> Node:
+    """Take each cause out of a set and look again beside the others, until no set explains the readings better.
+
+    An early choice may have stood in for what came later: it is exchanged, or left out where it is needed no more.
+    """
+    for _ in range(search.criteria.most_rounds):
+        if len(node.members) < 2:
+            return node
+        for member in node.members:
+            others = tuple(each for each in node.members if each is not member)
+            search.expand(search.node(others, near=node))
+        better = sorted((each for each in search.nodes if each.score > node.score), key=lambda each: -each.score)
+        chosen = next((each for each in better if _is_admissible(search, each)), None)
+        if chosen is None:
+            return node
+        node = in_known_words(search, chosen)
+    return node
+
+
+def in_known_words(search: Search, node: Node) -> Node:
+    """Put known effects in the place of the learned functions that contain them, where they explain nearly as much."""
+    excess = search.root.trial.left - 1.0
+    for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
+        if learned not in node.hypotheses:
+            continue
+        at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
+        kept = tuple(each for each in node.members if each not in at_place)
+        others = []
+        for known in _known_for(search, [each.hypothesis.name for each in at_place]):
+            if known in node.hypotheses:
+                continue
+            try:
+                trial = search.trials.of((*kept, Member(known)))
+            except RunError:
+                continue
+            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            if near and not trial.refused:
+                others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
+        others.sort(key=lambda each: -each.score)
+        search.nodes += others
+        # What predicts is not exchanged for what is excused from predicting.
+        excused = search.checked(node).excused
+        node = next((e for e in others if not search.checked(e).reasons and excused >= search.checked(e).excused), node)
+    return node
+
+
+def of_better_form(search: Search, node: Node) -> Node:
+    """Exchange an effect of quite another form for a known one whose own form fits, at the same place."""
+    excess = search.root.trial.left - 1.0
+    for place, member in enumerate(node.members):
+        form = node.trial.forms[place]
+        if form is None or form.deviation <= search.criteria.form_named:
+            continue
+        others = tuple(each for each in node.members if each is not member)
+        for known in _known_for(search, list(form.functions)):
+            if known in node.hypotheses:
+                continue
+            try:
+                trial = search.trials.of((*others, Member(known)))
+            except RunError:
+                continue
+            own = trial.forms[-1]
+            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            if near and not trial.refused and own is not None and own.deviation < form.deviation:
+                found = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+                search.nodes.append(found)
+                if not search.checked(found).reasons:
+                    return _without_the_needless(search, found)
+    return node
+
+
+def _without_the_needless(search: Search, node: Node) -> Node:
+    """Leave out what made up for a form that is exchanged now."""
+    excess = search.root.trial.left - 1.0
+    for member in node.members:
+        others = tuple(each for each in node.members if each is not member)
+        if not others:
+            break
+        trial = search.trials.of(others)
+        if trial.left - node.trial.left < search.criteria.complete * excess and not trial.refused:
+            node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+            search.nodes.append(node)
+    return node
+
+
+def _is_admissible(search: Search, node: Node) -> bool:
+    return not node.trial.refused and not search.checked(node).reasons
+
+
+def _is_at(one: Hypothesis, learned: Learned) -> bool:
+    return isinstance(one, Learned) and (one.place, one.element) == (learned.place, learned.element)
+
+
+def _known_for(search: Search, names: list[str]) -> list[Known]:
+    """Return the known effects that live in one of some learned hypotheses, by what each explains of the readings."""
+    found = []
+    for name, kin in search.kin.items():
+        if kin & set(names):
+            effect, _, elements = name.partition(":")
+            whole = not elements
+            found.append(Known(effect, (elements or search.engine.base.info(effect).elements[0],), whole))
+    return found

@@ -1,0 +1,67 @@
+"""The programs' first lines: Ctrl-C during the second in which packages are imported ends them without a traceback.
+
+It lies beside the package because to import anything within `hexdbb` imports what that needs first.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from importlib import import_module
+
+INTERRUPTED = 130
+"""Exit status of a program ended by Ctrl-C, as shells give it: 128 and the number of SIGINT."""
+
+
+def hexdbb() -> None:
+    """Run the command `hexdbb`."""
+    _run("hexdbb.cli")
+
+
+def hexdbb_run() -> None:
+    """Run the command `hexdbb-run`."""
+    _run("hexdbb.cli.run")
+
+
+@contextmanager
+def ends_at_once() -> Iterator[None]:
+    """Let Ctrl-C end the process without an exception while modules are imported: there is nothing to be saved.
+
+    Compiled modules turn an exception during their import into one of their own, or print it. Signals that are ignored,
+    handled otherwise or not this thread's are left alone.
+    """
+    ours = _end_at_once()
+    try:
+        yield
+    finally:
+        if ours:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _run(module: str) -> None:
+    try:
+        with ends_at_once():
+            main = import_module(module).main
+        main()
+    except KeyboardInterrupt:  # between the import and the command, or after it
+        _end()
+    finally:
+        _end_at_once()  # what was printed is flushed; an exception while the interpreter ends would be a traceback
+
+
+def _end_at_once() -> bool:
+    try:
+        ours = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if ours:
+            signal.signal(signal.SIGINT, _end)
+    except ValueError:  # not the main thread
+        ours = False
+    return ours
+
+
+def _end(*_: object) -> None:
+    with suppress(OSError):  # closed by the shell
+        os.write(2, b"error: interrupted\n")
+    os._exit(INTERRUPTED)
