@@ -151,6 +151,7 @@ def watched_by_page(
     except BaseException:
         process.kill()
         process.wait()
+        _close(process)
         raise
     feed, outcome = PageFeed(pipe, progress), "an error in this program"
     try:
@@ -161,9 +162,7 @@ def watched_by_page(
         raise
     finally:
         feed.finish(outcome or None)
-        for stream in (process.stdin, process.stdout, process.stderr):
-            with suppress(OSError):
-                stream.close()
+        _close(process)
         process.poll()
 
 
@@ -175,7 +174,16 @@ def _address(process: subprocess.Popen[bytes]) -> str:
     address = process.stdout.readline().decode().strip() if ready else ""
     if address:
         return address
-    process.kill()
+    if not ready:
+        process.kill()
     said = process.stderr.read().decode(errors="replace").strip().splitlines()
-    why = said[-1] if said else f"nothing heard of it within {START_TIMEOUT_S:g} s"
+    silent = f"it ended with status {process.wait()}" if ready else f"nothing heard of it within {START_TIMEOUT_S:g} s"
+    why = said[-1] if said else silent
     raise RunError(f"--watch: the page did not start: {why}; nothing has moved")
+
+
+def _close(process: subprocess.Popen[bytes]) -> None:
+    for stream in (process.stdin, process.stdout, process.stderr):
+        if stream is not None:
+            with suppress(OSError):
+                stream.close()

@@ -11,6 +11,7 @@ import pytest
 from tests.programs import called
 from tests.python.live.watched import long_plan, watched
 
+from hexdbb.capture import page_feed
 from hexdbb.cli import run_watched
 from hexdbb.record import Record, read_record
 
@@ -53,4 +54,15 @@ def test_without_its_framework_the_page_is_refused_before_anything_moves(
     done = called("hexdbb-run", "--plan", "plan.toml", "-o", "run.parquet", "--watch", folder=tmp_path)
     assert done.returncode == 2
     assert done.stderr == "error: --watch: NiceGUI is not installed (expected: pip install 'hexdbb[workbench]')\n"
+    assert not (tmp_path / "run.parquet").exists()
+
+
+def test_a_page_that_does_not_start_ends_the_run_before_anything_moves(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(page_feed.sys, "executable", "/bin/false")
+    (tmp_path / "plan.toml").write_text(long_plan(1))
+    done = called("hexdbb-run", "--plan", "plan.toml", "-o", "run.parquet", "--watch", folder=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr == "error: --watch: the page did not start: it ended with status 1; nothing has moved\n"
     assert not (tmp_path / "run.parquet").exists()
