@@ -186,6 +186,8 @@ ALLOWED: dict[str, set[str]] = {
         "capture",
         "_core",
     },
+    # who may open a page, and how it is served
+    "pages": {"errors"},
     # seen and played with: a view of what the commands do
     "workbench": {
         "errors",
@@ -206,8 +208,11 @@ ALLOWED: dict[str, set[str]] = {
         "discovery",
         "api",
         "charts",
+        "pages",
         "_core",
     },
+    # a page that watches a run, told by it through a pipe
+    "live": {"errors", "charts", "pages"},
     # the rig's line
     "rig": {"errors", "files", "machine"},
     "capture": {"errors", "files", "machine", "plan", "record", "trajectory"},

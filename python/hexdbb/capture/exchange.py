@@ -105,6 +105,8 @@ class Exchange:
         asked.
     repeated : int
         Answers too many, so far.
+    sync_s : float
+        Monotonic time of the last SYNC, s.
     """
 
     def __init__(
@@ -128,7 +130,7 @@ class Exchange:
         self._given_up: set[int] = set()
         self._outstanding: set[int] = set()
         self._owed = [0] * SLOTS
-        self._sync_s = 0.0
+        self.sync_s = 0.0
 
     def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
         """Send the six RPDOs, which take effect at the next SYNC.
@@ -154,7 +156,7 @@ class Exchange:
         """Send the SYNC; raises `can.CanError` if the bus cannot send."""
         self.feedback.settled = not any(self._owed)
         self._bus.send(self._sync)
-        self._sync_s = time.monotonic()
+        self.sync_s = time.monotonic()
         self.feedback.cycle += 1
         self._outstanding = set(range(SLOTS))
 
@@ -251,7 +253,7 @@ class Exchange:
                 self.repeated += 1
         elif late:
             self._outstanding.discard(slot)
-            self.late_s[slot] = time.monotonic() - self._sync_s
+            self.late_s[slot] = time.monotonic() - self.sync_s
         elif self._decode(slot, message.data):
             self._outstanding.discard(slot)
 

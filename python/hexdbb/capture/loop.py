@@ -15,6 +15,7 @@ from typing import TypeVar
 import can
 
 from hexdbb.capture.clock import Clock
+from hexdbb.capture.cycle_times import CycleTimes
 from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
 from hexdbb.capture.frames import HEARTBEAT_BASE
 from hexdbb.capture.link import Link
@@ -61,6 +62,8 @@ class Loop:
         Cycles missed immediately before the last SYNC.
     counts : list of int
         Targets sent last, counts, shape (6,).
+    times : CycleTimes
+        Histograms of the cycles since `restart_time`, for a display.
     """
 
     def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float, cycle_s: float) -> None:
@@ -73,6 +76,7 @@ class Loop:
         self.missed = 0
         self.last_missed = 0
         self.counts: list[int] = [0] * 6
+        self.times = CycleTimes()
         self._incomplete = False
         self._owing, self._owed_cycles = 0, max(2, round(OWED_S / cycle_s))
         clock.start()
@@ -113,6 +117,7 @@ class Loop:
         self._settle_answers()
         self.cycle_index += 1 + self.last_missed
         self._exchange.send_sync()
+        self.times.take(self._exchange.sync_s, self.last_missed)
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
         if len(feedback.missing) == SLOTS and not self.clock.real_time:
             self._wait_for_any(controlwords, counts)
@@ -177,6 +182,7 @@ class Loop:
         """Restart the time of motion: the next SYNC has index 0."""
         self.cycle_index = -1
         self.missed = 0
+        self.times.clear()
 
     def hold_while(
         self, work: Callable[[], T], controlwords: Sequence[int], check: Callable[[], None] = lambda: None
@@ -210,6 +216,7 @@ class Loop:
                 self._exchange.listen(PAUSE_POLL_S)
             check()
         self._link.flush()
+        self.times.pause()
         self.cycle_index = cycle_index
         return future.result()
 

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from hexdbb.capture.bus_load import check_load
+from hexdbb.capture.cycle_times import CycleTimes
 from hexdbb.capture.settings import check_counts, interpolation_period
 from hexdbb.capture.setup import Confirm
 from hexdbb.capture.supervision import SILENT_AFTER
+from hexdbb.capture.watch import Watch
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
+from hexdbb.record.columns import Columns
 from hexdbb.trajectory import Programme, Targets, plan_programme
 
 
@@ -38,6 +42,13 @@ class RunProgress:
         The table that is being followed, approach included.
     notes : list of str
         Objects that devices lack and requests that the system refused, with the consequences.
+    watch : Watch or None
+        What the checks examine, once nodes are configured.
+    times : CycleTimes or None
+        Histograms of the cycles, from then on.
+    written : callable or None
+        Takes the columns of every batch of samples, in the journal's thread, when they are on disk; returns at once
+        and does not raise.
     """
 
     stage: str = "starting"
@@ -50,6 +61,9 @@ class RunProgress:
     reading_um: float = float("nan")
     programme: Programme | None = None
     notes: list[str] = field(default_factory=list)
+    watch: Watch | None = None
+    times: CycleTimes | None = None
+    written: Callable[[Columns], None] | None = None
 
 
 @dataclass(frozen=True)

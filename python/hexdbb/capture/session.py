@@ -143,6 +143,7 @@ class _Run:
             interrupts=interrupts,
         )
         self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
+        progress.watch, progress.times = self.watch, self.loop.times
 
     def record(self) -> Record:
         """Drive and record; whatever fails, stop all axes and keep the captured samples."""
@@ -180,6 +181,7 @@ class _Run:
             circles=plan.circles,
             metadata={**request.metadata, "notes": list(self.progress.notes)},
             overwrite=request.overwrite,
+            written=self.progress.written,
         )
         if journal.set_aside is not None:
             kept = f"recover it with: hexdbb recover {journal.set_aside} -o RECORD"

@@ -10,8 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from hexdbb.comparison import UM_PER_MM
-
+UM_PER_MM = 1e3
 SERIES = (1.0, 2.0, 5.0)
 LARGEST_SHARE_OF_RADIUS = 0.4
 """Largest length of a deviation in the drawing, as part of the nominal radius: the path stays a ring."""

@@ -22,6 +22,7 @@ from hexdbb.capture.setup import Confirm
 from hexdbb.cli.consoles import drop, run_console
 from hexdbb.cli.exits import Program, reports_errors, unwritable
 from hexdbb.cli.run_conditions import conditions_asked, conditions_options, numbered
+from hexdbb.cli.run_watched import refuse_without_page, watch_options, watched
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.plan import load_plan
@@ -46,6 +47,7 @@ Examples:
   hexdbb-run --plan standard --truth truth.toml --seed 3 -o simulated.parquet
   hexdbb-run --plan standard --compensation sp120.hexcomp -o after.parquet
   hexdbb-run --plan thesis --fault drive-fault:3@20 -o fault.parquet
+  hexdbb-run --plan my-plan.toml --bus socketcan:can0 --watch -o monday.parquet
 
 \b
 Buses (any interface of python-can):
@@ -95,6 +97,7 @@ Buses (any interface of python-can):
 @click.option(
     "--fault", "faults", multiple=True, metavar="SPEC", help="Simulated rig: fault to inject; see hexdbb rig --help."
 )
+@watch_options
 @click.option("--yes", is_flag=True, help="Do not ask whether the bar is mounted.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing record.")
 def command(
@@ -113,6 +116,8 @@ def command(
     truth: Path | None,
     seed: int | None,
     faults: tuple[str, ...],
+    watch: bool,
+    no_browser: bool,
     yes: bool,
     overwrite: bool,
 ) -> None:
@@ -126,6 +131,7 @@ def command(
     if rig.options and not simulated:
         raise InputError(f"{rig.options[0]}: option of the simulated rig (expected without --bus)")
     refuse_existing(record, overwrite)
+    refuse_without_page(watch)
     lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), RunProgress()
     request = numbered(request, machine_serial, gauge_serial, gauge_calibrated)
@@ -150,6 +156,7 @@ def command(
         programme = prepare(request)
     with (
         interrupts.watched(),
+        watched(request, progress, console, watch, no_browser),
         opened_bus(rig if bus_spec is None else bus_spec, request.machine) as bus,
         running_clock(lockstep, request.cycle_s, progress) as clock,
     ):

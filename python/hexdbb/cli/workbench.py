@@ -10,9 +10,8 @@ import click
 from hexdbb.cli.consoles import say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.errors import InputError
+from hexdbb.pages import MISSING
 from hexdbb.workbench import Session
-
-MISSING = "hexdbb workbench: NiceGUI is not installed (expected: pip install 'hexdbb[workbench]')"
 
 
 @click.command("workbench")
@@ -55,7 +54,7 @@ def command(
     except ModuleNotFoundError as error:
         if error.name is None or error.name.startswith("hexdbb"):
             raise
-        raise InputError(MISSING) from None
+        raise InputError(f"hexdbb workbench: {MISSING}") from None
     session = Session(records, model_path, effects_path)
 
     def ready(address: str) -> None:

@@ -11,7 +11,7 @@ import fcntl
 import math
 import os
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, BinaryIO, Self
@@ -56,6 +56,9 @@ class Journal:
         As in `Record`.
     overwrite : bool
         Whether an existing record may be replaced, and a journal set aside.
+    written : callable, optional
+        Takes the columns of every batch when it is on disk, in the journal's thread; returns at once and does not
+        raise.
 
     Attributes
     ----------
@@ -78,9 +81,10 @@ class Journal:
         circles: tuple[Circle, ...],
         metadata: Mapping[str, Any] | None = None,
         overwrite: bool = False,
+        written: Callable[[Columns], None] | None = None,
     ) -> None:
         self.path, self.journal_path = Path(path), journal_path(path)
-        self._overwrite = overwrite
+        self._overwrite, self._written = overwrite, written
         if self.path.suffix != SUFFIX:
             raise InputError(f"{path}: suffix {self.path.suffix!r} (expected {SUFFIX})")
         refuse_existing(self.path, overwrite)
@@ -232,6 +236,8 @@ class Journal:
             write_batch(self._stream, batch, self._rows_written)
             self._rows_written += batch.num_rows
         self._sync()
+        if self._written is not None:
+            self._written(columns)
 
     def _sync(self) -> None:
         self._file.flush()

@@ -2,25 +2,11 @@
 
 from __future__ import annotations
 
-import gc
-import secrets
-import socket
 from collections.abc import Callable
 
-import uvicorn
-from fastapi import FastAPI
-from nicegui import ui
-
-from hexdbb.errors import InputError
-from hexdbb.workbench.guard import Guard
+from hexdbb.pages.serving import serve_page
 from hexdbb.workbench.page import show
 from hexdbb.workbench.session import Session
-
-LOOPBACK = "127.0.0.1"
-RECONNECT_S = 30.0
-"""Time for which a tab that is not heard of is kept: a computer that fits on every core may be late by seconds."""
-TOKEN_BYTES = 24
-"""Length of the token: 192 bits cannot be guessed."""
 
 
 def serve(
@@ -43,44 +29,4 @@ def serve(
     InputError
         The port is in use.
     """
-    listening = _listening(port)
-    port = listening.getsockname()[1]
-    token = secrets.token_urlsafe(TOKEN_BYTES)
-    application = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
-
-    @ui.page("/", title="hexdbb workbench", language="en-GB")
-    def page() -> None:
-        show(session, allow_code)
-
-    ui.run_with(
-        application,
-        title="hexdbb workbench",
-        tailwind=False,
-        show_welcome_message=False,
-        reconnect_timeout=RECONNECT_S,
-        gzip_middleware_factory=None,
-    )
-    configuration = uvicorn.Config(
-        Guard(application, port, token),
-        log_level="warning",
-        ws="wsproto",
-        timeout_graceful_shutdown=1,
-    )
-    # What is there by now lives as long as the server. NiceGUI looks for the server among all objects that the
-    # collector follows, and fails on one of canopen's that refuses to be asked for its class.
-    gc.freeze()
-    ready(f"http://{LOOPBACK}:{port}/?token={token}")
-    uvicorn.Server(configuration).run(sockets=[listening])
-
-
-def _listening(port: int) -> socket.socket:
-    """Return a socket that listens on the loopback interface: connections wait until the server takes them."""
-    made = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
-    made.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    try:
-        made.bind((LOOPBACK, port))
-    except OSError as error:
-        made.close()
-        raise InputError(f"--port {port}: {error.strerror} (expected a free port, or 0 for any)") from None
-    made.listen()
-    return made
+    serve_page(lambda: show(session, allow_code), "hexdbb workbench", port, ready=ready)

@@ -1,6 +1,7 @@
-"""Who may open the workbench: this computer, from the address that the terminal printed.
+"""Who may open a page: this computer, from the address that the terminal printed.
 
-The page can write files, so that other programs' pages must not reach it. Of every request, web socket ones too:
+Pages can write files or stop a machine, so that other programs' pages must not reach them. Of every
+request, web socket ones too:
 
 - the server listens on the loopback interface only;
 - ``Host`` is this server's (no DNS name that was pointed here);
@@ -47,7 +48,7 @@ class Guard:
         self._hosts = {f"127.0.0.1:{port}", f"localhost:{port}"}
         self._origins = {f"http://{host}" for host in self._hosts}
         self._token = token
-        self._cookie = f"hexdbb_workbench_{port}"  # cookies do not keep ports apart
+        self._cookie = f"hexdbb_{port}"  # cookies do not keep ports apart
         self._headers = _headers(self._hosts)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -66,12 +67,12 @@ class Guard:
 
     def _refusal(self, scope: Scope, headers: dict[str, str]) -> str | None:
         if headers.get("host") not in self._hosts:
-            return "this address is not the workbench's"
+            return "this address is not the page's"
         origin = headers.get("origin")
         if origin not in self._origins and (origin is not None or scope["type"] == "websocket"):
             return "the request comes from another page"
         if not self._is_known(headers) and not (scope["type"] == "http" and self._has_token(scope)):
-            return "the token is missing (expected the whole address that hexdbb workbench printed)"
+            return "the token is missing (expected the whole address that was printed)"
         return None
 
     def _has_token(self, scope: Scope) -> bool:

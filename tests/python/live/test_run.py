@@ -1,0 +1,68 @@
+"""A page that dies, hangs or never starts changes nothing of the run that it watches."""
+
+from __future__ import annotations
+
+import os
+import signal
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.programs import called
+from tests.python.live.watched import long_plan, watched
+
+from hexdbb.capture import page_feed
+from hexdbb.cli import run_watched
+from hexdbb.record import Record, read_record
+
+OPTIONS = ("--rate", 50, "--seed", 5)
+
+
+@pytest.fixture(scope="module")
+def unwatched(tmp_path_factory: pytest.TempPathFactory) -> Record:
+    """Return the record of the run without a page."""
+    folder = tmp_path_factory.mktemp("unwatched")
+    (folder / "plan.toml").write_text(long_plan(2))
+    done = called("hexdbb-run", "--plan", "plan.toml", "-o", "run.parquet", *OPTIONS, folder=folder)
+    assert done.returncode == 0, done.stderr
+    return read_record(folder / "run.parquet")
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP], ids=["killed", "hanging"])
+def test_a_page_lost_in_mid_run_costs_no_sample(how: signal.Signals, unwatched: Record, tmp_path: Path) -> None:
+    (tmp_path / "plan.toml").write_text(long_plan(2))
+    with watched(tmp_path, *OPTIONS) as run:
+        assert run.process.stderr is not None
+        while "run 1/2" not in (line := run.process.stderr.readline()):
+            assert line, run.process.wait()
+        os.kill(run.page, how)
+        status, errors = run.finished()
+    assert status == 0, errors
+    assert ("note: the page that watches has ended; the run goes on" in errors) == (how is signal.SIGKILL)
+    record = read_record(tmp_path / "run.parquet")
+    assert record.complete
+    assert set(record.columns) == set(unwatched.columns)
+    for name, values in unwatched.columns.items():
+        np.testing.assert_array_equal(record.columns[name], values, err_msg=name)
+
+
+def test_without_its_framework_the_page_is_refused_before_anything_moves(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(run_watched, "find_spec", lambda name: None)
+    (tmp_path / "plan.toml").write_text(long_plan(1))
+    done = called("hexdbb-run", "--plan", "plan.toml", "-o", "run.parquet", "--watch", folder=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == "error: --watch: NiceGUI is not installed (expected: pip install 'hexdbb[workbench]')\n"
+    assert not (tmp_path / "run.parquet").exists()
+
+
+def test_a_page_that_does_not_start_ends_the_run_before_anything_moves(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(page_feed.sys, "executable", "/bin/false")
+    (tmp_path / "plan.toml").write_text(long_plan(1))
+    done = called("hexdbb-run", "--plan", "plan.toml", "-o", "run.parquet", "--watch", folder=tmp_path)
+    assert done.returncode == 1
+    assert done.stderr == "error: --watch: the page did not start: it ended with status 1; nothing has moved\n"
+    assert not (tmp_path / "run.parquet").exists()
