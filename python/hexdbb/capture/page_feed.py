@@ -26,7 +26,7 @@ from hexdbb.record.columns import Columns
 
 PERIOD_S = 0.2
 """Time between two states told, s: the eye takes it for continuous, and each costs the loop's interpreter
-half a millisecond."""
+less than a tenth of a millisecond."""
 WAITING_BATCHES = 64
 """Limits the queue: half a minute of samples, for a page that was stopped for a while."""
 START_TIMEOUT_S = 60.0
