@@ -76,20 +76,28 @@ def test_same_seed_same_record_and_the_next_command(run: Run, tmp_path: Path) ->
     assert other.content_hash() != record.content_hash()
 
 
+BUSY = ("planned samples are missing", "controller: stalled")
+"""How a run in real time may end on a computer that does other work: too many samples lost, or too long a stall."""
+ATTEMPTS = 3
+
+
 def test_real_time_and_lockstep_give_the_same_samples(run: Run, tmp_path: Path) -> None:
     slow = ("--seed", 5, "--rate", 25, "--overwrite")
     lockstep = recorded(run(*slow), tmp_path).columns
-    done = run(*slow, "--realtime")
-    # A computer busy enough loses more samples than a complete record may lack.
-    assert done.returncode == 0 or "planned samples are missing" in done.stderr, done.stderr
-    paced = read_record(tmp_path / "run.parquet").columns
-    # On a busy computer answers may come late; such rows are left out and take a cycle more, none is another.
     rows = {place: row for row, place in enumerate(zip(lockstep["sweep"], lockstep["angle_deg"], strict=True))}
-    common = [rows[place] for place in zip(paced["sweep"], paced["angle_deg"], strict=True)]
+    common: list[int] = []
+    for _ in range(ATTEMPTS):
+        done = run(*slow, "--realtime")
+        assert done.returncode == 0 or any(words in done.stderr for words in BUSY), done.stderr
+        paced = read_record(tmp_path / "run.parquet").columns
+        # On a busy computer answers may come late; such rows are left out and take a cycle more, none is another.
+        common = [rows[place] for place in zip(paced["sweep"], paced["angle_deg"], strict=True)]
+        for name, values in paced.items():
+            if name not in ("status", "t_s"):
+                assert np.array_equal(values, lockstep[name][common]), name
+        if len(common) > len(rows) / 2:
+            break
     assert len(common) > len(rows) / 2
-    for name, values in paced.items():
-        if name not in ("status", "t_s"):
-            assert np.array_equal(values, lockstep[name][common]), name
 
 
 def test_every_mount_is_announced_to_the_gauge(run: Run, plan: Path, exact: Path, tmp_path: Path) -> None:
