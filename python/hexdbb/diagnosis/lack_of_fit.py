@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.samples import Samples
@@ -110,7 +110,7 @@ class FitTest:
         if smooth_freedom <= 0 or rest_freedom <= 0:
             return 1.0, 0.0
         variance = rest / rest_freedom
-        chance = float(stats.f.sf(smooth / smooth_freedom / variance, smooth_freedom, rest_freedom))
+        chance = float(special.fdtrc(smooth_freedom, rest_freedom, smooth / smooth_freedom / variance))
         beyond = max(smooth - smooth_freedom * variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
 

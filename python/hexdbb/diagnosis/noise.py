@@ -13,6 +13,7 @@ rounded, so that it could only be one of few values.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -20,7 +21,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from hexdbb.plan import LEAST_NOISE_MM
 from hexdbb.samples import Samples
@@ -37,7 +38,9 @@ READINGS_PER_VALUE = 5
 """Readings for each harmonic's coefficient at least: fewer harmonics are removed from a shorter sweep."""
 CLIP = 3.0
 """Standard deviations beyond which a difference is a jump: one in 370 of normal noise, see `KEPT_VARIANCE`."""
-KEPT_VARIANCE = 1.0 - 2.0 * CLIP * float(stats.norm.pdf(CLIP)) / (2.0 * float(stats.norm.cdf(CLIP)) - 1.0)
+KEPT_VARIANCE = 1.0 - 2.0 * CLIP * math.exp(-0.5 * CLIP**2) / math.sqrt(2.0 * math.pi) / (
+    2.0 * float(special.ndtr(CLIP)) - 1.0
+)
 """Variance of a standard normal value given that it is within `CLIP`."""
 MAX_JUMPS = 0.1
 """Share of jumps that the start of the iteration stands: more than any gauge seen, far below one half."""
@@ -79,7 +82,7 @@ def _robust_sigma(values: Floats) -> float:
     if not len(values):
         return LEAST_NOISE_MM
     size = np.abs(values)
-    sigma = float(np.quantile(size, 1.0 - MAX_JUMPS)) / float(stats.norm.ppf(1.0 - MAX_JUMPS / 2.0))
+    sigma = float(np.quantile(size, 1.0 - MAX_JUMPS)) / float(special.ndtri(1.0 - MAX_JUMPS / 2.0))
     if sigma == 0.0:  # coarsely rounded readings are mostly alike
         sigma = float(np.sqrt(np.mean(values**2)))
     for _ in range(ROUNDS):

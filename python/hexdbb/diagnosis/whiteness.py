@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 Floats = NDArray[np.float64]
 
@@ -56,4 +56,4 @@ def _burst_chance(series: Sequence[Floats]) -> float:
     count = np.array([len(each) for each in series])
     level = np.log([float(each.var()) for each in series])
     deviation = level - np.average(level, weights=count)
-    return float(stats.chi2.sf(np.sum(0.5 * count * deviation**2), len(series) - 1)) if len(series) > 1 else 1.0
+    return float(special.chdtrc(len(series) - 1, np.sum(0.5 * count * deviation**2))) if len(series) > 1 else 1.0

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
@@ -121,7 +120,7 @@ class Forms:
         if not factor.shape[1]:
             return None
         grid = np.array(self.criteria.form_grid)
-        weights = stats.halfnorm.pdf(grid / self.criteria.form_sigma)
+        weights = np.exp(-0.5 * (grid / self.criteria.form_sigma) ** 2)  # half-normal
         found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
         return Beside(spaces, factor, block, projected, found)
 
