@@ -169,7 +169,7 @@ def _rig_that_never_waits(truth: Path, seed: int) -> Iterator[str]:
 
 
 def _real_time(pid: int) -> None:
-    """Give a process, or this thread (0), the scheduling that the controller requests for itself."""
+    """Set for a process, or this thread (0), the scheduling that the controller requests for itself."""
     os.sched_setscheduler(pid, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY))
 
 

@@ -70,7 +70,7 @@ class PagePipe:
 
 
 class PageFeed:
-    """Tells a page what happens, in a thread of its own.
+    """Sends a page what happens, from a thread of its own.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class PageFeed:
         self._thread.start()
 
     def finish(self, outcome: str | None) -> None:
-        """Tell how the run ended, if the page listens."""
+        """Send how the run ended, if the page reads."""
         self._finished.set()
         self._thread.join()
         until_s = time.monotonic() + END_TIMEOUT_S

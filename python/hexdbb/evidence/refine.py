@@ -42,7 +42,7 @@ def _is_fine(search: Search, node: Node) -> bool:
 
 
 def _finer(search: Search, node: Node) -> Node:
-    """Give learned functions more splines, one after another."""
+    """Return a set whose learned functions have more splines, where that gains and predicts."""
     for place, member in enumerate(node.members):
         for each in _with_more_splines(search, member.hypothesis):
             others = [*node.members[:place], *node.members[place + 1 :]]

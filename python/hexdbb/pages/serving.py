@@ -26,7 +26,7 @@ STYLE = (Path(__file__).parent / "style.css").read_text(encoding="utf-8")
 
 
 def dress() -> None:
-    """Give the page that is being built the colours and the style sheet of all pages."""
+    """Add to the page that is being built the colours and the style sheet of all pages."""
     ui.add_css(STYLE)
     ui.colors(primary=ACCENT, positive=GOOD, negative=BAD)
 
