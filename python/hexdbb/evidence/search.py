@@ -194,8 +194,8 @@ class Search:
         signatures, whose = self.engine.signatures(base.model, self.known)
         kinds = {name for name in self.known if self._is_whole(name)}
         scored = screen.known(signatures, whose, kinds)
-        for shape in filter(None, self.criteria.shape_starts):
-            shaped = [name for name in self.known if self.engine.has_shape(name)]
+        shaped = [name for name in self.known if self.engine.has_shape(name)]
+        for shape in filter(None, self.criteria.shape_starts if shaped else ()):
             scored = _better(scored, screen.known(*self.engine.signatures(base.model, shaped, shape), kinds))
         known = [each for each in scored if each.hypothesis not in present]
         if not self.learns:
