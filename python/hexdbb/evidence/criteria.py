@@ -98,6 +98,11 @@ class Criteria:
         Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
     beam : int
         Sets of hypotheses that are followed where one does not explain all.
+    known_sets : int
+        Sets of known effects of each size that get a full fit: neighbours in the ranking differ by an element.
+    known_sets_followed : int
+        Sets of a size that are widened by every effect: what belongs to the best of three is among the best of two
+        unless thirty others imitate it.
     max_expansions : int
         Sets beside which all hypotheses are screened, at most: bounds the time of a search.
     most_expansions : int
@@ -126,6 +131,9 @@ class Criteria:
     secondary : float
         Factor on the variance that the forms of the causes found may leave, which a further cause must exceed: twice
         `form_sigma` squared is a form 20 % off, the largest that the calibration has.
+    form_described : float
+        Part of a form that the functions beside an effect leave undescribed, at most: a further known effect, itself
+        larger than forms may be off, must explain more than its square where others stand in for most of it.
     """
 
     max_rows: int = 12000
@@ -166,6 +174,8 @@ class Criteria:
     heldout_share_min: float = 0.5
     heldout_ratio: float = 1.5
     beam: int = 2
+    known_sets: int = 3
+    known_sets_followed: int = 30
     max_expansions: int = 4
     most_expansions: int = 6
     complete: float = 0.02
@@ -178,6 +188,7 @@ class Criteria:
     form_named: float = 0.3
     same_kind_share: float = 0.05
     secondary: float = 2.0
+    form_described: float = 0.05
 
 
 DEFAULT = Criteria()

@@ -243,8 +243,13 @@ class Engine:
 
     def geometry(self, fitted: Fitted) -> NDArray[np.bool_]:
         """Return which free values are geometry's or the set-up's: all but those of effects that could be missing."""
-        parameters, mine = fitted.model.parameters(), self._mine()
-        return np.array([parameters[column].effect not in mine for column in fitted.free], dtype=bool)
+        return self.geometry_of(fitted.model)
+
+    def geometry_of(self, model: Model) -> NDArray[np.bool_]:
+        """Return the same of a model as it is; what the base does not have is not geometry's."""
+        before = {each.effect for each in self.base.parameters()} - self._mine()
+        named = zip(model.parameters(), model.free, strict=True)
+        return np.array([each.effect in before for each, is_free in named if is_free], dtype=bool)
 
     def _mine(self) -> set[str]:
         return {*_core.effect_names("catalogue"), *self.base.own_effects}

@@ -95,7 +95,8 @@ def _without_the_needless(search: Search, node: Node) -> Node:
 
 
 def _is_admissible(search: Search, node: Node) -> bool:
-    return not node.trial.refused and not search.checked(node).reasons
+    """Check that a set predicts and that nothing could be left out of it."""
+    return not node.trial.refused and search.needs_all(node) and not search.checked(node).reasons
 
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:

@@ -25,6 +25,7 @@ from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
+from hexdbb.evidence.together import KnownSets, Together
 from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned
 
@@ -123,18 +124,81 @@ class Search:
     def run(self) -> Node:
         """Return the best set of hypotheses; the empty one where nothing is found."""
         best, beam = self.root, [self.root]
-        for _ in range(self.criteria.max_effects):
+        for size in range(self.criteria.max_effects):
             beam = beam[: self.criteria.max_expansions - len(self._expanded)]
             children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
-            children = [child for child in children if self._is_worth(child, best)]
+            children = [child for child in children if self._is_worth(child)]
             beam = self._kept(children)
+            best = max([best, *filter(self._predicts, beam)], key=lambda each: each.score)
+            if size == 0 and best.trial.left > self.criteria.refined_to:
+                best = self._or_known_together(best)
+                beam = [best, *beam] if len(best.members) > 1 else beam
             if not beam:
                 break
-            best = max([best, *filter(self._predicts, beam)], key=lambda each: each.score)
             if self._is_complete(best):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if _is_known(each)] if _is_free_in_time(best) else []
         return best
+
+    def _or_known_together(self, best: Node) -> Node:
+        """Return the best set of known effects, chosen together, where it is better than what explains most alone.
+
+        Of three faults none explains much alone, and a free function that explains all three a little stands first.
+        """
+        found = [best]
+        alone = {h for each in self.nodes if self._explains_all_alone(each) for h in each.hypotheses}
+        for together in self._known_sets(2 if alone else self.criteria.max_effects):
+            if together.effects & alone:
+                continue
+            members = tuple(Member(each.known) for each in together.members)
+            try:
+                trial = self.trials.of(members)
+            except RunError:
+                continue
+            node = next((each for each in self.nodes if each.trial is trial), None)
+            if node is None:
+                prior = sum(self.log_prior(each.hypothesis) for each in members)
+                node = Node(trial, trial.log_evidence + prior)
+                self.nodes.append(node)
+            if node.score > best.score and not trial.refused and self.needs_all(node) and self._predicts(node):
+                found.append(node)
+        return max(found, key=lambda each: each.score)
+
+    def _known_sets(self, most: int) -> list[Together]:
+        """Return the sets of two to so many known effects that are worth a full fit."""
+        model = self.root.trial.model
+        shaped = [name for name in self.known if self.engine.has_shape(name)]
+        tables = [self.engine.signatures(model, self.known)]
+        tables += [self.engine.signatures(model, shaped, each) for each in self.criteria.shape_starts if each and shaped]
+        screen = Screen(Sums(self.trials.linear(self.root.trial), self.engine.readings, ()), self.criteria, self.thinned)
+        kinds = {name for name in self.known if self._is_whole(name)}
+        sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, self.criteria)
+        return sets.best(most, self.criteria.most_of_one_effect)
+
+    def needs_all(self, node: Node) -> bool:
+        """Check that no hypothesis of a set could be left out."""
+        return all(self._needs(node, member) for member in node.members)
+
+    def _needs(self, node: Node, member: Member) -> bool:
+        """Check that a hypothesis is more than the forms of the others may leave.
+
+        A free function describes whatever a form leaves: what it explains beyond the others counts. For a known effect
+        its own size does, since other causes may stand in for most of it.
+        """
+        others = self.trials.of(tuple(each for each in node.members if each is not member))
+        gain = node.trial.log_evidence - others.log_evidence + self.log_prior(member.hypothesis)
+        if gain < self.criteria.detect_nats:
+            return False
+        explained = self.root.trial.left - others.left + self.trials.explained_before
+        least = self.criteria.secondary * self.criteria.form_sigma**2 * explained
+        beyond = others.left - node.trial.left
+        if isinstance(member.hypothesis, Learned) or beyond >= least:
+            return beyond >= least
+        if beyond < self.criteria.form_described**2 * explained:
+            return False
+        sizes = {h: self.trials.size(node.trial, h) for h in node.hypotheses if isinstance(h, Known)}
+        # What pushes more than was missing is undone by another: neither has its size for certain.
+        return least <= sizes[member.hypothesis] and max(sizes.values()) <= self.root.trial.left
 
     def expand(self, node: Node) -> list[Node]:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
@@ -159,9 +223,10 @@ class Search:
 
     def checked(self, node: Node) -> Checked:
         """Return how a set predicts what is held out, and what speaks against it."""
-        if id(node) not in self._checked:
-            self._checked[id(node)] = check(node.trial, self.root.trial, self.trials, self.criteria)
-        return self._checked[id(node)]
+        trial = node.trial
+        if id(trial) not in self._checked:
+            self._checked[id(trial)] = check(trial, self.root.trial, self.trials, self.criteria)
+        return self._checked[id(trial)]
 
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Check whether two hypotheses are one cause in different words."""
@@ -246,16 +311,9 @@ class Search:
         """Keep what the choice of hypotheses' instants or periods costs."""
         self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
 
-    def _is_worth(self, node: Node, best: Node) -> bool:
-        """Check that a set is admissible, gains, and removes more than the forms of the causes found may leave."""
-        parent = self.trials.of(node.members[:-1])
-        gain = node.score - self._score(parent)
-        explained = self.root.trial.left - parent.left + self.trials.explained_before
-        small = parent.left - node.trial.left < self.criteria.secondary * self.criteria.form_sigma**2 * explained
-        return gain >= self.criteria.detect_nats and not small and not node.trial.refused
-
-    def _score(self, trial: Trial) -> float:
-        return next(each.score for each in self.nodes if each.trial is trial)
+    def _is_worth(self, node: Node) -> bool:
+        """Check that a set is admissible and needs what it has more than the set that it grew from."""
+        return not node.trial.refused and self._needs(node, node.members[-1])
 
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""
@@ -278,6 +336,9 @@ class Search:
     def _is_complete(self, node: Node) -> bool:
         excess = self.root.trial.left - 1.0
         return node.trial.left - 1.0 < max(self.criteria.complete * excess, 0.03)
+
+    def _explains_all_alone(self, node: Node) -> bool:
+        return len(node.members) == 1 and _is_known(node) and self._is_complete(node) and not node.trial.refused
 
     def _is_whole(self, effect: str) -> bool:
         return len(self.engine.base.info(effect).elements) == 1

@@ -126,12 +126,20 @@ class Trials:
         names = {(each.effect, each.elements[0]) for each in self._present}
         every = [self.engine.base.parameters()[column] for column in fitted.free]
         own = np.array([(each.effect, each.element) in names for each in every])
-        if not own.any():
-            return 0.0
-        part = fitted.linear.own[:, own] @ fitted.linear.standing[own]
-        others = fitted.linear.own[:, ~own]
-        imitated = others @ np.linalg.solve(others.T @ others + np.eye(others.shape[1]), others.T @ part)
-        return float(np.mean((part - imitated) ** 2))
+        return _beyond(fitted.linear.own, fitted.linear.standing, own, ~own)
+
+    def size(self, trial: Trial, known: Known) -> float:
+        """Mean square of what a known effect of a trial pushes that geometry does not, in noise variances.
+
+        What it explains alone; that other effects may stand in for it makes it no smaller.
+        """
+        linear, model = self.linear(trial), trial.model
+        free = [each for each, is_free in zip(model.parameters(), model.free, strict=True) if is_free]
+        own = np.zeros(linear.own.shape[1], bool)
+        own[: len(free)] = [each.effect == known.effect and each.element in known.elements for each in free]
+        geometry = np.zeros(linear.own.shape[1], bool)
+        geometry[: len(free)] = self.engine.geometry_of(model)
+        return _beyond(linear.own, linear.standing, own, geometry)
 
     def _tried(self, members: tuple[Member, ...]) -> Trial:
         fitted = self._fitted(members)
@@ -192,6 +200,15 @@ class Trials:
         if not found:
             raise RunError("no start of the fit succeeded")
         return max(found, key=lambda each: each.linear.log_evidence)
+
+
+def _beyond(columns: Floats, values: Floats, own: NDArray[np.bool_], others: NDArray[np.bool_]) -> float:
+    """Return the mean square of what some values push that others, with their priors, do not imitate."""
+    if not own.any():
+        return 0.0
+    part, rest = columns[:, own] @ values[own], columns[:, others]
+    imitated = rest @ np.linalg.solve(rest.T @ rest + np.eye(rest.shape[1]), rest.T @ part)
+    return float(np.mean((part - imitated) ** 2))
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:

@@ -174,13 +174,14 @@ def _part(learned: Learned) -> str:
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
     rivals, alike, margin = [], [], float("inf")
-    for other in search.nodes:
+    # The best first: what lies behind the margin found need not be held out.
+    for other in sorted(search.nodes, key=lambda each: -each.score):
         if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
             continue
         lead = (node.score - other.score) / max(node.trial.left, 1.0)
         is_rival = lead < max(margin, search.criteria.margin_nats) and other is not search.root
-        # A set of more causes that explains as much is no other explanation of this one.
-        is_rival = is_rival and len(other.members) <= len(node.members)
+        # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
+        is_rival = is_rival and (len(other.members) <= len(node.members) or lead < -search.criteria.margin_nats)
         if is_rival and (search.checked(other).reasons or _bent(search, other)):
             continue
         if isinstance(cause, Known) and any(
