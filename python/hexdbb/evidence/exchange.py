@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.needed import needs_all
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import Member
@@ -96,7 +97,7 @@ def _without_the_needless(search: Search, node: Node) -> Node:
 
 def _is_admissible(search: Search, node: Node) -> bool:
     """Check that a set predicts and that nothing could be left out of it."""
-    return not node.trial.refused and search.needs_all(node) and not search.checked(node).reasons
+    return not node.trial.refused and needs_all(search, node) and not search.checked(node).reasons
 
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:

@@ -19,6 +19,7 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.needed import needs, needs_all
 from hexdbb.evidence.proposals import Proposal, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -127,7 +128,7 @@ class Search:
         for size in range(self.criteria.max_effects):
             beam = beam[: self.criteria.max_expansions - len(self._expanded)]
             children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
-            children = [child for child in children if self._is_worth(child)]
+            children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
             beam = self._kept(children)
             best = max([best, *filter(self._predicts, beam)], key=lambda each: each.score)
             if size == 0 and best.trial.left > self.criteria.refined_to:
@@ -160,45 +161,21 @@ class Search:
                 prior = sum(self.log_prior(each.hypothesis) for each in members)
                 node = Node(trial, trial.log_evidence + prior)
                 self.nodes.append(node)
-            if node.score > best.score and not trial.refused and self.needs_all(node) and self._predicts(node):
+            if node.score > best.score and not trial.refused and needs_all(self, node) and self._predicts(node):
                 found.append(node)
         return max(found, key=lambda each: each.score)
 
     def _known_sets(self, most: int) -> list[Together]:
         """Return the sets of two to so many known effects that are worth a full fit."""
         model = self.root.trial.model
-        shaped = [name for name in self.known if self.engine.has_shape(name)]
         tables = [self.engine.signatures(model, self.known)]
-        tables += [self.engine.signatures(model, shaped, each) for each in self.criteria.shape_starts if each and shaped]
-        screen = Screen(Sums(self.trials.linear(self.root.trial), self.engine.readings, ()), self.criteria, self.thinned)
+        if shaped := [name for name in self.known if self.engine.has_shape(name)]:
+            tables += [self.engine.signatures(model, shaped, each) for each in filter(None, self.criteria.shape_starts)]
+        sums = Sums(self.trials.linear(self.root.trial), self.engine.readings, ())
+        screen = Screen(sums, self.criteria, self.thinned)
         kinds = {name for name in self.known if self._is_whole(name)}
         sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, self.criteria)
         return sets.best(most, self.criteria.most_of_one_effect)
-
-    def needs_all(self, node: Node) -> bool:
-        """Check that no hypothesis of a set could be left out."""
-        return all(self._needs(node, member) for member in node.members)
-
-    def _needs(self, node: Node, member: Member) -> bool:
-        """Check that a hypothesis is more than the forms of the others may leave.
-
-        A free function describes whatever a form leaves: what it explains beyond the others counts. For a known effect
-        its own size does, since other causes may stand in for most of it.
-        """
-        others = self.trials.of(tuple(each for each in node.members if each is not member))
-        gain = node.trial.log_evidence - others.log_evidence + self.log_prior(member.hypothesis)
-        if gain < self.criteria.detect_nats:
-            return False
-        explained = self.root.trial.left - others.left + self.trials.explained_before
-        least = self.criteria.secondary * self.criteria.form_sigma**2 * explained
-        beyond = others.left - node.trial.left
-        if isinstance(member.hypothesis, Learned) or beyond >= least:
-            return beyond >= least
-        if beyond < self.criteria.form_described**2 * explained:
-            return False
-        sizes = {h: self.trials.size(node.trial, h) for h in node.hypotheses if isinstance(h, Known)}
-        # What pushes more than was missing is undone by another: neither has its size for certain.
-        return least <= sizes[member.hypothesis] and max(sizes.values()) <= self.root.trial.left
 
     def expand(self, node: Node) -> list[Node]:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
@@ -223,7 +200,10 @@ class Search:
 
     def checked(self, node: Node) -> Checked:
         """Return how a set predicts what is held out, and what speaks against it."""
-        trial = node.trial
+        return self.checked_trial(node.trial)
+
+    def checked_trial(self, trial: Trial) -> Checked:
+        """Return the same of a trial, whether it is of a node or not."""
         if id(trial) not in self._checked:
             self._checked[id(trial)] = check(trial, self.root.trial, self.trials, self.criteria)
         return self._checked[id(trial)]
@@ -311,10 +291,6 @@ class Search:
         """Keep what the choice of hypotheses' instants or periods costs."""
         self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
 
-    def _is_worth(self, node: Node) -> bool:
-        """Check that a set is admissible and needs what it has more than the set that it grew from."""
-        return not node.trial.refused and self._needs(node, node.members[-1])
-
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""
         kept: list[Node] = []
@@ -322,13 +298,11 @@ class Search:
             alike = any(_alike(self, child, other) for other in kept)
             if len(kept) < self.criteria.beam and not alike and self._predicts(child):
                 kept.append(child)
-        known = [each for each in children if _is_known(each)]
-        # Of two faults neither predicts alone: where no known effect does, the best is looked at further.
-        best = next((each for each in known if any(each is one for one in kept) or self._predicts(each)), None)
-        best = best or next(iter(known), None)
-        if best is not None and not any(best is one for one in kept):
+        # Of two faults neither predicts alone, and one of another form may not either: the best is looked at further.
+        best = next((each for each in children if _is_known(each)), None)
+        if best is not None and not any(best is each for each in kept):
             kept.append(best)
-        return kept
+        return sorted(kept, key=lambda each: -each.score)
 
     def _predicts(self, node: Node) -> bool:
         return not self.checked(node).reasons

@@ -2,7 +2,7 @@
 
 A known effect has few values, so that the evidence of thousands of sets costs small matrices only, all cut from one
 table of sums: every pair is scored, and the best sets of each size are widened by every effect in turn. To first order
-and with the tempered noise of `screen.py`, as for single hypotheses; the best sets are then fitted in full by the search.
+and with the tempered noise of `screen.py`, as for single hypotheses; the search then fits the best sets in full.
 """
 
 from __future__ import annotations
@@ -76,26 +76,26 @@ class KnownSets:
         ]
 
     def best(self, most: int, per_effects: int) -> list[Together]:
-        """Return the best sets of two to `most` effects that explain more than the best with one effect fewer.
+        """Return the best sets of two to `most` effects that explain more than any with fewer.
 
         Parameters
         ----------
         most : int
             Effects in a set.
         per_effects : int
-            Sets of the same effects at different elements.
+            Elements of one effect in a set, and sets of the same effects at different elements: all six screws that
+            warm, each in its own way, imitate whatever changes with time.
         """
         chosen: list[Together] = []
-        narrower = self._scored([(each,) for each in self.every])
+        sets = self._scored([(each,) for each in self.every])
         choice = self.criteria.detect_nats + float(np.log(max(len(self.every), 1)))
+        best = max((each.log_evidence for each in sets), default=0.0)
         for size in range(2, most + 1):
-            if not narrower:
-                break
-            followed = narrower if size == 2 else narrower[: self.criteria.known_sets_followed]
-            wider = self._scored(_widened((each.members for each in followed), self.every))
-            worth = [each for each in wider if each.log_evidence > narrower[0].log_evidence + choice]
+            followed = sets if size == 2 else sets[: self.criteria.known_sets_followed]
+            sets = self._scored(_widened((each.members for each in followed), self.every, per_effects))
+            worth = [each for each in sets if each.log_evidence > best + choice]
             chosen += _of_different_effects(worth, self.criteria.known_sets, per_effects)
-            narrower = worth
+            best = max([best, *(each.log_evidence for each in worth)])
         return chosen
 
     def _scored(self, sets: Sequence[tuple[Signed, ...]]) -> list[Together]:
@@ -127,13 +127,16 @@ class KnownSets:
         return averaged
 
 
-def _widened(sets: Iterable[tuple[Signed, ...]], every: Sequence[Signed]) -> list[tuple[Signed, ...]]:
+def _widened(
+    sets: Iterable[tuple[Signed, ...]], every: Sequence[Signed], of_one_effect: int
+) -> list[tuple[Signed, ...]]:
     """Return every set with every effect beside it, each combination once."""
     found: dict[frozenset[Signed], tuple[Signed, ...]] = {}
     for each in sets:
         there = {one.known for one in each}
         for other in every:
-            if other.known not in there:
+            alike = sum(known.effect == other.known.effect for known in there)
+            if other.known not in there and alike < of_one_effect:
                 found.setdefault(frozenset((*each, other)), (*each, other))
     return list(found.values())
 

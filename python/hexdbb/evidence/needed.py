@@ -1,0 +1,49 @@
+"""What a set of hypotheses needs: a hypothesis stays that is more than the forms of the others may leave."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.trial import Member
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Node, Search
+
+
+def needs_all(search: Search, node: Node) -> bool:
+    """Check that no hypothesis of a set could be left out."""
+    return all(needs(search, node, member) for member in node.members)
+
+
+def needs(search: Search, node: Node, member: Member) -> bool:
+    """Check that a hypothesis is more than the forms of the others may leave, or that these alone do not predict.
+
+    A free function describes whatever a form leaves: what it explains beyond the others counts. For a known effect its
+    own size does, since other causes may stand in for most of it.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        The set.
+    member : Member
+        The hypothesis in question.
+    """
+    criteria, trials = search.criteria, search.trials
+    others = trials.of(tuple(each for each in node.members if each is not member))
+    gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
+    explained = search.root.trial.left - others.left + trials.explained_before
+    beyond = others.left - node.trial.left
+    if gain < criteria.detect_nats or beyond < criteria.form_described**2 * explained:
+        return False
+    least = criteria.secondary * criteria.form_sigma**2 * explained
+    if beyond >= least or search.checked_trial(others).reasons:
+        return True
+    return isinstance(member.hypothesis, Known) and _is_of_size(search, node, member.hypothesis, least)
+
+
+def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:
+    """Check the size of a known effect; what pushes more than was missing is undone by another of the set."""
+    sizes = {each: search.trials.size(node.trial, each) for each in node.hypotheses if isinstance(each, Known)}
+    return least <= sizes[known] and max(sizes.values()) <= search.root.trial.left
