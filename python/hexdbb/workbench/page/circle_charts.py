@@ -17,6 +17,12 @@ class CircleCharts(Element, component="circle_charts.js"):
         self.on("ready", lambda _: on_ready())
         self.on("cursor", lambda event: on_cursor(float(event.args)))
 
-    def show(self, measured: dict[str, Any] | None, predicted: dict[str, Any]) -> None:
-        """Draw a circle; `measured` is None where only the model changed (`CircleView`)."""
-        self.run_method("show", measured, predicted)
+    def show(
+        self, measured: dict[str, Any] | None, predicted: dict[str, Any], fitted: list[dict[str, str]] | None
+    ) -> None:
+        """Draw a circle (`CircleView`); `measured` is None where only the model changed, `fitted` where it stands."""
+        self.run_method("show", measured, predicted, fitted)
+
+    def settle(self, points: list[Any]) -> None:
+        """Draw every reading's residual, and the axes anew, when what is dragged rests (`CircleView.points`)."""
+        self.run_method("settle", points)

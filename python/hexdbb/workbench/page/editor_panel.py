@@ -11,6 +11,7 @@ from pathlib import Path
 from nicegui import ui
 
 from hexdbb.workbench.columns import variables
+from hexdbb.workbench.outputs import write_effects
 from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop, refused
 from hexdbb.workbench.session import Session
@@ -62,7 +63,7 @@ class EditorPanel:
             self._text.value = f'{self._text.value.rstrip()}  # samples["{found.column}"]{part}\n'
 
     def _compete(self) -> str:
-        names = self._session.write_effects(Path(self._file.value), self._text.value)
+        names = write_effects(self._session, Path(self._file.value), self._text.value)
         self._session.ask()
         return f"{', '.join(names)}: competed"
 

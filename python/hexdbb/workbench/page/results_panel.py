@@ -7,6 +7,7 @@ from pathlib import Path
 
 from nicegui import ui
 
+from hexdbb.workbench.outputs import write_compensation, write_next_plan, write_report
 from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop
 from hexdbb.workbench.session import Session
@@ -57,14 +58,16 @@ class ResultsPanel:
         return f"{path}: written; every further step is written there"
 
     def _compensate(self, path: Path) -> str:
-        left_out = self._session.write_compensation(path)
+        left_out = write_compensation(self._session, path)
         return "; ".join([f"{path}: written", *(f"left out: {name} ({why})" for name, why in left_out)])
 
     def _report(self, path: Path) -> str:
-        return f"{path}: written. {self._session.write_report(path)}"
+        return f"{path}: written. {write_report(self._session, path)}"
 
     def _plan(self, path: Path) -> str:
-        return f"{path}: written, a circle that {self._session.plan_next(path)}; hexdbb-run --plan {path} drives it"
+        return (
+            f"{path}: written, a circle that {write_next_plan(self._session, path)}; hexdbb-run --plan {path} drives it"
+        )
 
     def _script(self) -> None:
         text = self._session.script.text

@@ -15,6 +15,9 @@ from hexdbb.workbench.page.missing_panel import MissingPanel
 from hexdbb.workbench.page.results_panel import ResultsPanel
 from hexdbb.workbench.session import Session
 
+REST_S = 0.12
+"""Time without a change after which all is drawn: a value that is dragged changes every 0.05 s and oftener."""
+
 
 class Page:
     """One tab.
@@ -32,6 +35,7 @@ class Page:
         self._client = ui.context.client
         self._loop = asyncio.get_running_loop()
         self._is_waiting = False
+        self._resting: asyncio.TimerHandle | None = None
         self._model = session.model
         with ui.element("div").classes("wb-page"):
             self._head = Head(session)
@@ -45,7 +49,8 @@ class Page:
                 if allow_code:
                     EditorPanel(session)
                 ResultsPanel(session)
-        self._client.on_delete(session.listen(self._heard))
+        self._client.on_delete(session.changes.listen(self._heard))
+        self._client.on_delete(self._end)
 
     def _heard(self) -> None:
         """Take note of a change, in whichever thread it was made; many at once are drawn once."""
@@ -53,11 +58,25 @@ class Page:
             self._is_waiting = True
             self._loop.call_soon_threadsafe(self._draw)
 
+    def _end(self) -> None:
+        if self._resting is not None:
+            self._resting.cancel()
+
     def _draw(self) -> None:
+        """Draw curves and numbers at once, all that costs the browser more when nothing has changed for a moment."""
         self._is_waiting = False
         with self._client:
-            self._circle.draw()
-            self._head.draw()
+            self._circle.follow()
+            self._head.follow()
+        if self._resting is not None:
+            self._resting.cancel()
+        self._resting = self._loop.call_later(REST_S, self._settle)
+
+    def _settle(self) -> None:
+        self._resting = None
+        with self._client:
+            self._circle.settle()
+            self._head.settle()
             self._missing.draw()
             self._effects.draw(anew=self._session.model is not self._model)
             self._ladder.draw()
