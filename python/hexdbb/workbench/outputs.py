@@ -13,7 +13,7 @@ from hexdbb.effects import load_effects
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.plan import save_plan
-from hexdbb.workbench.own_code import require_ending
+from hexdbb.workbench.own_code import COMPUTING_S, require_ending
 from hexdbb.workbench.script import Name, call
 from hexdbb.workbench.session import Session
 
@@ -56,7 +56,7 @@ def write_next_plan(session: Session, path: Path, progress: Callable[[str], None
     return what
 
 
-def write_effects(session: Session, path: Path, source: str) -> list[str]:
+def write_effects(session: Session, path: Path, source: str, computing_s: int = COMPUTING_S) -> list[str]:
     """Write a Python file of effects, try it in a process of its own, and let its effects compete.
 
     Returns
@@ -74,7 +74,7 @@ def write_effects(session: Session, path: Path, source: str) -> list[str]:
             raise InputError(f"{path}: not written (expected a new name that ends in .py)")
         write_text(path, source)
         session.effects_path = path
-        require_ending(path, [record.path for record in session.records if record.path is not None])
+        require_ending(path, [record.path for record in session.records if record.path is not None], computing_s)
         effects = load_effects(path)
         session.know_effects(effects)
     return [each.name for each in effects]

@@ -108,7 +108,7 @@ class MissingPanel:
     def _preview(self, each: Candidate, previewed: bool) -> None:
         refused(self._session.back_to_fit if previewed else lambda: self._session.preview(*each.names))
 
-    def _adding(self, each: Candidate) -> Callable[[], Awaitable[None]]:
+    def _adding(self, each: Candidate) -> Callable[[], Awaitable[bool]]:
         return off_loop(lambda: self._session.add(*each.names), f"{each.choice} added")
 
 

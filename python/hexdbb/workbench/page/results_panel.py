@@ -24,7 +24,7 @@ class ResultsPanel:
             with ui.row().classes("wb-actions"):
                 for name, action in (
                     ("Save model as", lambda: self._asked("model.toml", self._save)),
-                    ("Report", lambda: self._asked("report.html", self._report)),
+                    ("Report", lambda: self._asked("report.html", self._report, ui.download.file)),
                     ("Next circle", lambda: self._asked("next-plan.toml", self._plan)),
                     ("Compensation", lambda: self._asked(".hexcomp", self._compensate)),
                     ("Copy as script", self._script),
@@ -37,8 +37,8 @@ class ResultsPanel:
         base = session.file.path if session.file is not None else stem
         return str(base.with_suffix(ending)) if ending.startswith(".") else str(base.with_name(f"{stem.stem}-{ending}"))
 
-    def _asked(self, ending: str, write: Callable[[Path], str]) -> None:
-        """Ask for the name of a file, then write it."""
+    def _asked(self, ending: str, write: Callable[[Path], str], after: Callable[[Path], None] = lambda _: None) -> None:
+        """Ask for the name of a file, write it, and do what follows."""
         with ui.dialog() as dialog, ui.card():
             name = ui.input("File", value=self._default(ending)).classes("wb-wide")
 
@@ -46,7 +46,8 @@ class ResultsPanel:
 
             async def go() -> None:
                 dialog.close()
-                await writing()
+                if await writing():
+                    after(Path(name.value))
 
             with ui.row():
                 ui.button("Write", on_click=go).props("unelevated no-caps")

@@ -26,11 +26,11 @@ class Page:
     ----------
     session : Session
         Shared by all tabs.
-    allow_code : bool
-        Whether effects of the user's own may be written here.
+    code_seconds : int or None
+        Seconds that an effect of the user's own may compute when it is tried; None where none may be written here.
     """
 
-    def __init__(self, session: Session, allow_code: bool) -> None:
+    def __init__(self, session: Session, code_seconds: int | None) -> None:
         self._session = session
         self._client = ui.context.client
         self._loop = asyncio.get_running_loop()
@@ -46,8 +46,8 @@ class Page:
                 self._circle = CirclePanel(session)
             with ui.element("div").classes("wb-right"):
                 self._effects = EffectsPanel(session)
-                if allow_code:
-                    EditorPanel(session)
+                if code_seconds is not None:
+                    EditorPanel(session, code_seconds)
                 ResultsPanel(session)
         self._client.on_delete(session.changes.listen(self._heard))
         self._client.on_delete(self._end)
