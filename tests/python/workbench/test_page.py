@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.chromium import browser, opened, violations
 from tests.python.workbench.served import Served, drawn, marked, number, served
 
@@ -93,18 +93,36 @@ def test_two_tabs_show_one_session(browser: Browser, workbench: Served) -> None:
         expect(marked(one, "switch leg_length")).to_have_attribute("aria-checked", "true")
 
 
-def test_a_value_follows_the_keyboard(browser: Browser, workbench: Served) -> None:
+def test_a_value_follows_keyboard_and_mouse(browser: Browser, workbench: Served) -> None:
+    label = "leg_length:1 longer"
+    record, model = hx.read_record("today.parquet"), hx.load_model("model.toml")
     with opened(browser, workbench.address) as page:
         drawn(page)
         before_um = number(page, "rms")
         page.get_by_role("button", name="leg_length").click()
-        slider = marked(page, "value leg_length:1 longer")
+        slider = marked(page, f"value {label}")
         slider.locator("[tabindex='0']").focus()
         for _ in range(20):
             page.keyboard.press("ArrowRight")
-        expect(marked(page, "rms")).not_to_have_text(f"{before_um:.2f}")
+        expect_rms(page, record, model, label, slider)
         assert number(page, "rms") > before_um
         assert number(page, "fitted") == before_um
+        box = slider.bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.down()
+        for step in range(60):  # as fast as the browser takes them: what is drawn must not lag behind
+            page.mouse.move(box["x"] + (0.5 + 0.005 * step) * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.up()
+        expect_rms(page, record, model, label, slider)
+        expect(marked(page, "circle").first).to_have_attribute("aria-pressed", "true")
+
+
+def expect_rms(page: Page, record: hx.Record, model: hx.Model, label: str, slider: Locator) -> None:
+    """Check that the page shows the very error of the model with the value that the slider has."""
+    value = float(slider.get_attribute("aria-valuenow") or "nan")
+    expected = hx.predict(record, hx.with_value(model, label, value)).rms_um
+    expect(marked(page, "rms")).to_have_text(f"{expected:.2f}")
 
 
 def test_a_model_changed_meanwhile_is_said_and_kept(browser: Browser, workbench: Served, folder: Path) -> None:
