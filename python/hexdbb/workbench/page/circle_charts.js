@@ -4,89 +4,15 @@
 // ECharts draws what stays while a value is dragged: axes, grids, measured paths, reversals. What follows the value lies
 // on a canvas above it (Overlay): a few thousand points drawn there take a millisecond, in ECharts twenty.
 import { echarts } from "nicegui-echart";
+import {
+  againstOption, at, extent, FITTED, INK, opened, Overlay, polarOption, POLAR_SHARE, spanSeries, TURN, unrolledOption,
+} from "hexdbb-drawing";
 
-const INK = "#1F2933", FAINT = "#D9D9D9", MUTED = "#595959", FITTED = "#767676";
-const TEXT = { color: INK, fontSize: 12 };
 const NEAR_DEG = 2.0; // readings this near to the cursor are highlighted: a few in each lap
-const TURN = 360;
-const POLAR_SHARE = 0.78; // of the polar chart's half width: outside stand the angles
 const LOOSE = 0.4; // an axis that the curves fill by less than this share is drawn anew
+const NARROW = 420; // pixels below which every second angle is named
 
 const number = (value, digits = 1) => (value >= 0 ? "+" : "\u2212") + Math.abs(value).toFixed(digits);
-
-// Lines come as base64 of 32-bit floats, x and y in turns: a tenth of the time of nested lists.
-const unpacked = (text) => new Float32Array(Uint8Array.from(atob(text), (each) => each.charCodeAt(0)).buffer);
-const opened = (directions) => directions.map((each) =>
-  Object.fromEntries(Object.entries(each).map(([name, line]) => [name, unpacked(line)])));
-const pairs = (line) => Array.from({ length: line.length / 2 }, (_, index) => [line[2 * index], line[2 * index + 1]]);
-
-function at(line, angle) {
-  // The value of a line at an angle, by linear interpolation.
-  if (!line?.length) return NaN;
-  let low = 0, high = line.length / 2 - 1;
-  if (angle <= line[0]) return line[1];
-  if (angle >= line[2 * high]) return line[2 * high + 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (line[2 * middle] <= angle) low = middle;
-    else high = middle;
-  }
-  const share = (angle - line[2 * low]) / (line[2 * high] - line[2 * low]);
-  return line[2 * low + 1] + share * (line[2 * high + 1] - line[2 * low + 1]);
-}
-
-function extent(lines) {
-  let low = Infinity, high = -Infinity;
-  for (const line of lines) {
-    for (let index = 1; index < line.length; index += 2) {
-      if (line[index] < low) low = line[index];
-      if (line[index] > high) high = line[index];
-    }
-  }
-  return [low, high];
-}
-
-class Overlay {
-  // A canvas above a chart. `place` gives a point's pixels: (x, y, into) fills into[0] and into[1].
-  constructor(holder) {
-    this.holder = holder;
-    this.canvas = holder.appendChild(document.createElement("canvas"));
-    this.canvas.className = "wb-overlay";
-    this.context = this.canvas.getContext("2d");
-  }
-  clear() {
-    const ratio = window.devicePixelRatio || 1, { clientWidth, clientHeight } = this.holder;
-    const width = Math.round(clientWidth * ratio), height = Math.round(clientHeight * ratio);
-    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    this.context.clearRect(0, 0, clientWidth, clientHeight);
-  }
-  line(points, color, width, place) {
-    const context = this.context, into = [0, 0];
-    context.beginPath();
-    for (let index = 0; index < points.length; index += 2) {
-      place(points[index], points[index + 1], into);
-      if (index) context.lineTo(into[0], into[1]);
-      else context.moveTo(into[0], into[1]);
-    }
-    Object.assign(context, { strokeStyle: color, lineWidth: width, lineJoin: "bevel" });
-    context.stroke();
-  }
-  ring(x, y, radius, color) {
-    this.context.beginPath();
-    this.context.arc(x, y, radius, 0, 2 * Math.PI);
-    Object.assign(this.context, { strokeStyle: color, lineWidth: 1.5 });
-    this.context.stroke();
-  }
-  label(text, x, y) {
-    Object.assign(this.context, { font: '11px "Roboto", "Segoe UI", sans-serif', textAlign: "center", textBaseline: "middle" });
-    const width = this.context.measureText(text).width + 4;
-    this.context.fillStyle = "#FFFFFFCC";
-    this.context.fillRect(x - width / 2, y - 7, width, 14);
-    this.context.fillStyle = INK;
-    this.context.fillText(text, x, y);
-  }
-}
 
 export default {
   template: `
@@ -154,7 +80,7 @@ export default {
       this.scaleLabel = predicted.scaleLabel;
       if (measured) this.drawWhole();
       else {
-        if (isScaled) this.charts.polar.setOption(this.polarOption());
+        if (isScaled) this.charts.polar.setOption(polarOption(this.measured, this.predicted));
         this.fitScales(fitted !== null);
       }
       this.drawOver();
@@ -165,16 +91,16 @@ export default {
     settle(points) {
       // What follows when a value that is dragged rests: every reading's residual, and axes that fit.
       this.points = points;
-      this.charts.against.setOption(this.againstOption());
+      this.charts.against.setOption(againstOption(this.measured, this.points));
       this.fitScales(true);
       this.drawOver();
     },
     drawWhole() {
       if (!this.predicted) return;
-      this.charts.polar.setOption(this.polarOption(), true);
+      this.charts.polar.setOption(polarOption(this.measured, this.predicted), true);
       this.spans = this.wantedSpans();
-      this.charts.unrolled.setOption(this.unrolledOption(), true);
-      this.charts.against.setOption(this.againstOption(), true);
+      this.charts.unrolled.setOption(unrolledOption(this.measured, this.spans, this.$refs.unrolled.clientWidth < NARROW), true);
+      this.charts.against.setOption(againstOption(this.measured, this.points), true);
       this.drawOver();
     },
     wantedSpans() {
@@ -191,96 +117,10 @@ export default {
       const isOther = exactly && JSON.stringify(wanted) !== JSON.stringify(this.spans);
       if (!isOther && !wanted.some((each, panel) => isWrong(each, shown[panel]))) return;
       this.spans = wanted;
-      this.charts.unrolled.setOption({ series: this.spanSeries() });
+      this.charts.unrolled.setOption({ series: spanSeries(this.spans) });
     },
     axisExtent(panel) {
       return this.charts.unrolled.getModel().getComponent("yAxis", panel).axis.scale.getExtent();
-    },
-    spanSeries() {
-      // Lines that nobody sees: ECharts finds round limits for them.
-      return this.spans.map((span, panel) => ({ id: `span${panel}`, type: "line", xAxisIndex: panel, yAxisIndex: panel, silent: true,
-        animation: false, showSymbol: false, lineStyle: { opacity: 0 }, data: [[0, span[0]], [TURN, span[1]]] }));
-    },
-    polarOption() {
-      const { centre, division, count } = this.predicted.scale;
-      const line = (id, data, color, width, z) => ({
-        id, type: "line", coordinateSystem: "polar", data, showSymbol: false, silent: true, animation: false, z,
-        lineStyle: { color, width },
-      });
-      const ring = (radius) => Array.from({ length: 181 }, (_, index) => [radius, 2 * index]);
-      return {
-        animation: false,
-        polar: { center: ["50%", "50%"], radius: `${100 * POLAR_SHARE}%` },
-        angleAxis: {
-          min: 0, max: TURN, startAngle: 0, clockwise: false, interval: 45, axisLabel: { ...TEXT, formatter: "{value}°" },
-          axisLine: { lineStyle: { color: FAINT } }, splitLine: { show: true, lineStyle: { color: FAINT } },
-          axisTick: { show: false },
-        },
-        radiusAxis: {
-          min: centre, max: (count + 0.25) * division, axisLine: { show: false }, axisTick: { show: false }, z: 5,
-          axisLabel: { show: false }, splitLine: { show: false },
-        },
-        series: [
-          ...[-1, 1].map((side) => line(`grid${side}`, ring(side * count * division), FAINT, 1, 1)),
-          line("nominal", ring(0), MUTED, 1, 1),
-          ...this.measured.lines.map((each, index) => line(`measured${index}`, pairs(each.measuredPolar).map(([angle, value]) => [value, angle]),
-            this.measured.directions[index].measuredColour, 4 - 1.5 * index, 2)),
-          {
-            id: "reversals", type: "scatter", coordinateSystem: "polar", silent: true, symbolSize: 1, z: 4,
-            data: this.measured.reversals.map(([slider, angle]) => ({
-              value: [(count + 0.25) * division, angle], label: { show: true, formatter: String(slider), position: "inside",
-                color: INK, fontSize: 11, backgroundColor: "#FFFFFFDD", padding: [1, 3], borderRadius: 3 },
-            })),
-          },
-        ],
-      };
-    },
-    unrolledOption() {
-      const marks = {
-        markLine: {
-          silent: true, symbol: "none", animation: false, lineStyle: { color: MUTED, type: "dotted", width: 1, opacity: 1 },
-          label: { color: INK, fontSize: 11, formatter: ({ data }) => data.slider, position: "end" },
-          data: this.measured.reversals.map(([slider, angle]) => ({ xAxis: angle, slider: String(slider) })),
-        },
-      };
-      const narrow = this.$refs.unrolled.clientWidth < 420;
-      const axis = (panel) => ({
-        gridIndex: panel, type: "value", min: 0, max: TURN, interval: narrow ? 90 : 45,
-        axisLabel: { ...TEXT, show: panel === 1, formatter: "{value}°" }, axisTick: { show: false },
-        axisLine: { onZero: false, lineStyle: { color: MUTED } }, splitLine: { lineStyle: { color: FAINT } },
-      });
-      const scale = (panel, name) => ({
-        gridIndex: panel, type: "value", scale: true, name, nameLocation: "middle", nameGap: 40, nameTextStyle: TEXT,
-        axisLabel: TEXT, splitNumber: 4, splitLine: { lineStyle: { color: FAINT } },
-      });
-      return {
-        animation: false,
-        grid: [{ left: 58, right: 10, top: 18, height: "40%" }, { left: 58, right: 10, bottom: 26, height: "40%" }],
-        xAxis: [axis(0), axis(1)],
-        yAxis: [scale(0, "deviation, µm"), scale(1, "residual, µm")],
-        series: [
-          ...this.measured.lines.map((each, index) => ({
-            id: `measured${index}`, type: "line", data: pairs(each.measured), xAxisIndex: 0, yAxisIndex: 0, showSymbol: false,
-            silent: true, animation: false, z: 2, lineStyle: { color: this.measured.directions[index].measuredColour, width: 3.5 - 1.2 * index },
-          })),
-          ...this.spanSeries().map((each) => ({ ...each, ...marks })),
-        ],
-      };
-    },
-    againstOption() {
-      const unit = this.measured.against.unit;
-      return {
-        animation: false,
-        grid: { left: 58, right: 14, top: 12, bottom: 40 },
-        xAxis: { type: "value", scale: true, name: unit ? `in ${unit}` : "", nameLocation: "middle", nameGap: 24, nameTextStyle: TEXT,
-          axisLabel: { ...TEXT, hideOverlap: true }, splitLine: { show: false }, axisLine: { onZero: false, lineStyle: { color: MUTED } } },
-        yAxis: { type: "value", scale: true, name: "residual, µm", nameLocation: "middle", nameGap: 40, nameTextStyle: TEXT,
-          axisLabel: TEXT, splitNumber: 4, splitLine: { lineStyle: { color: FAINT } } },
-        series: this.points.map((points, index) => ({
-          id: `points${index}`, type: "scatter", large: true, largeThreshold: 500, data: points, symbolSize: 3, animation: false, z: 2,
-          itemStyle: { color: this.measured.directions[index]?.predictedColour, opacity: 0.55 }, encode: { x: 0, y: 1 },
-        })),
-      };
     },
     drawOver() {
       // Everything that follows a value or the cursor, once for each frame of the display.

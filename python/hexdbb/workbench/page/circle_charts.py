@@ -1,4 +1,4 @@
-"""The linked charts of one circle, as an element of the page: `circle_charts.js` draws them."""
+"""The linked charts of one circle, as an element of the page: `circle_charts.js` draws them by `drawing`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from nicegui.element import Element
 
 
-class CircleCharts(Element, component="circle_charts.js"):
+class CircleCharts(Element, component="circle_charts.js", esm={"hexdbb-drawing": "drawing"}):
     """Polar, unrolled, and residual against a variable; a cursor marks one angle in all of them."""
 
     def __init__(self, on_ready: Callable[[], None], on_cursor: Callable[[float], None]) -> None:
