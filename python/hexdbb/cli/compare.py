@@ -106,12 +106,14 @@ def _draw(comparison: Comparison, stem: Path, is_all: bool, progress: Progress) 
     pages = comparison_pages(comparison)
     task = progress.add_task("drawing", total=len(pages) if is_all else 1)
 
+    first = pages[0].draw()
+
     def drawn() -> Iterator[Figure]:
         for page in pages:
-            yield page.draw()
+            yield first if page is pages[0] else page.draw()
             progress.advance(task)
 
-    written = save_figure(pages[0].draw(), stem, [".png"])
+    written = save_figure(first, stem, [".png"])
     if is_all:
         written.append(save_pdf(drawn(), stem.with_name(f"{stem.name}.pdf")))
     return written

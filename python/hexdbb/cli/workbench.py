@@ -12,6 +12,7 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.errors import InputError
 from hexdbb.pages import MISSING
 from hexdbb.workbench import Session
+from hexdbb.workbench.own_code import COMPUTING_S
 
 
 @click.command("workbench")
@@ -28,6 +29,13 @@ from hexdbb.workbench import Session
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1; a free one where 0.")
 @click.option("--no-browser", is_flag=True, help="Print the address only, open no browser.")
 @click.option("--allow-code", is_flag=True, help="Let the page write and run effects of your own: it runs Python.")
+@click.option(
+    "--code-seconds",
+    type=click.IntRange(min=1),
+    default=COMPUTING_S,
+    show_default=True,
+    help="Seconds of computing after which an effect of your own that does not end is stopped when it is tried.",
+)
 def command(
     records: tuple[Path, ...],
     model_path: Path | None,
@@ -35,6 +43,7 @@ def command(
     port: int,
     no_browser: bool,
     allow_code: bool,
+    code_seconds: int,
 ) -> None:
     """Open RECORD... (.parquet or .csv) and a model in a page of this computer's browser.
 
@@ -63,6 +72,6 @@ def command(
             webbrowser.open(address)
 
     try:
-        serve(session, port, allow_code=allow_code, ready=ready)
+        serve(session, port, allow_code=allow_code, code_seconds=code_seconds, ready=ready)
     except KeyboardInterrupt:
         return

@@ -204,15 +204,10 @@ def lap_mean_path(part: Samples, circle: Circle, bar_mm: float, reading_mm: Floa
         Readings that the path is made of: measured ones, or predicted by any model.
     """
     angle_rad, deviation_mm = part["angle_rad"], reading_mm + (bar_mm - circle.radius_mm)
-    turns = np.column_stack([part["sweep"], part["lap"]])
-    _, turn_of = np.unique(turns, axis=0, return_inverse=True)
-    turn_of = turn_of.ravel()
-    return iso230.mean_path(
-        [
-            iso230.make_path(angle_rad[turn_of == turn], deviation_mm[turn_of == turn], circle.radius_mm)
-            for turn in range(int(turn_of.max()) + 1)
-        ]
-    )
+    sweep, lap = part["sweep"].astype(np.int64), part["lap"].astype(np.int64)
+    turn_of = (sweep - sweep.min()) * (int(lap.max()) - int(lap.min()) + 1) + lap - lap.min()
+    here = [turn_of == turn for turn in np.flatnonzero(np.bincount(turn_of))]
+    return iso230.mean_path([iso230.make_path(angle_rad[one], deviation_mm[one], circle.radius_mm) for one in here])
 
 
 def _radial_mm(

@@ -178,7 +178,7 @@ class _Ranking:
         drawn = np.random.default_rng(SEED).standard_normal((len(columns), DRAWS))
         varied = curve[:, None] + self.curves.jacobian[:, columns] @ (spread @ drawn)
         centring = self.curves.centring
-        scatter = centring.peak_to_valley(varied).mean(axis=0) - centring.peak_to_valley(curve).mean()
+        scatter = (centring.peak_to_valley(varied) - centring.peak_to_valley(curve)[:, None]).mean(axis=0)
         return UM_PER_MM * root_mean_square(scatter)
 
 

@@ -12,7 +12,7 @@ few neighbouring ones where sampling is dense (`engine.py`).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +45,7 @@ class State:
         self._columns, self.screw_lead_mm = columns, screw_lead_mm
         self._known: dict[str, Floats] = {}
         self._spaces: dict[Learned, Space] = {}
+        self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
         self._designs: dict[tuple[Variable, int, float, float], NDArray[np.float32]] = {}
 
     def __getitem__(self, name: str) -> Floats:
@@ -59,13 +60,17 @@ class State:
     def rows(self, rows: Ints) -> State:
         """Return some rows, whose functions are those of the whole."""
         part = State(_Rows(self, rows), self.screw_lead_mm)
-        part._spaces = self._spaces
+        part._spaces, part._alike = self._spaces, self._alike
         return part
 
     def space(self, hypothesis: Learned) -> Space:
         """Return the functions of a hypothesis; `InputError` where its variable is not measured or hardly varies."""
         if hypothesis not in self._spaces:
-            self._spaces[hypothesis] = Space.of(hypothesis, self, self.screw_lead_mm)
+            # Limits are those of the variable at the elements, whatever it pushes there: many hypotheses share them.
+            alike = hypothesis.variable, tuple(element for element, _ in hypothesis.pushes(0))
+            if alike not in self._alike:
+                self._alike[alike] = Space.of(hypothesis, self, self.screw_lead_mm)
+            self._spaces[hypothesis] = replace(self._alike[alike], hypothesis=hypothesis)
         return self._spaces[hypothesis]
 
     def design(self, space: Space, element: int) -> NDArray[np.float32]:

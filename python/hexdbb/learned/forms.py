@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 Floats = NDArray[np.float64]
 Basis = Callable[[Floats, Floats], Floats]
@@ -93,6 +92,8 @@ def fits(x: Floats, y: Floats, weights: Floats, period: float = 0.0) -> Iterator
 
 
 def _searched(kind: str, x: Floats, y: Floats, weights: Floats, grid: Floats, bounds: list[tuple[float, float]]) -> Fit:
+    from scipy.optimize import minimize  # a twentieth of a second of every command's start
+
     start = max((_fitted(kind, x, y, weights, shapes) for shapes in grid), key=_explained)
     scale = np.array([upper - lower for lower, upper in bounds])
     found = minimize(

@@ -14,18 +14,10 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline
 
 Floats = NDArray[np.float64]
 
 DEGREE = 3
-
-
-def knots(low: float, high: float, count: int) -> Floats:
-    """Return equal knots, shape (count + 4,), whose `count` cubic B-splines sum to one from `low` to `high`."""
-    step = (high - low) / (count - DEGREE)
-    found: Floats = low + step * np.arange(-DEGREE, count + 1, dtype=np.float64)
-    return found
 
 
 def design(values: Floats, low: float, high: float, count: int, *, periodic: bool = False) -> Floats:
@@ -49,14 +41,29 @@ def design(values: Floats, low: float, high: float, count: int, *, periodic: boo
     known = ~np.isnan(values)
     filled = np.where(known, values, low)
     if periodic:
-        turned = low + np.mod(filled - low, high - low)
-        wide = BSpline.design_matrix(turned, knots(low, high, count + DEGREE), DEGREE).toarray()
+        wide = _cubics((np.mod(filled - low, high - low)) / (high - low) * count, count)
         wide[:, :DEGREE] += wide[:, count:]
         found: Floats = wide[:, :count]
     else:
-        own = knots(low, high, count)
-        found = BSpline.design_matrix(np.clip(filled, own[DEGREE], own[count]), own, DEGREE).toarray()
+        intervals = count - DEGREE
+        found = _cubics(np.clip((filled - low) / (high - low), 0.0, 1.0) * intervals, intervals)
     found[~known] = 0.0
+    return found
+
+
+def _cubics(place: Floats, intervals: int) -> Floats:
+    """Return the cubic B-splines of equal knots at places counted in intervals, shape (n, intervals + 3).
+
+    The four that are not zero in an interval are cubics of the part t of it that is passed (de Boor 1978, chapter IX).
+    """
+    interval = np.minimum(place.astype(np.intp), intervals - 1)
+    t = place - interval
+    left = 1.0 - t
+    parts = (left**3, 3.0 * t**3 - 6.0 * t**2 + 4.0, 3.0 * left**3 - 6.0 * left**2 + 4.0, t**3)
+    found = np.zeros((len(place), intervals + DEGREE))
+    row = np.arange(len(place))
+    for later, part in enumerate(parts):
+        found[row, interval + later] = part / 6.0
     return found
 
 

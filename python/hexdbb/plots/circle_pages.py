@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.charts.lines import SMOOTHED_OVER_DEG, largest_drawn_mm
 from hexdbb.charts.magnification import choose_scale
@@ -37,8 +35,7 @@ def circle_page(circles: Sequence[CircleComparison], meant: Sequence[str] = (), 
     figure = sheet(FEED_IN * len(circles) + 1.1)
     grid = figure.add_gridspec(2 * len(circles), 2, height_ratios=[1.0, 1.5] * len(circles))
     for row, circle in enumerate(circles):
-        polar = cast(PolarAxes, figure.add_subplot(grid[2 * row : 2 * row + 2, 0], projection="polar"))
-        draw_circle(polar, circle, meant)
+        draw_circle(figure.add_subplot(grid[2 * row : 2 * row + 2, 0]), circle, meant)
         draw_residual(figure.add_subplot(grid[2 * row, 1]), circle, RESIDUAL_IN, meant)
         draw_quantities(figure.add_subplot(grid[2 * row + 1, 1]), circle)
     title = f"{circles[0].record_name}, {describe_circle(circles[0].circle)}"
@@ -51,7 +48,7 @@ def circle_page(circles: Sequence[CircleComparison], meant: Sequence[str] = (), 
     return figure
 
 
-def draw_circle(axes: PolarAxes, circle: CircleComparison, meant: Sequence[str]) -> None:
+def draw_circle(axes: Axes, circle: CircleComparison, meant: Sequence[str]) -> None:
     """Draw a circle large, with its feed above, its scale and its centre offset below."""
     scale = choose_scale(circle.circle.radius_mm, largest_drawn_mm([circle]))
     draw_polar(axes, circle, scale, fine=True, meant=meant)
@@ -64,7 +61,7 @@ def overview_page(circles: Sequence[CircleComparison], title: str, meant: Sequen
     """Draw circles small, in the order given, each at its own magnification."""
     rows = -(-len(circles) // OVERVIEW_COLUMNS)
     figure = sheet(OVERVIEW_IN * rows + 1.3)
-    grid = figure.subplots(rows, OVERVIEW_COLUMNS, squeeze=False, subplot_kw={"projection": "polar"})
+    grid = figure.subplots(rows, OVERVIEW_COLUMNS, squeeze=False)
     several_records = len({circle.record_name for circle in circles}) > 1
     for axes, circle in zip(grid.flat, circles, strict=False):
         scale = choose_scale(circle.circle.radius_mm, largest_drawn_mm([circle]))

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.charts.colours import NOMINAL_COLOUR, PAPER_COLOUR, TEXT_COLOUR
 from hexdbb.charts.lines import near
 from hexdbb.comparison.reversals import Reversal
+from hexdbb.plots.dial import Dial
 from hexdbb.plots.style import TEXT_PT, inside
 
 ROOM_PT = 24.0
@@ -65,25 +65,18 @@ def mark_reversals(
         inside(name)
 
 
-def mark_reversals_around(axes: PolarAxes, reversals: Sequence[Reversal], meant: Sequence[str], named: bool) -> None:
+def mark_reversals_around(dial: Dial, reversals: Sequence[Reversal], meant: Sequence[str], named: bool) -> None:
     """Mark reversals by spokes; in the middle the numbers, of all sliders where `named`, else of those meant."""
-    centre, rim = axes.get_ylim()
+    centre, rim = dial.centre, dial.rim
     for each in reversals:
         angle_rad = float(np.radians(each.angle_deg))
         along = [centre + part * (rim - centre) for part in (SPOKE_BEGINS, 1.0)]
-        inside(*axes.plot([angle_rad, angle_rad], along, **_line_style(_is_meant(each, meant)), zorder=1.5))
+        dial.line([angle_rad, angle_rad], along, **_line_style(_is_meant(each, meant)), zorder=1.5)
     for angle_deg, numbers, is_meant in _names(reversals, AROUND_DEG, meant):
         if named or is_meant:
             place = (float(np.radians(angle_deg)), centre + NUMBER_AT * (rim - centre))
-            inside(
-                axes.text(
-                    *place,
-                    numbers if named else numbers.partition(" ")[0],
-                    ha="center",
-                    va="center",
-                    **_text_style(is_meant),
-                )
-            )
+            said = numbers if named else numbers.partition(" ")[0]
+            inside(dial.text(*place, said, ha="center", va="center", **_text_style(is_meant)))
 
 
 def _names(reversals: Sequence[Reversal], apart_deg: float, meant: Sequence[str]) -> Iterator[tuple[float, str, bool]]:

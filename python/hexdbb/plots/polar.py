@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.collections import LineCollection
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
-from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.charts.colours import GRID_COLOUR, MEASURED_COLOURS, NOMINAL_COLOUR, PAPER_COLOUR, PREDICTED_COLOURS
 from hexdbb.charts.lines import curve, drawn_paths
@@ -24,6 +23,7 @@ from hexdbb.charts.magnification import Scale
 from hexdbb.comparison import CircleComparison
 from hexdbb.comparison.circles import DIRECTION_NAMES
 from hexdbb.comparison.iso230 import FULL_TURN_RAD
+from hexdbb.plots.dial import Dial
 from hexdbb.plots.marks import mark_reversals_around
 from hexdbb.plots.style import inside
 
@@ -35,13 +35,13 @@ MOST_LABELS = 7
 """Divisions, nominal circle and both sides, of which each is labelled."""
 
 
-def draw_polar(axes: PolarAxes, circle: CircleComparison, scale: Scale, fine: bool, meant: Sequence[str] = ()) -> None:
+def draw_polar(axes: Axes, circle: CircleComparison, scale: Scale, fine: bool, meant: Sequence[str] = ()) -> Dial:
     """Draw one circle at one feed.
 
     Parameters
     ----------
-    axes : PolarAxes
-        Empty axes of projection ``polar``.
+    axes : Axes
+        Empty.
     circle : CircleComparison
         What to draw.
     scale : Scale
@@ -51,12 +51,13 @@ def draw_polar(axes: PolarAxes, circle: CircleComparison, scale: Scale, fine: bo
     meant : sequence of str
         Sliders (``slider 4``) whose reversals are marked in bold.
     """
-    _draw_grid(axes, scale, fine)
-    mark_reversals_around(axes, circle.reversals, meant, named=fine)
+    dial = Dial(axes, scale.centre_um, (scale.divisions + 0.25) * scale.division_um)
+    _draw_grid(dial, scale, fine)
+    mark_reversals_around(dial, circle.reversals, meant, named=fine)
     for direction, measured, predicted in drawn_paths(circle):
-        below = axes.plot(*curve(measured), **_measured_style(direction, fine), zorder=3)
-        above = axes.plot(*curve(predicted), **_predicted_style(direction, fine), zorder=4)
-        inside(*below, *above)
+        dial.line(*curve(measured), **_measured_style(direction, fine), zorder=3)
+        dial.line(*curve(predicted), **_predicted_style(direction, fine), zorder=4)
+    return dial
 
 
 def legend_handles() -> list[Artist]:
@@ -90,35 +91,28 @@ def _predicted_style(direction: int, fine: bool) -> dict[str, Any]:
     }
 
 
-def _draw_grid(axes: PolarAxes, scale: Scale, fine: bool) -> None:
-    """Draw the grid as one collection of lines: matplotlib's own polar axes take ten times as long."""
+def _draw_grid(dial: Dial, scale: Scale, fine: bool) -> None:
     ticks_um = [scale.division_um * step for step in range(-scale.divisions, scale.divisions + 1)]
-    rim_um = ticks_um[-1] + 0.25 * scale.division_um
-    axes.set_axis_off()
-    axes.set_ylim(scale.centre_um, rim_um)
     angles_deg = np.arange(0, 360, 45 if fine else 90)
     rings = [np.column_stack([DRAWN_TURN_RAD, np.full_like(DRAWN_TURN_RAD, tick_um)]) for tick_um in ticks_um]
-    spokes = [np.array([[angle, scale.centre_um], [angle, rim_um]]) for angle in np.radians(angles_deg)]
-    grid = LineCollection([*rings, *spokes], colors=GRID_COLOUR, linewidths=0.6, zorder=1.0)
-    axes.add_collection(grid, autolim=False)
-    grid.set_clip_path(None)  # a collection's clip has another name in each SVG; the grid ends at the rim anyway
-    nominal = axes.plot(DRAWN_TURN_RAD, 0.0 * DRAWN_TURN_RAD, color=NOMINAL_COLOUR, linewidth=0.9, zorder=2)
-    inside(grid, *nominal)
+    spokes = [np.array([[angle, dial.centre], [angle, dial.rim]]) for angle in np.radians(angles_deg)]
+    dial.lines([*rings, *spokes], colors=GRID_COLOUR, linewidths=0.6, zorder=1.0)
+    dial.line(DRAWN_TURN_RAD, 0.0 * DRAWN_TURN_RAD, color=NOMINAL_COLOUR, linewidth=0.9, zorder=2)
     for angle_deg in angles_deg if fine else angles_deg[:1]:
         angle_rad = float(np.radians(angle_deg))
         across, up = round(np.cos(angle_rad), 6), round(np.sin(angle_rad), 6)
         side = "left" if across > 0.0 else "right" if across < 0.0 else "center"
         level = "bottom" if up > 0.0 else "top" if up < 0.0 else "center"
-        axes.text(angle_rad, rim_um, f"{angle_deg}°", ha=side, va=level)
+        dial.text(angle_rad, dial.rim, f"{angle_deg}°", ha=side, va=level)
     if fine:
-        _label_grid(axes, ticks_um)
+        _label_grid(dial, ticks_um)
 
 
-def _label_grid(axes: PolarAxes, ticks_um: list[float]) -> None:
+def _label_grid(dial: Dial, ticks_um: list[float]) -> None:
     """Label the divisions on top of the paths, which would hide them."""
     backing = {"facecolor": PAPER_COLOUR, "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
     # Divisions of a fine grid are labelled in turn: the labels would cover one another.
     for tick_um in ticks_um[len(ticks_um) // 2 % 2 :: 2] if len(ticks_um) > MOST_LABELS else ticks_um:
         label = f"{tick_um:+g}" if tick_um else "0 µm"
-        angle_rad = np.radians(GRID_LABEL_ANGLE_DEG)
-        inside(axes.text(angle_rad, tick_um, label, ha="center", va="center", bbox=backing, zorder=6))
+        angle_rad = float(np.radians(GRID_LABEL_ANGLE_DEG))
+        inside(dial.text(angle_rad, tick_um, label, ha="center", va="center", bbox=backing, zorder=6))

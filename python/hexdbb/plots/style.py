@@ -8,7 +8,7 @@ being laid out again, which takes matplotlib longer than all drawing.
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, ParamSpec
 
 import matplotlib as mpl
@@ -31,6 +31,7 @@ TEXT_PT, TITLE_PT = 8.0, 10.0
 STYLE: Any = {
     "font.size": TEXT_PT,
     "axes.titlesize": TEXT_PT,
+    "axes.titley": 1.0,
     "axes.labelsize": TEXT_PT,
     "xtick.labelsize": TEXT_PT,
     "ytick.labelsize": TEXT_PT,
@@ -49,6 +50,7 @@ STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
+    "axes.formatter.useoffset": False,
     "axes.axisbelow": True,
     "grid.color": GRID_COLOUR,
     "grid.linewidth": 0.5,
@@ -59,9 +61,12 @@ STYLE: Any = {
     "svg.fonttype": "none",
     "pdf.fonttype": 42,
 }
-"""Settings of matplotlib. Fonts are embedded in PDF whole, so that its text can be searched and copied."""
+"""Settings of matplotlib. Titles stand at one height: to look for what they might cover measures every tick label once
+more. Fonts are embedded in PDF whole, so that its text can be searched and copied."""
 TICK_FORMULA = "\\mathdefault"
 """Part of the formulas that matplotlib itself makes, for tick labels of powers."""
+FINISHED = "_hexdbb_is_finished"
+"""Attribute of a figure that is laid out: to look for its texts again takes as long as to draw some of it."""
 
 Arguments = ParamSpec("Arguments")
 
@@ -91,6 +96,9 @@ def styled(draw: Callable[Arguments, Figure]) -> Callable[Arguments, Figure]:
 
 def finish(figure: Figure) -> None:
     """Lay a figure out, once, and show names in it as they are; nothing happens to one that is finished."""
+    if getattr(figure, FINISHED, False):
+        return
+    setattr(figure, FINISHED, True)
     engine = figure.get_layout_engine()
     FigureCanvasAgg(figure)
     _show_names_as_they_are(figure)
@@ -112,8 +120,18 @@ def all_inside(axes: Axes) -> None:
 
 def _show_names_as_they_are(figure: Figure) -> None:
     """Turn off formulas in all texts but tick labels, so that "$" in the name of a record is shown as it is."""
-    for text in figure.findobj(Text):
+    for text in _texts(figure):
         # Tick labels are empty until they are drawn.
         if text.get_text() and TICK_FORMULA not in text.get_text():
             text.set_parse_math(False)
             text.set_text(printable(text.get_text()))
+
+
+def _texts(artist: Artist) -> Iterator[Text]:
+    """Yield all texts that are drawn; `findobj` would make the ticks of panels that have none first."""
+    if isinstance(artist, Text):
+        yield artist
+    left_out = () if not isinstance(artist, Axes) or artist.axison else (artist.xaxis, artist.yaxis)
+    for child in artist.get_children():
+        if child not in left_out:
+            yield from _texts(child)

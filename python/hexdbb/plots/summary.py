@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
-from typing import cast
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.projections.polar import PolarAxes
 
 from hexdbb.charts.colours import MEASURED_COLOURS
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison
@@ -36,7 +34,7 @@ def summary_page(comparison: Comparison) -> Figure:
     meant = meant_by(comparison)
     figure = sheet(10.3)
     grid = figure.add_gridspec(4, 6, height_ratios=[1.5, 1.7, 2.2, 1.6])
-    draw_circle(cast(PolarAxes, figure.add_subplot(grid[0:2, :3], projection="polar")), worst, meant)
+    draw_circle(figure.add_subplot(grid[0:2, :3]), worst, meant)
     residual = figure.add_subplot(grid[0, 3:])
     draw_residual(residual, worst, RESIDUAL_IN, meant)
     residual.set_xlabel("")

@@ -50,9 +50,10 @@ def binned(variable: Variable) -> Binned:
     known = np.isfinite(every)
     every, weight, row = every[known], weight[known], row[known]
     own, bins = _bins(variable, every, count)
-    column, place = np.unique(own + bins * apart[row], return_inverse=True)
-    place = place.ravel()
-    samples = np.bincount(place).astype(float)
+    in_bin = own + bins * apart[row]
+    every_bin = np.bincount(in_bin)
+    column = np.flatnonzero(every_bin)
+    place, samples = (np.cumsum(every_bin > 0) - 1)[in_bin], every_bin[column].astype(float)
     low, high = np.full(len(column), np.inf), np.full(len(column), -np.inf)
     np.minimum.at(low, place, every)
     np.maximum.at(high, place, every)

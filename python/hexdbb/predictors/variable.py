@@ -100,7 +100,8 @@ def variables(samples: Samples, pushes: Pushes | None = None) -> Iterator[Variab
 
 
 def _varies(variable: Variable) -> bool:
-    return any(len(np.unique(values[np.isfinite(values)])) > 1 for _, values in variable.parts)
+    known = (values[np.isfinite(values)] for _, values in variable.parts)
+    return any(len(each) and each.min() < each.max() for each in known)
 
 
 def _of_reading(samples: Samples) -> Iterator[Variable]:

@@ -16,6 +16,7 @@ from hexdbb import __version__
 from hexdbb.errors import InputError
 from hexdbb.files.validation import dump_toml, format_location, format_value, parse_toml
 from hexdbb.machine import MachineFile
+from hexdbb.record.arrow import array_of, values_of
 from hexdbb.record.columns import Columns
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
@@ -36,7 +37,7 @@ class RecordHeader(BaseModel):
 
 def to_table(record: Record) -> pa.Table:
     """Return a record as an Arrow table that is complete in itself: n rows, metadata included."""
-    return pa.table({name: pa.array(values) for name, values in record.columns.items()}, metadata=_metadata(record))
+    return pa.table({name: array_of(values) for name, values in record.columns.items()}, metadata=_metadata(record))
 
 
 def _metadata(record: Record) -> dict[str, str]:
@@ -50,7 +51,7 @@ def _metadata(record: Record) -> dict[str, str]:
 
 def to_columns(table: pa.Table) -> Columns:
     """Return the columns of an Arrow table as NumPy arrays of shape (n,); empty numeric cells become NaN."""
-    return {name: table.column(name).to_numpy() for name in table.column_names}
+    return {name: values_of(table.column(name)) for name in table.column_names}
 
 
 def batch_columns(batch: pa.RecordBatch) -> Columns:

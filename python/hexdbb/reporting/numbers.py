@@ -9,6 +9,7 @@ import pyarrow as pa
 import pyarrow.csv
 
 from hexdbb.comparison import UM_PER_MM, Comparison
+from hexdbb.record.arrow import array_of
 
 DECIMALS = {"angle_deg": 4, "measured_um": 3, "predicted_um": 3, "residual_um": 3, "feed_mm_min": 3}
 """Digits kept, beyond any gauge: a nanometre, a ten-thousandth of a degree; all digits would double the file."""
@@ -32,5 +33,9 @@ def samples_csv(comparison: Comparison, record: int) -> str:
     }
     rounded = {name: np.round(each, DECIMALS[name]) if name in DECIMALS else each for name, each in columns.items()}
     stream = io.BytesIO()
-    pyarrow.csv.write_csv(pa.table(rounded), stream, pyarrow.csv.WriteOptions(quoting_style="none"))
+    pyarrow.csv.write_csv(
+        pa.table({name: array_of(each) for name, each in rounded.items()}),
+        stream,
+        pyarrow.csv.WriteOptions(quoting_style="none"),
+    )
     return stream.getvalue().decode()

@@ -16,7 +16,7 @@ from markupsafe import Markup
 
 from hexdbb import __version__
 from hexdbb.charts.colours import STYLE, resolved, style_sheet
-from hexdbb.charts.lines import quantity_rows
+from hexdbb.charts.lines import NEAR_DEG, quantity_rows
 from hexdbb.comparison import UM_PER_MM, CircleComparison, iso230
 from hexdbb.contributions import RecordContributions
 from hexdbb.files.atomic_file import write_text
@@ -37,8 +37,13 @@ MOST_PREDICTORS = 12
 DRAWN_PREDICTORS = 4
 """Predictors drawn: as many as stand side by side."""
 
-PAPER_STYLE = ".polar text{font-size:15px}.unrolled text,svg text.name{font-size:13px}"
-"""Larger text in the charts that stand side by side on paper: 7 pt there."""
+SMALLEST_PT = 8.1
+"""Text in the charts that stand side by side on paper, points: 8 is the least that is read at arm's length."""
+POLAR_MM, UNROLLED_MM = 57.0, 69.0
+"""Their widths on paper, as the style sheet has them: with the table beside them as wide as A4 less its margins."""
+APART_ON_PAPER_DEG = 10.0
+"""Reversals nearer than this share one name there: a digit takes nine degrees."""
+PT_PER_MM = 72.0 / 25.4
 
 
 def write_page(report: Report, path: Path) -> None:
@@ -83,11 +88,23 @@ class _Charts:
     """Puts charts into a page; on paper each has its style inside, because WeasyPrint keeps a page's from them."""
 
     def __init__(self, for_paper: bool) -> None:
-        self._style = f"<style>{resolved(_source('charts.css'))}{PAPER_STYLE}</style>" if for_paper else ""
+        self.for_paper = for_paper
+        self._style = resolved(_source("charts.css")) if for_paper else ""
 
-    def put(self, svg: str) -> Markup:
-        """Return a chart as HTML."""
-        return Markup(svg.replace("<title>", f"{self._style}<title>", 1))
+    def put(self, svg: str, width_mm: float = 0.0) -> Markup:
+        """Return a chart as HTML; its text is of `SMALLEST_PT` where it is stated how wide it stands on paper."""
+        if not self.for_paper:
+            return Markup(svg)
+        return Markup(svg.replace("<title>", f"<style>{self._style}{_text_style(svg, width_mm)}</style><title>", 1))
+
+
+def _text_style(svg: str, width_mm: float) -> str:
+    """Return the rule for a chart's text on paper; WeasyPrint heeds the size of a ``font`` alone."""
+    if not width_mm:
+        return ""
+    units = float(svg.partition('viewBox="')[2].partition('"')[0].split()[2])
+    size = SMALLEST_PT * units / (width_mm * PT_PER_MM)
+    return f'svg text,svg text.name{{font:{size:.2f}px "Liberation Sans","DejaVu Sans",sans-serif}}'
 
 
 def _content(report: Report, charts: _Charts) -> dict[str, Any]:
@@ -159,8 +176,10 @@ def _circle(circle: CircleComparison, several: bool, meant: tuple[str, ...], cha
         "name": f"{record}circle {circle.circle.id} at {circle.feed_mm_min:g} mm/min",
         "rms_um": UM_PER_MM * circle.rms_mm,
         "centre_um": None if circle.set_up_centre_mm is None else UM_PER_MM * circle.set_up_centre_mm,
-        "polar": charts.put(polar_svg(circle, meant)),
-        "unrolled": charts.put(unrolled_svg(circle, meant)),
+        "polar": charts.put(polar_svg(circle, meant), POLAR_MM),
+        "unrolled": charts.put(
+            unrolled_svg(circle, meant, APART_ON_PAPER_DEG if charts.for_paper else NEAR_DEG), UNROLLED_MM
+        ),
         "rows": list(quantity_rows(circle)),
         "platform": "/".join(f"{each + 0.0:g}" for each in circle.circle.platform_rpy_deg),
         "plane": "/".join(f"{each + 0.0:g}" for each in circle.circle.plane_rpy_deg),

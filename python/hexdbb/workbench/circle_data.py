@@ -1,11 +1,12 @@
 """What the charts of one circle are drawn from: numbers, screened to the display, as the browser takes them.
 
 What does not depend on the model (measured paths, reversals, the variable) is prepared once for a circle, `CircleView`;
-what does is `CircleView.predicted`, which follows a slider that is dragged.
+`CircleView.predicted` follows a slider that is dragged, `CircleView.points` when it rests.
 """
 
 from __future__ import annotations
 
+import base64
 from functools import cached_property
 from typing import Any
 
@@ -68,45 +69,51 @@ class CircleView:
                     "name": DIRECTION_NAMES[direction],
                     "measuredColour": MEASURED_COLOURS[direction],
                     "predictedColour": PREDICTED_COLOURS[direction],
-                    "measured": _line(path),
-                    "measuredPolar": _line(self._centred(path), closed=True),
                 }
-                for direction, path in self._measured.items()
+                for direction in self._measured
+            ],
+            "lines": [
+                {"measured": _line(path), "measuredPolar": _line(self._centred(path), closed=True)}
+                for path in self._measured.values()
             ],
             "reversals": [[each.slider, round(each.angle_deg, 1)] for each in reversals(self._part)],
             "against": {"label": self._against.label, "unit": self._against.unit},
         }
 
-    def predicted(self, predicted_mm: Floats, fitted_mm: Floats | None) -> dict[str, Any]:
-        """Return what depends on the model.
+    def predicted(self, predicted_mm: Floats) -> dict[str, Any]:
+        """Return the curves of a model.
 
         Parameters
         ----------
         predicted_mm : ndarray, shape (n,)
-            Readings that the model shown predicts for the whole table.
-        fitted_mm : ndarray, shape (n,), optional
-            Those of the model as fitted, where another one is shown.
+            Readings that it predicts for the whole table.
         """
-        here_mm = predicted_mm[self._rows]
-        paths = {each: self._path(each, here_mm) for each in self._of_direction}
-        fitted = {} if fitted_mm is None else {each: self._path(each, fitted_mm[self._rows]) for each in paths}
-        centred = [self._centred(path) for path in (*self._measured.values(), *paths.values())]
-        scale = choose_scale(self._circle.radius_mm, max(float(np.abs(each.deviation_mm).max()) for each in centred))
-        residual_mm = self._part.reading_mm - here_mm
+        paths = self._paths(predicted_mm)
+        centred = {each: self._centred(path) for each, path in paths.items()}
+        every = (*map(self._centred, self._measured.values()), *centred.values())
+        scale = choose_scale(self._circle.radius_mm, max(float(np.abs(each.deviation_mm).max()) for each in every))
         return {
             "scale": {"centre": scale.centre_um, "division": scale.division_um, "count": scale.divisions},
             "scaleLabel": scale.label,
-            "directions": [
+            "lines": [
                 {
                     "predicted": _line(path),
-                    "predictedPolar": _line(self._centred(path), closed=True),
-                    "residual": self._residual(direction, path),
-                    "fitted": self._residual(direction, fitted[direction]) if fitted else [],
-                    "points": self._points(direction, residual_mm),
+                    "polar": _line(centred[direction], closed=True),
+                    "residual": _line(self._residual(direction, path)),
                 }
                 for direction, path in paths.items()
             ],
         }
+
+    def fitted(self, fitted_mm: Floats) -> list[dict[str, str]]:
+        """Return the residual of the model as fitted, to be drawn beside that of another one that is shown."""
+        paths = self._paths(fitted_mm)
+        return [{"residual": _line(self._residual(direction, path))} for direction, path in paths.items()]
+
+    def points(self, predicted_mm: Floats) -> list[Floats]:
+        """Return variable, residual and angle of every reading, by direction; of many the extremes of each column."""
+        residual_mm = self._part.reading_mm - predicted_mm[self._rows]
+        return [self._points(direction, residual_mm) for direction in self._of_direction]
 
     @cached_property
     def _measured(self) -> dict[int, Path]:
@@ -127,6 +134,11 @@ class CircleView:
             found[direction] = (order, values[order])
         return found
 
+    def _paths(self, readings_mm: Floats) -> dict[int, Path]:
+        """Return the mean path of each direction, of readings for the whole table."""
+        here_mm = readings_mm[self._rows]
+        return {each: self._path(each, here_mm) for each in self._of_direction}
+
     def _path(self, direction: int, reading_mm: Floats) -> Path:
         rows = self._of_direction[direction]
         return lap_mean_path(self._part.part(rows), self._circle, self._bar_mm, reading_mm[rows])
@@ -135,12 +147,11 @@ class CircleView:
         """Return a path about the measured centre, whichever it is: a difference between two stays visible."""
         return path if self._centre_mm is None else path.about(self._centre_mm)
 
-    def _residual(self, direction: int, path: Path) -> Floats:
+    def _residual(self, direction: int, path: Path) -> Path:
         measured = self._measured[direction]
-        return _line(Path(path.angle_rad, measured.deviation_mm - path.deviation_mm, path.nominal_radius_mm))
+        return Path(path.angle_rad, measured.deviation_mm - path.deviation_mm, path.nominal_radius_mm)
 
     def _points(self, direction: int, residual_mm: Floats) -> Floats:
-        """Return variable, residual and angle of every reading; of many the extremes of each column of the display."""
         order, values = self._ordered[direction]
         kept = screened(values, residual_mm[order], POINT_COLUMNS)
         angle_deg = np.degrees(self._part["angle_rad"][order[kept]]) % TURN_DEG
@@ -149,10 +160,10 @@ class CircleView:
         )
 
 
-def _line(path: Path, closed: bool = False) -> Floats:
-    """Return angle and deviation, shape (m, 2)."""
+def _line(path: Path, closed: bool = False) -> str:
+    """Return angles in degrees and deviations in µm, in turns: base64 of 32-bit floats, which browsers read quickly."""
     kept = screened(path.angle_rad, path.deviation_mm, COLUMNS)
     if closed:
         kept = np.append(kept, kept[:1])
-    pairs = np.column_stack([np.degrees(path.angle_rad[kept]), UM_PER_MM * path.deviation_mm[kept]])
-    return np.round(pairs, DECIMALS)
+    line = np.column_stack([np.degrees(path.angle_rad[kept]), UM_PER_MM * path.deviation_mm[kept]])
+    return base64.b64encode(line.astype("<f4").tobytes()).decode("ascii")

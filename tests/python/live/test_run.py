@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.browser.chromium import arguments, executable
 from tests.programs import called
-from tests.python.live.watched import long_plan, watched
+from tests.python.live.watched import TIMEOUT_S, long_plan, watched
 
 from hexdbb.capture import page_feed
 from hexdbb.cli import run_watched
@@ -39,7 +43,41 @@ def test_a_page_lost_in_mid_run_costs_no_sample(how: signal.Signals, unwatched: 
         status, errors = run.finished()
     assert status == 0, errors
     assert ("note: the page that watches has ended; the run goes on" in errors) == (how is signal.SIGKILL)
-    record = read_record(tmp_path / "run.parquet")
+    assert_same(read_record(tmp_path / "run.parquet"), unwatched)
+
+
+def test_a_browser_that_disappears_costs_no_sample(unwatched: Record, tmp_path: Path) -> None:
+    found = executable()
+    if found is None:
+        pytest.skip("no Chromium is installed")
+    (tmp_path / "plan.toml").write_text(long_plan(2))
+    with watched(tmp_path, *OPTIONS) as run:
+        words = [found, "--headless", *arguments(), f"--user-data-dir={tmp_path / 'profile'}", run.address]
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        with subprocess.Popen(words, start_new_session=True, **quiet) as browser:
+            wait_until(lambda: has_visitor(run.address))
+            assert run.process.poll() is None
+            os.killpg(browser.pid, signal.SIGKILL)
+        status, errors = run.finished()
+    assert status == 0, errors
+    assert_same(read_record(tmp_path / "run.parquet"), unwatched)
+
+
+def has_visitor(address: str) -> bool:
+    """Return whether a browser holds a connection to a page's server."""
+    port = int(address.rpartition(":")[2].partition("/")[0])
+    lines = Path("/proc/net/tcp").read_text().splitlines()[1:]
+    return any(f"{port:04X}" == line.split()[1].partition(":")[2] and line.split()[3] == "01" for line in lines)
+
+
+def wait_until(is_so: Callable[[], bool]) -> None:
+    ends = time.monotonic() + TIMEOUT_S
+    while not is_so():
+        assert time.monotonic() < ends
+        time.sleep(0.05)
+
+
+def assert_same(record: Record, unwatched: Record) -> None:
     assert record.complete
     assert set(record.columns) == set(unwatched.columns)
     for name, values in unwatched.columns.items():

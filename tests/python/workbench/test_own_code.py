@@ -8,6 +8,7 @@ import pytest
 
 import hexdbb as hx
 from hexdbb.workbench import Session
+from hexdbb.workbench.outputs import write_effects
 from hexdbb.workbench.own_code import require_ending
 
 GOOD = """
@@ -42,16 +43,16 @@ def test_what_does_not_end_is_stopped(folder: Path, source: str) -> None:
 def test_what_cannot_be_used_is_refused_with_its_line(folder: Path, source: str, message: str) -> None:
     session = Session([Path("today.parquet")], Path("model.toml"))
     with pytest.raises(hx.InputError, match=message):
-        session.write_effects(Path("mine.py"), source)
+        write_effects(session, Path("mine.py"), source)
     assert session.own_effects == []
-    assert session.busy == ""
+    assert session.changes.busy == ""
 
 
 def test_an_effect_of_ones_own_competes_and_is_in_the_script(folder: Path) -> None:
     session = Session([Path("today.parquet")], Path("model.toml"))
     with pytest.raises(hx.InputError, match=r"model\.toml: not written"):
-        session.write_effects(Path("model.toml"), GOOD)
-    assert session.write_effects(Path("mine.py"), GOOD) == ["lost_motion"]
+        write_effects(session, Path("model.toml"), GOOD)
+    assert write_effects(session, Path("mine.py"), GOOD) == ["lost_motion"]
     session.preview("lost_motion:4")
     assert session.prediction.rms_um < 1.0
     session.add("lost_motion:4")

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.chromium import browser, opened, violations
 from tests.python.workbench.served import Served, drawn, marked, number, served
 
 import hexdbb as hx
+from hexdbb.compensation import read_compensation
 
 __all__ = ["browser"]
 
@@ -22,6 +23,14 @@ from hexdbb import effect
 def strange(samples):
     '''A <script>alert(2)</script> in the docstring.'''
     return samples["velocity_mm_s"][:, 0]
+"""
+
+LOOPS = """
+from hexdbb import effect
+
+@effect(port="reading", unit="mm", prior_sigma=0.01)
+def endless(samples):
+    while True: pass
 """
 
 
@@ -84,18 +93,36 @@ def test_two_tabs_show_one_session(browser: Browser, workbench: Served) -> None:
         expect(marked(one, "switch leg_length")).to_have_attribute("aria-checked", "true")
 
 
-def test_a_value_follows_the_keyboard(browser: Browser, workbench: Served) -> None:
+def test_a_value_follows_keyboard_and_mouse(browser: Browser, workbench: Served) -> None:
+    label = "leg_length:1 longer"
+    record, model = hx.read_record("today.parquet"), hx.load_model("model.toml")
     with opened(browser, workbench.address) as page:
         drawn(page)
         before_um = number(page, "rms")
         page.get_by_role("button", name="leg_length").click()
-        slider = marked(page, "value leg_length:1 longer")
+        slider = marked(page, f"value {label}")
         slider.locator("[tabindex='0']").focus()
         for _ in range(20):
             page.keyboard.press("ArrowRight")
-        expect(marked(page, "rms")).not_to_have_text(f"{before_um:.2f}")
+        expect_rms(page, record, model, label, slider)
         assert number(page, "rms") > before_um
         assert number(page, "fitted") == before_um
+        box = slider.bounding_box()
+        assert box is not None
+        page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.down()
+        for step in range(60):  # as fast as the browser takes them: what is drawn must not lag behind
+            page.mouse.move(box["x"] + (0.5 + 0.005 * step) * box["width"], box["y"] + 0.5 * box["height"])
+        page.mouse.up()
+        expect_rms(page, record, model, label, slider)
+        expect(marked(page, "circle").first).to_have_attribute("aria-pressed", "true")
+
+
+def expect_rms(page: Page, record: hx.Record, model: hx.Model, label: str, slider: Locator) -> None:
+    """Check that the page shows the very error of the model with the value that the slider has."""
+    value = float(slider.get_attribute("aria-valuenow") or "nan")
+    expected = hx.predict(record, hx.with_value(model, label, value)).rms_um
+    expect(marked(page, "rms")).to_have_text(f"{expected:.2f}")
 
 
 def test_a_model_changed_meanwhile_is_said_and_kept(browser: Browser, workbench: Served, folder: Path) -> None:
@@ -138,6 +165,41 @@ def test_the_machine_follows_the_cursor_and_the_editor_needs_leave(browser: Brow
         marked(page, "source").fill("x = 1\n")
         marked(page, "compete").click()
         expect(page.get_by_role("alert")).to_contain_text("my_effects.py: declares no effect")
+
+
+def test_files_are_written_and_code_that_loops_is_stopped(browser: Browser, folder: Path) -> None:
+    """Take away what the workbench writes, from a page that an effect without an end has not held up."""
+    options = ("-m", "model.toml", "--allow-code", "--code-seconds", "3")
+    with served(folder, "today.parquet", *options) as allowed, opened(browser, allowed.address) as page:
+        drawn(page)
+        marked(page, "editor").locator(".q-item").click()
+        marked(page, "source").fill(LOOPS)
+        marked(page, "compete").click()
+        expect(page.get_by_role("status")).to_contain_text("trying my_effects.py")
+        marked(page, "switch leg_length").click()  # the page answers meanwhile
+        expect(marked(page, "switch leg_length")).to_have_attribute("aria-checked", "false")
+        expect(page.get_by_role("alert")).to_contain_text("my_effects.py: did not end and was stopped")
+        page.get_by_role("button", name="Back to the fit").click()
+        with page.expect_download() as downloaded:
+            write(page, "Report", "today-report.html")
+        assert Path(downloaded.value.path()).read_bytes() == (folder / "today-report.html").read_bytes()
+        expect(page.get_by_text("today-report.html: written.")).to_be_visible()
+        write(page, "Report", "today-report.html")
+        expect(page.get_by_text("today-report.html: exists already")).to_be_visible()
+        write(page, "Compensation", "model.hexcomp")
+        expect(page.get_by_text("model.hexcomp: written; left out: cup_position")).to_be_visible()
+        assert read_compensation(folder / "model.hexcomp").left_out
+        write(page, "Next circle", "today-next-plan.toml")
+        expect(page.get_by_text("determines most of the machine's errors alone")).to_be_visible()
+        assert len(hx.load_plan(folder / "today-next-plan.toml").circles) == 1
+
+
+def write(page: Page, button: str, name: str) -> None:
+    """Press a button that asks for the name of a file, and take the one that it proposes."""
+    marked(page, button).click()
+    dialog = page.get_by_role("dialog").last
+    expect(dialog.get_by_label("File")).to_have_value(name)
+    dialog.get_by_role("button", name="Write").click()
 
 
 def test_without_leave_there_is_no_editor(browser: Browser, workbench: Served) -> None:

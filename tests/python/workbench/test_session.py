@@ -14,6 +14,7 @@ import pytest
 import hexdbb as hx
 from hexdbb.discovery.result import NextTest
 from hexdbb.workbench import Session
+from hexdbb.workbench.outputs import write_compensation, write_next_plan, write_report
 
 
 @pytest.fixture
@@ -110,7 +111,7 @@ def test_bad_input_is_refused_and_changes_nothing(session: Session, action: Any,
     steps, model = list(session.script.steps), session.model
     with pytest.raises(hx.InputError, match=message):
         action(session)
-    assert (session.script.steps, session.model, session.busy) == (steps, model, "")
+    assert (session.script.steps, session.model, session.changes.busy) == (steps, model, "")
     assert session.tried.is_nothing
 
 
@@ -151,22 +152,22 @@ def test_a_second_action_is_refused_while_one_runs(session: Session) -> None:
 
     session.ask(progress)
     assert refused
-    assert session.busy == ""
+    assert session.changes.busy == ""
 
 
 def test_what_follows_is_written_and_in_the_script(session: Session, monkeypatch: pytest.MonkeyPatch) -> None:
     session.add("backlash:4")
-    left_out = session.write_compensation(Path("mine.hexcomp"))
+    left_out = write_compensation(session, Path("mine.hexcomp"))
     assert {name for name, _ in left_out} >= {"cup_position", "ball_offset"}
     proposed = hx.load_plan("thesis")  # what is proposed is tested with the planner: here it takes too long
     monkeypatch.setattr("hexdbb.api.propose_plan", lambda circles, **_: proposed)
-    assert session.plan_next(Path("next.toml")) == "determines most of the machine's errors alone"
+    assert write_next_plan(session, Path("next.toml")) == "determines most of the machine's errors alone"
     assert hx.load_plan("next.toml").circles == proposed.circles
     with pytest.raises(hx.InputError, match=r"next\.toml: exists already"):
-        session.plan_next(Path("next.toml"))
+        write_next_plan(session, Path("next.toml"))
     assert session.script.lines[-1] == "hx.save_plan(plan, 'next.toml', machine=records[0].machine)"
     assert "hx.compensate(model, 'mine.hexcomp')" in session.script.lines
-    assert session.write_report(Path("report.html"))
+    assert write_report(session, Path("report.html"))
     assert "backlash" in Path("report.html").read_text(encoding="utf-8")
 
 
@@ -174,7 +175,7 @@ def test_the_next_circle_tells_apart_what_was_found(session: Session) -> None:
     circle = session.records[0].circles[2].model_copy(update={"platform_rpy_deg": (3.0, 0.0, 0.0)})
     test = NextTest(circle, 1500.0, 9.0, ("backlash:4", "reversal_spike:4"))
     session.found = replace(session.ask(), next_test=test)
-    assert session.plan_next(Path("next.toml")) == "tells backlash:4 from reversal_spike:4"
+    assert write_next_plan(session, Path("next.toml")) == "tells backlash:4 from reversal_spike:4"
     plan = hx.load_plan("next.toml")
     assert (plan.circles, plan.feeds_mm_min) == ((circle,), (1500.0,))
     assert plan.gauge == session.records[0].gauge

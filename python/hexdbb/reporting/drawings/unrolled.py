@@ -7,9 +7,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from hexdbb.charts import screened
-from hexdbb.charts.lines import curve, near, residual_path, smoothed
+from hexdbb.charts.lines import NEAR_DEG, curve, near, residual_path, smoothed
 from hexdbb.comparison import CircleComparison
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES
+from hexdbb.comparison.reversals import Reversal
 from hexdbb.reporting.drawings.axes import TOP, Frame, padded, round_ticks
 from hexdbb.reporting.drawings.svg import chart, element, label, path
 
@@ -18,14 +19,17 @@ COLUMNS = 240
 """Columns of which each keeps its extremes; the chart is 320 units wide inside."""
 
 
-def unrolled_svg(circle: CircleComparison, meant: Sequence[str] = ()) -> str:
-    """Draw measured minus predicted reading: every angle in light, means of three degrees in dark."""
+def unrolled_svg(circle: CircleComparison, meant: Sequence[str] = (), apart_deg: float = NEAR_DEG) -> str:
+    """Draw measured minus predicted reading: every angle in light, means of three degrees in dark.
+
+    Reversals of the sliders meant (``slider 4``) are bold; those no further apart than `apart_deg` share one name.
+    """
     lines = [(SHORT_DIRECTION_NAMES[part.direction], residual_path(part)) for part in circle.directions]
     frame = Frame(WIDTH, HEIGHT, (0.0, 360.0), padded(np.concatenate([curve(each)[1] for _, each in lines])))
     inside = list(
         frame.grid(np.arange(0.0, 361.0, 90.0), round_ticks(*frame.y_range, 5), "polar angle, °", "residual, µm")
     )
-    inside += _marks(circle, frame, meant)
+    inside += _marks(circle, frame, meant, apart_deg)
     for side, each in lines:
         angle_rad, value_um = curve(each)
         angle_deg = np.degrees(angle_rad)
@@ -39,10 +43,14 @@ def unrolled_svg(circle: CircleComparison, meant: Sequence[str] = ()) -> str:
     return chart(title, frame.box, inside, class_="unrolled", data_low=low, data_high=high)
 
 
-def _marks(circle: CircleComparison, frame: Frame, meant: Sequence[str]) -> Iterator[str]:
-    for group in near(circle.reversals):
+def _marks(circle: CircleComparison, frame: Frame, meant: Sequence[str], apart_deg: float) -> Iterator[str]:
+    def kind_of(reversals: Sequence[Reversal]) -> str:
+        return "reversal meant" if any(f"slider {each.slider}" in meant for each in reversals) else "reversal"
+
+    for each in circle.reversals:
+        at = float(frame.x(each.angle_deg))
+        yield element("line", x1=at, x2=at, y1=TOP, y2=HEIGHT - 30.0, class_=f"{kind_of([each])} dotted")
+    for group in near(circle.reversals, apart_deg):
         at = float(frame.x(sum(each.angle_deg for each in group) / len(group)))
-        kind = "reversal meant" if any(f"slider {each.slider}" in meant for each in group) else "reversal"
-        yield element("line", x1=at, x2=at, y1=TOP, y2=HEIGHT - 30.0, class_=f"{kind} dotted")
         name = ",".join(str(each) for each in dict.fromkeys(each.slider for each in group))
-        yield label(name, at, TOP - 2.0, text_anchor="middle", class_=f"{kind} name")
+        yield label(name, at, TOP - 2.0, text_anchor="middle", class_=f"{kind_of(group)} name")

@@ -10,10 +10,10 @@ from hexdbb.workbench.page.whole import Page
 from hexdbb.workbench.session import Session
 
 
-def show(session: Session, allow_code: bool) -> None:
-    """Build the page of one tab."""
+def show(session: Session, code_seconds: int | None) -> None:
+    """Build the page of one tab; with an editor for effects of the user's own where they may compute (`Page`)."""
     dress()
-    Page(session, allow_code)
+    Page(session, code_seconds)
 
 
 __all__ = ["Page", "show"]

@@ -1,4 +1,4 @@
-"""The linked charts of one circle, as an element of the page: `circle_charts.js` draws them."""
+"""The linked charts of one circle, as an element of the page: `circle_charts.js` draws them by `drawing`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from nicegui.element import Element
 
 
-class CircleCharts(Element, component="circle_charts.js"):
+class CircleCharts(Element, component="circle_charts.js", esm={"hexdbb-drawing": "drawing"}):
     """Polar, unrolled, and residual against a variable; a cursor marks one angle in all of them."""
 
     def __init__(self, on_ready: Callable[[], None], on_cursor: Callable[[float], None]) -> None:
@@ -17,6 +17,12 @@ class CircleCharts(Element, component="circle_charts.js"):
         self.on("ready", lambda _: on_ready())
         self.on("cursor", lambda event: on_cursor(float(event.args)))
 
-    def show(self, measured: dict[str, Any] | None, predicted: dict[str, Any]) -> None:
-        """Draw a circle; `measured` is None where only the model changed (`CircleView`)."""
-        self.run_method("show", measured, predicted)
+    def show(
+        self, measured: dict[str, Any] | None, predicted: dict[str, Any], fitted: list[dict[str, str]] | None
+    ) -> None:
+        """Draw a circle (`CircleView`); `measured` is None where only the model changed, `fitted` where it stands."""
+        self.run_method("show", measured, predicted, fitted)
+
+    def settle(self, points: list[Any]) -> None:
+        """Draw every reading's residual, and the axes anew, when what is dragged rests (`CircleView.points`)."""
+        self.run_method("settle", points)

@@ -10,8 +10,8 @@ from hexdbb.predictors import record_names
 from hexdbb.samples import Prediction
 from hexdbb.workbench.circle_data import CircleView
 from hexdbb.workbench.columns import variables
-from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.circle_charts import CircleCharts
+from hexdbb.workbench.page.circle_picker import CirclePicker
 from hexdbb.workbench.page.machine_scene import MachineScene
 from hexdbb.workbench.page.running import refused
 from hexdbb.workbench.selection import Selection
@@ -21,6 +21,8 @@ UM_PER_MM = 1e3
 BOTH = {0: "both", **DIRECTION_NAMES}
 FIRST_AGAINST = "time_s"
 """The unrolled chart has the angle already; against time warmth and settling show."""
+NOTHING = "nothing"
+"""Stands for no curve of the model as fitted, where that is the one shown."""
 
 
 class CirclePanel:
@@ -32,43 +34,50 @@ class CirclePanel:
         self._against = FIRST_AGAINST if FIRST_AGAINST in self._variables else next(iter(self._variables))
         self._shown: tuple[Selection, str] | None = None
         self._rows = [each.rows(session.samples) for each in session.selections]
-        self._buttons: list[tuple[Selection, ui.button, ui.element, ui.label]] = []
+        self._fitted: object = None
         with ui.element("section").classes("wb-card").props('aria-label="Circle"'):
             self._build_picker()
             self._charts = CircleCharts(self._start, self._moved)
             self._scene = MachineScene(session)
 
-    def draw(self) -> None:
-        """Draw what has changed: the charts, the error of every circle."""
+    def follow(self) -> None:
+        """Draw what follows a value that is dragged: the curves, the error of every circle."""
         session = self._session
         if self._charts.is_ready:
-            key = (session.selection, self._against)
-            measured = None
+            key, measured = (session.selection, self._against), None
             if key != self._shown:
                 self._view = CircleView(session.samples, session.selection, self._variables[self._against])
-                self._shown, measured = key, self._view.measured()
-            fitted = None if session.tried.is_nothing else session.fitted.reading_mm
-            self._charts.show(measured, self._view.predicted(session.prediction.reading_mm, fitted))
+                self._shown, measured, self._fitted = key, self._view.measured(), None
+            self._charts.show(measured, self._view.predicted(session.prediction.reading_mm), self._fitted_lines())
         self._draw_picker()
+
+    def settle(self) -> None:
+        """Draw what follows when it rests: every reading's residual, the machine."""
+        if self._charts.is_ready and self._shown is not None:
+            self._charts.settle(self._view.points(self._session.prediction.reading_mm))
         self._scene.draw()
+        self._direction.value = self._session.selection.direction
+
+    def _fitted_lines(self) -> list[dict[str, str]] | None:
+        """Return the residual as fitted beside that of another model; None where the browser has it already."""
+        session = self._session
+        wanted = NOTHING if session.tried.is_nothing else session.fitted
+        if wanted is self._fitted:
+            return None
+        self._fitted = wanted
+        return self._view.fitted(wanted.reading_mm) if isinstance(wanted, Prediction) else []
 
     def _build_picker(self) -> None:
         session = self._session
         names = record_names(session.samples.records)
-        with ui.element("div").classes("wb-picker").props('role="group" aria-label="Circle and feed"'):
-            for each in session.selections:
-                record = f"{names[each.record]} " if len(names) > 1 else ""
-                with (
-                    ui.button(on_click=lambda each=each: self._select(each))
-                    .props("flat no-caps")
-                    .props(mark("circle")) as button
-                ):
-                    with ui.element("span").classes("wb-circle-name"):
-                        ui.label(f"{record}circle {each.circle}")
-                        ui.label(f"{each.feed_mm_min:g} mm/min").classes("wb-small")
-                    bar = ui.element("span").classes("wb-bar")
-                    number = ui.label().classes("wb-circle-rms")
-                self._buttons.append((each, button, bar, number))
+        several = len(names) > 1
+        self._picker = CirclePicker(
+            [
+                (f"{names[each.record]} " * several + f"circle {each.circle}", f"{each.feed_mm_min:g} mm/min")
+                for each in session.selections
+            ],
+            lambda place: self._select(session.selections[place]),
+        )
         with ui.row().classes("wb-choices"):
             present = {0, *(int(each) for each in np.unique(session.samples["direction"]))}
             self._direction = ui.select(
@@ -88,13 +97,8 @@ class CirclePanel:
     def _draw_picker(self) -> None:
         sizes_um = self._sizes_um(self._session.prediction)
         largest_um = max(sizes_um + self._sizes_um(self._session.fitted))
-        for (each, button, bar, number), size_um in zip(self._buttons, sizes_um, strict=True):
-            current = (each.record, each.circle, each.feed_mm_min) == _place(self._session.selection)
-            button.props(f"aria-pressed={'true' if current else 'false'}")
-            button.classes(add="wb-current" if current else "", remove="" if current else "wb-current")
-            bar.style(f"--part: {size_um / largest_um if largest_um else 0.0:.3f}")
-            number.set_text(f"{size_um:.2f} µm")
-        self._direction.value = self._session.selection.direction
+        places = [(each.record, each.circle, each.feed_mm_min) for each in self._session.selections]
+        self._picker.show(sizes_um, largest_um, places.index(_place(self._session.selection)))
 
     def _sizes_um(self, prediction: Prediction) -> list[float]:
         """Return the RMS residual of each circle."""
@@ -115,11 +119,15 @@ class CirclePanel:
     def _choose(self, against: str | None) -> None:
         if against in self._variables:
             self._against = against
-            self.draw()
+            self._draw()
+
+    def _draw(self) -> None:
+        self.follow()
+        self.settle()
 
     def _start(self) -> None:
         self._charts.is_ready, self._shown = True, None
-        self.draw()
+        self._draw()
 
     def _moved(self, angle_deg: float) -> None:
         self._scene.move(angle_deg)

@@ -11,6 +11,7 @@ from pathlib import Path
 from nicegui import ui
 
 from hexdbb.workbench.columns import variables
+from hexdbb.workbench.outputs import write_effects
 from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop, refused
 from hexdbb.workbench.session import Session
@@ -33,8 +34,8 @@ NAME = "my_effects.py"
 class EditorPanel:
     """The source of the user's effects, the columns they may depend on."""
 
-    def __init__(self, session: Session) -> None:
-        self._session = session
+    def __init__(self, session: Session, code_seconds: int) -> None:
+        self._session, self._code_seconds = session, code_seconds
         path = session.effects_path
         text = FIRST if path is None else path.read_text(encoding="utf-8")
         with ui.element("section").classes("wb-card").props('aria-labelledby="editor-title"'):
@@ -62,7 +63,7 @@ class EditorPanel:
             self._text.value = f'{self._text.value.rstrip()}  # samples["{found.column}"]{part}\n'
 
     def _compete(self) -> str:
-        names = self._session.write_effects(Path(self._file.value), self._text.value)
+        names = write_effects(self._session, Path(self._file.value), self._text.value, self._code_seconds)
         self._session.ask()
         return f"{', '.join(names)}: competed"
 

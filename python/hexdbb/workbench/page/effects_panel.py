@@ -2,30 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from nicegui import ui
 
 from hexdbb.model import Parameter, Term
-from hexdbb.units import readable_unit, shown_factor, shown_unit
 from hexdbb.workbench.page.attributes import attribute, mark
 from hexdbb.workbench.page.running import refused
+from hexdbb.workbench.page.value_slider import ValueSlider
 from hexdbb.workbench.session import Session
-
-THROTTLE_S = 0.03
-"""Shortest time between two values of a slider that is dragged: 30 curves a second."""
-REACH_SIGMAS = 3.0
-"""Reach of a slider in prior standard deviations, where the value lies within it: what the value may well be."""
-STEPS = 400
-"""Steps of a slider: a pixel or two each."""
-
-
-@dataclass
-class _Value:
-    label: str
-    slider: ui.slider
-    number: ui.label
-    unit: str
 
 
 class EffectsPanel:
@@ -34,7 +17,7 @@ class EffectsPanel:
     def __init__(self, session: Session) -> None:
         self._session = session
         self._switches: dict[str, ui.switch] = {}
-        self._values: list[_Value] = []
+        self._values: list[ValueSlider] = []
         with ui.element("section").classes("wb-card").props('aria-labelledby="effects-title"'):
             with ui.row().classes("wb-title"):
                 with ui.element("h2").props('id="effects-title"'):
@@ -52,15 +35,13 @@ class EffectsPanel:
         self._back.set_enabled(not session.tried.is_nothing)
         if anew:
             self._build()
-        shown = session.shown
-        values = {each.label: (each, value) for each, value in zip(shown.parameters(), shown.values, strict=True)}
         for effect, switch in self._switches.items():
             switch.value = effect not in session.tried.off
-        for each in self._values:
-            parameter, value = values[each.label]
-            size = float(value) * shown_factor(parameter.unit)
-            each.slider.value = size
-            each.number.set_text(f"{size:.4g} {each.unit}")
+        if self._values:
+            shown = session.shown
+            values = dict(zip((each.label for each in shown.parameters()), shown.values, strict=True))
+            for each in self._values:
+                each.follow(float(values[each.label]))
 
     def _build(self) -> None:
         self._switches, self._values = {}, []
@@ -102,31 +83,12 @@ class EffectsPanel:
                     self._slider(each)
             if parameters and parameters[0].is_coefficient:
                 ui.label("A learned function: its coefficients are not values one by one.").classes("wb-small")
-        self.draw(anew=False)
 
     def _slider(self, parameter: Parameter) -> None:
         shown = self._session.shown
         index = [each.label for each in shown.parameters()].index(parameter.label)
-        factor, unit = shown_factor(parameter.unit), readable_unit(shown_unit(parameter.unit))
-        value, sigma = float(shown.values[index]) * factor, float(shown.sigma[index]) * factor
-        reach = max(REACH_SIGMAS * parameter.prior_sigma * factor, 1.5 * abs(value - parameter.start))
-        low, high = parameter.start - reach, parameter.start + reach
-        name = f"{parameter.element} {parameter.name}"
-        with ui.element("div").classes("wb-value"):
-            ui.label(name).classes("wb-value-name")
-            number = ui.label().classes("wb-value-number")
-            slider = ui.slider(min=low, max=high, step=(high - low) / STEPS, value=value)
-            slider.props("dense").props(attribute("aria-label", parameter.label)).props(
-                mark(f"value {parameter.label}")
-            )
-            known = f"± {sigma:.3g} {unit}" if sigma == sigma else "not known on its own"
-            ui.label(known).classes("wb-small wb-value-known")
-        slider.on(
-            "update:model-value",
-            lambda event: self._drag(parameter.label, float(event.args)),
-            throttle=THROTTLE_S,
-        )
-        self._values.append(_Value(parameter.label, slider, number, unit))
+        value, sigma = float(shown.values[index]), float(shown.sigma[index])
+        self._values.append(ValueSlider(parameter, value, sigma, self._drag))
 
     def _switch(self, effect: str, on: bool) -> None:
         refused(lambda: self._session.switch(effect, on))

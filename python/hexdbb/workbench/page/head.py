@@ -5,6 +5,7 @@ from __future__ import annotations
 from nicegui import ui
 
 from hexdbb.workbench.page.attributes import mark
+from hexdbb.workbench.page.live_text import LiveText
 from hexdbb.workbench.page.running import off_loop
 from hexdbb.workbench.session import Session
 
@@ -27,15 +28,19 @@ class Head:
                 self._rms = _number("error shown, µm RMS", "rms")
                 self._fitted = _number("as fitted", "fitted")
                 self._noise = _number("noise of a reading", "noise")
-        self.draw()
+        self.follow()
+        self.settle()
 
-    def draw(self) -> None:
-        """Draw what has changed."""
+    def follow(self) -> None:
+        """Draw what follows a value that is dragged: the error shown."""
+        self._rms.set_text(f"{self._session.prediction.rms_um:.2f}")
+
+    def settle(self) -> None:
+        """Draw the rest."""
         session = self._session
         model = "new model, not saved" if session.file is None else session.file.path.name
         records = ", ".join(record.name for record in session.records)
         self._about.set_text(f"{records}  ·  {model}  ·  {session.samples.machine.name}")
-        self._rms.set_text(f"{session.prediction.rms_um:.2f}")
         self._fitted.set_text(f"{session.fitted.rms_um:.2f}")
         self._noise.set_text(f"{session.noise.noise.sigma_mm * 1e3:.2f}")
         kind, sentence = self._judged()
@@ -70,9 +75,10 @@ class Head:
         self._reload.set_visibility(changed)
 
 
-def _number(label: str, name: str) -> ui.label:
+def _number(label: str, name: str) -> LiveText:
     with ui.element("div").classes("wb-number"):
-        number = ui.label().classes("wb-figure").props(mark(name))
+        with ui.element("div").classes("wb-figure").props(mark(name)):
+            number = LiveText()
         ui.label(label).classes("wb-small")
     return number
 

@@ -35,7 +35,7 @@ class Ladder:
     def draw(self) -> None:
         """Draw the steps, and what is previewed."""
         session = self._session
-        self._undo.set_enabled(bool(session.model.ledger) and not session.busy)
+        self._undo.set_enabled(bool(session.model.ledger) and not session.changes.busy)
         if session.model is self._model and session.tried.preview == self._preview:
             return
         self._model, self._preview = session.model, session.tried.preview

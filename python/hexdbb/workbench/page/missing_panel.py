@@ -7,6 +7,7 @@ from collections.abc import Awaitable, Callable
 from nicegui import ui
 
 from hexdbb.discovery import Candidate, Discovery
+from hexdbb.workbench.changes import EVERYTHING
 from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop, refused
 from hexdbb.workbench.session import Session
@@ -42,10 +43,10 @@ class MissingPanel:
         self._fit.set_visibility(not session.is_fitted)
         self._ask.set_visibility(session.is_fitted)
         for button in (self._fit, self._ask):
-            button.set_enabled(not session.busy)
-        self._busy.set_visibility(bool(session.busy))
-        self._doing.set_text(": ".join(filter(None, (session.busy, self._progress))))
-        now = (session.tried.preview, bool(session.busy))
+            button.set_enabled(not session.changes.busy)
+        self._busy.set_visibility(bool(session.changes.busy))
+        self._doing.set_text(": ".join(filter(None, (session.changes.busy, self._progress))))
+        now = (session.tried.preview, bool(session.changes.busy))
         if session.found is not self._found_drawn or now != self._drawn:
             self._found_drawn, self._drawn = session.found, now
             self._found.clear()
@@ -56,7 +57,7 @@ class MissingPanel:
     def _asking(self) -> None:
         def progress(what: str) -> None:
             self._progress = what
-            self._session.touch()
+            self._session.changes.tell(EVERYTHING)
 
         try:
             self._session.ask(progress)
@@ -102,12 +103,12 @@ class MissingPanel:
                 )
                 add = ui.button("Add", on_click=self._adding(each)).props("unelevated dense no-caps")
                 for button, name in ((preview, "preview"), (add, "add")):
-                    button.props(mark(f"{name} {each.choice}")).set_enabled(not self._session.busy)
+                    button.props(mark(f"{name} {each.choice}")).set_enabled(not self._session.changes.busy)
 
     def _preview(self, each: Candidate, previewed: bool) -> None:
         refused(self._session.back_to_fit if previewed else lambda: self._session.preview(*each.names))
 
-    def _adding(self, each: Candidate) -> Callable[[], Awaitable[None]]:
+    def _adding(self, each: Candidate) -> Callable[[], Awaitable[bool]]:
         return off_loop(lambda: self._session.add(*each.names), f"{each.choice} added")
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from nicegui import ui
 
+from hexdbb.workbench.outputs import write_compensation, write_next_plan, write_report
 from hexdbb.workbench.page.attributes import mark
 from hexdbb.workbench.page.running import off_loop
 from hexdbb.workbench.session import Session
@@ -23,7 +24,7 @@ class ResultsPanel:
             with ui.row().classes("wb-actions"):
                 for name, action in (
                     ("Save model as", lambda: self._asked("model.toml", self._save)),
-                    ("Report", lambda: self._asked("report.html", self._report)),
+                    ("Report", lambda: self._asked("report.html", self._report, ui.download.file)),
                     ("Next circle", lambda: self._asked("next-plan.toml", self._plan)),
                     ("Compensation", lambda: self._asked(".hexcomp", self._compensate)),
                     ("Copy as script", self._script),
@@ -36,8 +37,8 @@ class ResultsPanel:
         base = session.file.path if session.file is not None else stem
         return str(base.with_suffix(ending)) if ending.startswith(".") else str(base.with_name(f"{stem.stem}-{ending}"))
 
-    def _asked(self, ending: str, write: Callable[[Path], str]) -> None:
-        """Ask for the name of a file, then write it."""
+    def _asked(self, ending: str, write: Callable[[Path], str], after: Callable[[Path], None] = lambda _: None) -> None:
+        """Ask for the name of a file, write it, and do what follows."""
         with ui.dialog() as dialog, ui.card():
             name = ui.input("File", value=self._default(ending)).classes("wb-wide")
 
@@ -45,7 +46,8 @@ class ResultsPanel:
 
             async def go() -> None:
                 dialog.close()
-                await writing()
+                if await writing():
+                    after(Path(name.value))
 
             with ui.row():
                 ui.button("Write", on_click=go).props("unelevated no-caps")
@@ -57,14 +59,16 @@ class ResultsPanel:
         return f"{path}: written; every further step is written there"
 
     def _compensate(self, path: Path) -> str:
-        left_out = self._session.write_compensation(path)
+        left_out = write_compensation(self._session, path)
         return "; ".join([f"{path}: written", *(f"left out: {name} ({why})" for name, why in left_out)])
 
     def _report(self, path: Path) -> str:
-        return f"{path}: written. {self._session.write_report(path)}"
+        return f"{path}: written. {write_report(self._session, path)}"
 
     def _plan(self, path: Path) -> str:
-        return f"{path}: written, a circle that {self._session.plan_next(path)}; hexdbb-run --plan {path} drives it"
+        return (
+            f"{path}: written, a circle that {write_next_plan(self._session, path)}; hexdbb-run --plan {path} drives it"
+        )
 
     def _script(self) -> None:
         text = self._session.script.text

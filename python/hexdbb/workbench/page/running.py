@@ -30,14 +30,16 @@ def refused(action: Callable[[], Any]) -> bool:
     return False
 
 
-def off_loop(action: Callable[[], Any], done: str = "") -> Callable[[], Awaitable[None]]:
+def off_loop(action: Callable[[], Any], done: str = "") -> Callable[[], Awaitable[bool]]:
     """Return a handler that runs a long action in a thread, so that the page stays live, and says what it returns.
+
+    The handler returns whether the action was done; where it was refused it says why.
 
     What it has to say it says to the tab that is being built now: the button that was pressed may be gone by then.
     """
     tab = ui.context.client
 
-    async def handle() -> None:
+    async def handle() -> bool:
         kind: Kind = "positive"
         try:
             returned = await run.io_bound(action)
@@ -47,5 +49,6 @@ def off_loop(action: Callable[[], Any], done: str = "") -> Callable[[], Awaitabl
         with tab:
             if said:
                 say(said, kind)
+        return kind == "positive"
 
     return handle
