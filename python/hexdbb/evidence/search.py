@@ -125,6 +125,7 @@ class Search:
     def run(self) -> Node:
         """Return the best set of hypotheses; the empty one where nothing is found."""
         best, beam = self.root, [self.root]
+        together = self.root
         for size in range(self.criteria.max_effects):
             beam = beam[: self.criteria.max_expansions - len(self._expanded)]
             children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
@@ -132,14 +133,16 @@ class Search:
             beam = self._kept(children)
             best = max([best, *filter(self._predicts, beam)], key=lambda each: each.score)
             if size == 0 and best.trial.left > self.criteria.refined_to:
-                best = self._or_known_together(best)
-                beam = [best, *beam] if len(best.members) > 1 else beam
+                together = self._or_known_together(best)
+                beam = [together, *beam] if len(together.members) > 1 else beam
+                # Several that leave something stand in for what nobody knows: what is learned may still be better.
+                best = together if self._is_complete(together) else best
             if not beam:
                 break
             if self._is_complete(best):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if _is_known(each)] if _is_free_in_time(best) else []
-        return best
+        return max(best, together, key=lambda each: each.score)
 
     def _or_known_together(self, best: Node) -> Node:
         """Return the best set of known effects, chosen together, where it is better than what explains most alone.
