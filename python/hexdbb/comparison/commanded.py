@@ -1,4 +1,4 @@
-"""Readings against the commanded circle, where there is no model: ISO 230-4 quantities, harmonics and pictures need none.
+"""Readings against the commanded circle: ISO 230-4 quantities, harmonics and pictures need no model.
 
 What takes the place of a prediction is the reading of a machine that drives the commanded circle exactly, about a cup
 that is off in the circle's plane by what the readings say (`hexdbb.comparison.set_up`); about the cup as planned where
@@ -40,8 +40,8 @@ def _commanded_mm(samples: Samples) -> FloatArray:
         for circle in record.circles:
             here = (samples["record"] == place) & (samples["circle"] == circle.id)
             commanded_mm[here] = circle.radius_mm - record.gauge.bar_length_mm
-    for circle in compare_circles(samples, commanded_mm):
-        for part in circle.directions:
+    for compared in compare_circles(samples, commanded_mm):
+        for part in compared.directions:
             if part.radial_mm is not None:
                 commanded_mm[part.rows] = samples.reading_mm[part.rows] - part.radial_mm
     return commanded_mm

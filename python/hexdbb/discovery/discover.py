@@ -143,7 +143,10 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
 
 
 def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Discovery:
-    """Add what laps tell of the noise, and what was not measured; a machine that does not repeat does not lack nothing."""
+    """Add what was not measured, and what laps tell of the noise.
+
+    A machine that does not repeat does not lack nothing.
+    """
     found = replace(found, remarks=(*found.remarks, *not_measured_sentences(engine.samples.records)))
     if judging.remark is None:
         return found

@@ -99,8 +99,8 @@ class Record:
     def to_frame(self) -> Any:
         """Return the samples as a ``pandas.DataFrame`` of n rows, its columns those of the record's file.
 
-        Its ``attrs`` hold the rest, as plain values: ``measurement`` (gauge, mounts, circles), ``machine``, ``metadata``
-        and ``complete``.
+        Its ``attrs`` hold the rest as plain values: ``measurement`` (gauge, mounts, circles), ``machine``,
+        ``metadata`` and ``complete``.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Columns of the state that computed slider positions or times cannot give, and the effects that therefore cannot be judged.
+"""What cannot be judged where slider positions or times were computed: columns of the state, and effects.
 
 A record may state that its slider coordinates follow from the commanded circle, or its times from the commanded feed
 (`hexdbb.record.not_measured`). Positions are then good to the drives' following error, a few micrometres in a smooth
@@ -66,7 +66,7 @@ def with_judged_free(unmeasured: frozenset[str], model: Model) -> Model:
 
 
 def not_measured_sentences(records: Sequence[Record]) -> Iterator[str]:
-    """Yield one sentence for each thing that was computed: from what, what it means, which effects are no candidates."""
+    """Yield a sentence for each thing that was computed: from what, what it means, which effects are no candidates."""
     for what, columns in COMPUTED.items():
         origins = {text: None for each in records if (text := getattr(each.not_measured, what))}
         if origins:

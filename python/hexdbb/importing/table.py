@@ -1,0 +1,188 @@
+"""The table of readings among the cells of a file: where it begins and ends, and what its columns are called.
+
+A table is a run of rows with two numbers each. Above it stand its headings (up to three rows: names, merged names,
+units) and whatever else (a preamble); below it a footer may stand. Two such runs are two tables, of which one must be
+chosen; a run that one bad cell interrupts is a table with a bad cell.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hexdbb.errors import InputError
+from hexdbb.importing.grid import Grid, shown
+from hexdbb.importing.mapping import Mapping
+from hexdbb.importing.quantities import recognised
+
+LEAST_ROWS = 8
+"""Rows of a table: fewer readings are no circle, and a preamble or footer seldom has as many rows of two numbers."""
+MOST_HEADINGS = 3
+"""Rows of headings: a group's name, the name, the unit."""
+MOSTLY = 0.8
+"""Part of a column's cells that are numbers, from which it is a column of numbers with bad cells in it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A table found.
+
+    Attributes
+    ----------
+    grid : Grid
+    first, last : int
+        Its first and last row in the grid.
+    headings : tuple of str
+        Of each column; empty where it has none.
+    how : str
+        What was found, in words.
+    """
+
+    grid: Grid
+    first: int
+    last: int
+    headings: tuple[str, ...]
+    how: str
+
+
+def find_table(grid: Grid, mapping: Mapping) -> Table:
+    """Find the table of readings.
+
+    Raises
+    ------
+    InputError
+        There is none, there are several, or a cell in it is no number; names file, line and what was expected.
+    """
+    counts = [sum(grid.number(cell) is not None for cell in cells) for cells in grid.rows]
+    if mapping.rows is not None:
+        first, last = (_place(grid, line) for line in mapping.rows)
+        _require_numbers(grid, counts, first, last)
+    else:
+        first, last = _found(grid, counts)
+    heads, lines = _headings(grid, counts, first, mapping)
+    after = sum(any(cell != "" for cell in cells) for cells in grid.rows[last + 1 :])
+    left = f", {after} {grid.unit}{'s' * (after != 1)} after them left out" if after else ""
+    how = f"{last - first + 1} rows ({grid.unit}s {grid.lines[first]}-{grid.lines[last]}{left})"
+    named = f"names in {lines}" if lines else "no names"
+    return Table(grid, first, last, heads, f"{named}, {how}")
+
+
+def _place(grid: Grid, line: int) -> int:
+    """Return the row of the grid that stands in a line."""
+    found = [place for place, each in enumerate(grid.lines) if each == line]
+    if not found:
+        last = grid.lines[-1] if len(grid.lines) else 0
+        raise InputError(f"{grid.name}: {grid.unit} {line} is not there (expected one up to {last}, the last)")
+    return found[0]
+
+
+def _require_numbers(grid: Grid, counts: Sequence[int], first: int, last: int) -> None:
+    for row in range(first, last + 1):
+        if counts[row] < 1:
+            raise InputError(f"{grid.name}: {grid.at(row)}: holds no number (expected readings, as --rows states)")
+
+
+def _found(grid: Grid, counts: Sequence[int]) -> tuple[int, int]:
+    runs = _runs(counts)
+    tables = [(first, last) for first, last in runs if last - first + 1 >= LEAST_ROWS]
+    if not tables:
+        expected = f"{LEAST_ROWS} rows at least of two numbers each: angle and reading"
+        raise InputError(f"{grid.name}: no table of readings (expected {expected})")
+    first, last = tables[0]
+    _require_no_bad_cell(grid, counts, first, last)
+    if len(tables) > 1:
+        which = " and ".join(f"{grid.lines[a]}-{grid.lines[b]}" for a, b in tables)
+        expected = f"one; --rows {grid.lines[first]}:{grid.lines[last]} chooses the first"
+        raise InputError(f"{grid.name}: {len(tables)} tables, {grid.unit}s {which} (expected {expected})")
+    return first, last
+
+
+def _runs(counts: Sequence[int]) -> list[tuple[int, int]]:
+    """Return first and last row of each run of rows with two numbers or more."""
+    runs: list[tuple[int, int]] = []
+    for row, count in enumerate(counts):
+        if count < 2:
+            continue
+        if runs and runs[-1][1] == row - 1:
+            runs[-1] = runs[-1][0], row
+        else:
+            runs.append((row, row))
+    return runs
+
+
+def _require_no_bad_cell(grid: Grid, counts: Sequence[int], first: int, last: int) -> None:
+    """Check that what ends a table is no row of it with a bad cell."""
+    row = last + 1
+    if row >= len(grid.rows):
+        return
+    width = max(len(cells) for cells in grid.rows[first : last + 1])
+    numeric = [column for column in range(width) if _numbers(grid, first, last, column) >= MOSTLY * (last - first + 1)]
+    goes_on = row + 1 < len(counts) and counts[row + 1] >= 2
+    is_number = [grid.number(grid.cell(row, column)) is not None for column in numeric]
+    if not any(is_number) or not (goes_on or is_number[0]):
+        return
+    column = numeric[is_number.index(False)] if False in is_number else numeric[0]
+    raise InputError(f"{grid.name}: {grid.at(row)}: column {column + 1}: {described(grid, row, column)}")
+
+
+def described(grid: Grid, row: int, column: int) -> str:
+    """Return what an error says of a cell that is no number."""
+    cell = grid.cell(row, column)
+    note = "; a spreadsheet program may have taken a number for a date" if not isinstance(cell, str | float) else ""
+    return f"{shown(cell)} (expected a number{note})"
+
+
+def _numbers(grid: Grid, first: int, last: int, column: int) -> int:
+    return sum(grid.number(grid.cell(row, column)) is not None for row in range(first, last + 1))
+
+
+def _headings(grid: Grid, counts: Sequence[int], first: int, mapping: Mapping) -> tuple[tuple[str, ...], str]:
+    """Return the headings of the columns, and the lines they stand in."""
+    width = max(len(cells) for cells in grid.rows[first : first + LEAST_ROWS])
+    if mapping.header == 0:
+        return ("",) * width, ""
+    if mapping.header is not None:
+        row = _place(grid, mapping.header)
+        return _joined(grid, range(row, row + 1), width), grid.at(row)
+    rows = [row for row in range(first - 1, -1, -1) if _is_text(grid, counts, row)]
+    beside = [row for place, row in enumerate(rows[:MOST_HEADINGS]) if row == first - 1 - place]
+    best, chosen = ("",) * width, range(0)
+    for begin in beside:
+        heads = _joined(grid, range(begin, first), width)
+        if _worth(heads) > _worth(best) or not len(chosen):
+            best, chosen = heads, range(begin, first)
+    where = (
+        grid.at(chosen.start)
+        if len(chosen) == 1
+        else f"{grid.unit}s {grid.lines[first - len(chosen)]}-{grid.lines[first - 1]}"
+        if chosen
+        else ""
+    )
+    return best, where
+
+
+def _is_text(grid: Grid, counts: Sequence[int], row: int) -> bool:
+    return counts[row] == 0 and any(isinstance(cell, str) and cell for cell in grid.rows[row])
+
+
+def _joined(grid: Grid, rows: range, width: int) -> tuple[str, ...]:
+    """Return the texts of some rows column by column; a group's name holds for the empty cells to its right."""
+    parts: list[list[str]] = [[] for _ in range(width)]
+    for row in rows:
+        before = ""
+        for column in range(width):
+            cell = grid.cell(row, column)
+            text = cell if isinstance(cell, str) else ""
+            if row != rows[-1]:
+                text = before = text or before
+            if text:
+                parts[column].append(text)
+    return tuple(" ".join(each) for each in parts)
+
+
+def _worth(heads: Sequence[str]) -> tuple[int, int]:
+    """Return how many different quantities, and how many units, headings name."""
+    found = [recognised(each) for each in heads if each]
+    names = [name for name, _ in found if name is not None]
+    twice = len(names) - len(set(names))
+    return len(set(names)) - twice, sum(unit is not None for _, unit in found)
