@@ -200,6 +200,7 @@ ALLOWED: dict[str, set[str]] = {
         "kinematics",
         "plan",
         "record",
+        "importing",
         "model",
         "effects",
         "samples",

@@ -7,6 +7,6 @@ what is not stated and cannot be seen is asked for.
 """
 
 from hexdbb.importing.mapping import Mapping, load_mapping, mapping_of, save_mapping
-from hexdbb.importing.reader import read_any, read_measured
+from hexdbb.importing.reader import read_measured, read_record
 
-__all__ = ["Mapping", "load_mapping", "mapping_of", "read_any", "read_measured", "save_mapping"]
+__all__ = ["Mapping", "load_mapping", "mapping_of", "read_measured", "read_record", "save_mapping"]

@@ -207,7 +207,8 @@ def time_s(table: Table, column: Column) -> Floats:
             raise InputError(f"{grid.name}: {grid.at(row)}: column {column}: {cell} (expected {expected})")
         times.append(seconds)
     values: Floats = np.array(times, dtype=np.float64)
-    return values - values[0]
+    since: Floats = values - values[0]
+    return since
 
 
 def _clock_s(cell: Cell) -> float | None:

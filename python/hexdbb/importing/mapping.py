@@ -87,6 +87,10 @@ class Mapping(FileModel):
             raise BadValueError(("rows",), list(self.rows), "the first line before the last")
         return self
 
+    def choices(self) -> dict[str, Any]:
+        """Return the keys that are given, as `mapping_of` takes them."""
+        return self.model_dump(by_alias=True, exclude_unset=True, exclude={"schema_id"}, exclude_none=True)
+
     def over(self, other: Mapping) -> Mapping:
         """Return a mapping of the keys of this one, and of the other's where this one has none."""
         own = {name: value for name in self.model_fields_set if (value := getattr(self, name)) not in (None, {})}

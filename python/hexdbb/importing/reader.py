@@ -19,7 +19,8 @@ from hexdbb.importing.setting import Setting, setting_of
 from hexdbb.importing.sweeps import samples_of
 from hexdbb.importing.tabular import series_of
 from hexdbb.importing.text import read_text_grid
-from hexdbb.record import Record, read_record
+from hexdbb.record import Record
+from hexdbb.record import read_record as read_own_record
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import RowSource
 from hexdbb.record.formats import FORMATS
@@ -67,11 +68,11 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
     """
     path = Path(path)
     wanted = mapping or Mapping()
-    if _is_own(path) and wanted == Mapping():
-        return read_record(path)
+    if _is_own(path):
+        return read_own_record(path)
     if path.suffix.lower() not in READERS:
         if path.suffix in FORMATS or path.suffix == ".journal":
-            return read_record(path)
+            return read_own_record(path)
         known = ", ".join(dict.fromkeys((*FORMATS, *READERS)))
         raise InputError(f"{path}: suffix {path.suffix!r} (expected one of {known})")
     if not path.is_file():
@@ -79,7 +80,7 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
     return _imported(path, wanted.over(_beside(path)), tell)
 
 
-def read_any(path: Path | str, mapping: Path | str | None = None, **choices: Any) -> Record:
+def read_record(path: Path | str, mapping: Path | str | None = None, **choices: Any) -> Record:
     """Read and check a record, or readings of another program.
 
     Parameters

@@ -23,10 +23,11 @@ from hexdbb.discovery import Discovery
 from hexdbb.effects import UserEffect, load_effects
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
+from hexdbb.importing import Mapping, read_measured
 from hexdbb.ledger import History, history, undo
 from hexdbb.model import Model, new_model
 from hexdbb.plan import save_plan
-from hexdbb.record import Record, read_record
+from hexdbb.record import Record
 from hexdbb.samples import Prediction, Samples, predict
 from hexdbb.threads import one_thread
 from hexdbb.workbench.model_file import ModelFile
@@ -54,6 +55,10 @@ class Session:
         a path the model is in memory only, until `save_as`.
     effects_path : Path, optional
         Python file that declares effects of the user's own; it is run.
+    mapping : Mapping, optional
+        How records of other programs are read.
+    tell : callable
+        Is told in one line what was detected in a record of another program.
 
     Raises
     ------
@@ -62,9 +67,16 @@ class Session:
     """
 
     def __init__(
-        self, record_paths: Sequence[Path], model_path: Path | None = None, effects_path: Path | None = None
+        self,
+        record_paths: Sequence[Path],
+        model_path: Path | None = None,
+        effects_path: Path | None = None,
+        *,
+        mapping: Mapping | None = None,
+        tell: Callable[[str], None] = lambda _: None,
     ) -> None:
-        self.records: list[Record] = [read_record(path) for path in record_paths]
+        self.mapping = mapping or Mapping()
+        self.records: list[Record] = [read_measured(path, self.mapping, tell) for path in record_paths]
         self.samples = Samples.of(self.records)
         self.file = None if model_path is None else ModelFile(model_path)
         self.script = Script()
@@ -77,7 +89,8 @@ class Session:
         self._lock = threading.RLock()
         self._listeners: list[Callable[[], None]] = []
         self._cache: dict[str, object] = {}
-        paths = ", ".join(f"hx.read_record({str(path)!r})" for path in record_paths)
+        choices = "".join(f", {key}={value!r}" for key, value in self.mapping.choices().items())
+        paths = ", ".join(f"hx.read_record({str(path)!r}{choices})" for path in record_paths)
         self.script.add(f"records = [{paths}]", "samples = hx.Samples.of(records)")
         self.selections = selections(self.samples)
         self.selection = self.selections[0]
@@ -239,7 +252,9 @@ class Session:
                 raise InputError(f"{path}: not written (expected a new name that ends in .py)")
             write_text(path, source)
             self.effects_path = path
-            require_ending(path, [record.path for record in self.records if record.path is not None])
+            require_ending(
+                path, [record.path for record in self.records if record.path is not None], mapping=self.mapping
+            )
             effects = load_effects(path)
             self.own_effects, self.found = effects, None
             self.model = self.model.knowing_effects(effects)
