@@ -48,7 +48,9 @@ def text(name: str, lines: Iterable[str], encoding: str = "utf-8", end: str = "\
 def places(record: Record) -> list[tuple[float, float, float]]:
     """Return place, counter-clockwise and clockwise reading of the angles that both runs pass."""
     by_sign: dict[int, dict[float, float]] = {1: {}, -1: {}}
-    for sign, angle, reading in zip(*(record.columns[n] for n in ("direction", "angle_deg", "reading_um")), strict=True):
+    for sign, angle, reading in zip(
+        *(record.columns[n] for n in ("direction", "angle_deg", "reading_um")), strict=True
+    ):
         by_sign[int(sign)].setdefault(round(float(angle), 1) % 360.0, float(reading))
     both = sorted(by_sign[1].keys() & by_sign[-1].keys())
     return [(angle, by_sign[1][angle], by_sign[-1][angle]) for angle in both]
@@ -60,7 +62,12 @@ def write_texts(record: Record) -> None:
     each = list(zip(angle, reading, sign, time, strict=True))
     words = {1: "gegen Uhrzeigersinn", -1: "im Uhrzeigersinn"}
     german = ["Kreisformtest;;", "Prüfer;Müller;", ";;", "Winkel [°];Abweichung [µm];Drehsinn"]
-    text("german.csv", [*german, *(f"{comma(a, 3)};{comma(r, 1)};{words[int(d)]}" for a, r, d, _ in each)], "cp1252", "\r\n")
+    text(
+        "german.csv",
+        [*german, *(f"{comma(a, 3)};{comma(r, 1)};{words[int(d)]}" for a, r, d, _ in each)],
+        "cp1252",
+        "\r\n",
+    )
     plain = (f"{r:.1f},{a:.4f},{d:+d},keep" for a, r, d, _ in each)
     text("plain.csv", ["reading_um,angle_deg,direction,operator", *plain], "utf-8-sig", "\r\n")
     wide = [f"{a:.1f},{up:.1f},{down:.1f}" for a, up, down in places(record)]
@@ -71,7 +78,14 @@ def write_texts(record: Record) -> None:
     tabs = (f"{t:.3f}\t{a:.6f}\t{r / 1000.0:.5f}" for a, (_, r, _, t) in zip(unwrapped, each, strict=True))
     text("tabs.txt", ["Time (s)\tTheta (rad)\tBall bar error (mm)", *tabs], "utf-16")
     text("spaces.dat", (f"{a:10.4f} {d:3d} {r:9.1f}" for a, r, d, _ in each))
-    mapping = ['schema = "hexdbb.mapping/1"', 'plan = "thesis"', "header = 0", "[columns]", "angle = 1", "direction = 2"]
+    mapping = [
+        'schema = "hexdbb.mapping/1"',
+        'plan = "thesis"',
+        "header = 0",
+        "[columns]",
+        "angle = 1",
+        "direction = 2",
+    ]
     text("spaces.toml", [*mapping, "reading = 3", "[units]", 'reading = "um"', 'angle = "deg"'])
     ms = (f"{grouped(t * 1e3, 1)};{comma(a, 2)};{comma(r, 1)};{'G03' if d > 0 else 'G02'}" for a, r, d, t in each)
     text("thousands.csv", ["Zeit in ms;Winkel in Grad;Messwert in µm;Richtung", *ms])

@@ -46,7 +46,7 @@ OF_CONVERT: tuple[Option, ...] = (
     ("units", "--unit", {"metavar": "Q=UNIT", "multiple": True, "help": "Unit of a quantity, as reading=um."}),
     ("sheet", "--sheet", {"metavar": "NAME", "help": "Excel: sheet."}),
     ("header", "--header", {"metavar": "LINE", "type": int, "help": "Line that names the columns; 0: none."}),
-    ("rows", "--rows", {"metavar": "A:B", "help": "First and last line of the readings."}),
+    ("rows", "--rows", {"metavar": "A:B", "multiple": True, "help": "First and last line; again for a further table."}),
     ("delimiter", "--delimiter", {"metavar": "NAME", "help": "comma, semicolon, tab, bar or space."}),
     ("decimal", "--decimal", {"metavar": "MARK", "help": "Decimal mark: . or ,"}),
     ("encoding", "--encoding", {"metavar": "NAME", "help": "Encoding of a text, as utf-8 or cp1252."}),
@@ -91,7 +91,7 @@ def wanted_mapping() -> Mapping:
     if "columns" in given:
         given["columns"] = {name: int(text) if text.isdecimal() else text for name, text in given["columns"].items()}
     if "rows" in given:
-        given["rows"] = _rows(given["rows"])
+        given["rows"] = tuple(_range(text) for text in given["rows"])
     if "direction" in given:
         given["direction"] = DIRECTIONS[given["direction"]]
     wanted = mapping_of("options", **given)
@@ -116,7 +116,7 @@ def _pairs(texts: tuple[str, ...], option: str) -> dict[str, str]:
     return pairs
 
 
-def _rows(text: str) -> tuple[int, int]:
+def _range(text: str) -> tuple[int, int]:
     first, colon, last = text.partition(":")
     if not colon or not first.isdecimal() or not last.isdecimal():
         raise InputError(f'--rows "{text}" (expected FIRST:LAST, lines as 5:364)')

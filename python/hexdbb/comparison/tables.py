@@ -59,6 +59,7 @@ def origin_lines(comparison: Comparison) -> Iterator[str]:
     """Yield what takes the place of a model where there is none, and what the records compute instead of measure."""
     if comparison.is_commanded:
         yield f"No model: predicted is {COMMANDED}."
+        return  # quantities of paths depend on nothing that is computed
     yield from (f"{capital(each)}." for each in not_measured_sentences(comparison.samples.records))
 
 

@@ -128,7 +128,7 @@ def numbers_of(table: Table, column: Column) -> Floats:
     InputError
         A cell is no number; names line, column, cell and what was expected.
     """
-    grid, rows = table.grid, range(table.first, table.last + 1)
+    grid, rows = table.grid, table.rows
     values = [grid.number(grid.cell(row, column.place)) for row in rows]
     for row, value in zip(rows, values, strict=True):
         if value is None or not np.isfinite(value):
@@ -195,8 +195,8 @@ def angle_deg(table: Table, column: Column) -> tuple[Floats, str]:
 
 def time_s(table: Table, column: Column) -> Floats:
     """Return times, s, shape (n,): a column of numbers with a unit, or clock times, counted from the first."""
-    grid, rows = table.grid, range(table.first, table.last + 1)
-    if grid.number(grid.cell(table.first, column.place)) is not None:
+    grid, rows = table.grid, table.rows
+    if grid.number(grid.cell(table.rows[0], column.place)) is not None:
         return values_of(table, column)
     times = []
     for row in rows:
@@ -244,7 +244,7 @@ def direction(table: Table, column: Column, mapping: Mapping) -> NDArray[np.int8
     grid = table.grid
     known: dict[str, int] = {word.casefold(): value for word, value in mapping.directions.items()}
     found = []
-    for row in range(table.first, table.last + 1):
+    for row in table.rows:
         cell = grid.cell(row, column.place)
         word = shown(cell).strip('"').casefold()
         if word not in known:

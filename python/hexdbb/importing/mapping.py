@@ -28,7 +28,8 @@ DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": 
 Words = Annotated[str, Field(min_length=1)]
 Line = Annotated[int, Field(ge=0, le=2**31 - 1)]
 AtLeastOne = Annotated[int, Field(ge=1, le=2**31 - 1)]
-Rows = Annotated[tuple[AtLeastOne, AtLeastOne], Field(strict=False)]
+Range = Annotated[tuple[AtLeastOne, AtLeastOne], Field(strict=False)]
+Rows = Annotated[tuple[Range, ...], Field(strict=False, min_length=1)]
 
 
 class Mapping(FileModel):
@@ -57,7 +58,7 @@ class Mapping(FileModel):
     header: Line | None = None
     """Line (row of the sheet) that names the columns; 0 where none does."""
     rows: Rows | None = None
-    """First and last line (row of the sheet) of the readings."""
+    """First and last line (row of the sheet) of the readings, as `[[3, 203]]`; several are read in turn."""
     angle_counts: Literal["place", "travel"] | None = None
     """Whether angles are places on the circle, which fall in a clockwise run, or count up along every run."""
     test: AtLeastOne | None = None
@@ -83,8 +84,11 @@ class Mapping(FileModel):
                 raise BadValueError(("units", name), unit, f"a quantity with a unit: {nearest_quantity(name)}")
             if unit not in UNITS_OF[name]:
                 raise BadValueError(("units", name), unit, "one of " + ", ".join(UNITS_OF[name]))
-        if self.rows is not None and self.rows[0] > self.rows[1]:
-            raise BadValueError(("rows",), list(self.rows), "the first line before the last")
+        before = 0
+        for place, (first, last) in enumerate(self.rows or ()):
+            if not before < first <= last:
+                raise BadValueError(("rows", place), [first, last], "the first line before the last, in their order")
+            before = last
         return self
 
     def choices(self) -> dict[str, Any]:

@@ -22,6 +22,8 @@ from hexdbb.record.laps import counted_laps
 
 LEAST_STRETCH = 8
 """Readings between two turns of the angle's sense, below which the angle does not tell directions."""
+STANDING = 0.1
+"""Part of the usual step below which an angle stands: a run that begins where the one before has ended, to rounding."""
 SLIDERS_ORIGIN = "nominal inverse kinematics of the commanded circle"
 TIME_ORIGIN = "commanded feed along the circle, runs one after another"
 JOINED_ORIGIN = "times of each run, which begin anew, set one after another"
@@ -105,7 +107,10 @@ def turns_deg(angle_deg: Floats) -> Floats:
 def _sense(series: Series, origin: str) -> NDArray[np.int8]:
     """Return the direction in which the angle turns."""
     steps = turns_deg(series.angle_deg)
-    sense = np.sign(steps)
+    if "sweep" in series.others:
+        steps[np.diff(series.others["sweep"], prepend=np.nan) != 0] = 0.0
+    usual = float(np.median(np.abs(steps)))
+    sense = np.sign(np.where(np.abs(steps) < STANDING * usual, 0.0, steps))
     moving = np.flatnonzero(sense)
     if not len(moving):
         raise InputError(f"{origin}: the angle does not turn (expected angles around a circle)")

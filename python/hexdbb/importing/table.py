@@ -30,8 +30,10 @@ class Table:
     Attributes
     ----------
     grid : Grid
-    first, last : int
-        Its first and last row in the grid.
+    rows : tuple of int
+        Its rows in the grid.
+    part : tuple of int
+        Number of the table of each row, from 0, where several were chosen.
     headings : tuple of str
         Of each column; empty where it has none.
     how : str
@@ -39,8 +41,8 @@ class Table:
     """
 
     grid: Grid
-    first: int
-    last: int
+    rows: tuple[int, ...]
+    part: tuple[int, ...]
     headings: tuple[str, ...]
     how: str
 
@@ -55,16 +57,21 @@ def find_table(grid: Grid, mapping: Mapping) -> Table:
     """
     counts = [sum(grid.number(cell) is not None for cell in cells) for cells in grid.rows]
     if mapping.rows is not None:
-        first, last = (_place(grid, line) for line in mapping.rows)
-        _require_numbers(grid, counts, first, last)
+        ranges = [(_place(grid, first), _place(grid, last)) for first, last in mapping.rows]
+        for first, last in ranges:
+            _require_numbers(grid, counts, first, last)
     else:
-        first, last = _found(grid, counts)
+        ranges = [_found(grid, counts)]
+    first, last = ranges[0][0], ranges[-1][1]
     heads, lines = _headings(grid, counts, first, mapping)
     after = sum(any(cell != "" for cell in cells) for cells in grid.rows[last + 1 :])
     left = f", {after} {grid.unit}{'s' * (after != 1)} after them left out" if after else ""
-    how = f"{last - first + 1} rows ({grid.unit}s {grid.lines[first]}-{grid.lines[last]}{left})"
+    rows = tuple(row for a, b in ranges for row in range(a, b + 1))
+    where = " and ".join(f"{grid.lines[a]}-{grid.lines[b]}" for a, b in ranges)
+    how = f"{len(rows)} rows ({grid.unit}s {where}{left})"
     named = f"names in {lines}" if lines else "no names"
-    return Table(grid, first, last, heads, f"{named}, {how}")
+    part = tuple(number for number, (a, b) in enumerate(ranges) for _ in range(a, b + 1))
+    return Table(grid, rows, part, heads, f"{named}, {how}")
 
 
 def _place(grid: Grid, line: int) -> int:
@@ -92,7 +99,8 @@ def _found(grid: Grid, counts: Sequence[int]) -> tuple[int, int]:
     _require_no_bad_cell(grid, counts, first, last)
     if len(tables) > 1:
         which = " and ".join(f"{grid.lines[a]}-{grid.lines[b]}" for a, b in tables)
-        expected = f"one; --rows {grid.lines[first]}:{grid.lines[last]} chooses the first"
+        options = " ".join(f"--rows {grid.lines[a]}:{grid.lines[b]}" for a, b in tables)
+        expected = f"one; one of {options} chooses it, all read them one after another"
         raise InputError(f"{grid.name}: {len(tables)} tables, {grid.unit}s {which} (expected {expected})")
     return first, last
 

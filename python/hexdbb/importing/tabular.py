@@ -29,9 +29,11 @@ def series_of(grid: Grid, setting: Setting) -> Series:
     table = find_table(grid, setting.mapping)
     found = c.assigned(table, setting.mapping)
     angle_deg, angle_unit = c.angle_deg(table, found["angle"])
-    lines = np.array(grid.lines[table.first : table.last + 1])
+    lines = np.array([grid.lines[row] for row in table.rows])
     others = {QUANTITIES[name].column: c.values_of(table, found[name]) for name in PLAIN if name in found}
     _require_all_sliders(table, others)
+    if table.part[-1] > 0 and "sweep" not in others:
+        others["sweep"] = np.array(table.part, dtype=np.float64)
     notes = [f"{grid.how}; {table.how}; {_columns_words(found, angle_unit, table)}"]
     wide = [(name, sign) for name, sign in (("reading_ccw", 1), ("reading_cw", -1)) if name in found]
     if wide and "reading" in found:
