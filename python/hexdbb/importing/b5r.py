@@ -11,6 +11,7 @@ The parser (defusedxml) refuses entities, so that no file unpacks to more than i
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from hexdbb.errors import InputError
+from hexdbb.importing.columns import doubt_of
 from hexdbb.importing.numbers import reader
 from hexdbb.importing.quantities import QUANTITIES, UNITS_OF, known_unit
 from hexdbb.importing.series import Floats, Series
@@ -181,6 +183,10 @@ def _run(where: str, run: Element, setting: Setting) -> tuple[Floats, Floats, in
         expected = f"--unit reading=UNIT, one of {', '.join(UNITS_OF['reading'])}"
         raise InputError(f"{where}: READINGS: no unit is stated; {largest} (expected {expected})")
     reading_um = np.array(values) * QUANTITIES["reading"].units[unit]
+    gauge = setting.plan.gauge
+    doubt = doubt_of(reading_um, unit, gauge.range_um, gauge.bar_length_mm)
+    if doubt and "reading" not in setting.mapping.units:
+        raise InputError(f"{where}: READINGS, in {unit} as stated: {doubt}")
     sign = DIRECTIONS[word]
     angle_deg, source = _angles(where, element, angles, len(values), sign, setting)
     return angle_deg, reading_um, sign, unit, source
@@ -195,7 +201,9 @@ def _numbers(where: str, element: Element) -> tuple[list[float], list[float]]:
             value = each.findtext("VALUE") if each.find("VALUE") is not None else each.text
             texts.append(((value or each.get("VALUE") or "").strip(), each.get("ANGLE") or each.findtext("ANGLE")))
     else:
-        texts = [(word, None) for word in (element.text or "").replace(",", " ").replace(";", " ").split()]
+        words = re.split(r"[\s;]+|,\s+", (element.text or "").strip().rstrip(",;"))
+        # Without blanks a comma separates; beside blanks it would be a decimal comma, which is refused below.
+        texts = [(word, None) for word in (words[0].split(",") if len(words) == 1 else words) if word]
     values, angles = [], []
     for place, (text, angle) in enumerate(texts, 1):
         value, at = number(text), None if angle is None else number(angle.strip())

@@ -154,25 +154,25 @@ def values_of(table: Table, column: Column, unit: str | None = None) -> Floats:
 def reading_um(table: Table, column: Column, range_um: float, bar_mm: float) -> Floats:
     """Return readings, µm; doubt a unit that gives more than the gauge's range, or less than a circle shows."""
     values = values_of(table, column)
-    largest, span = float(np.abs(values).max()), float(np.ptp(values))
-    doubt = ""
-    if np.abs(values - 1e3 * bar_mm).max() <= 10.0 * range_um:
-        doubt = f"values near {bar_mm:g} mm, the bar's own length (expected its deviation from it)"
-    elif largest > range_um:
-        doubt = f"readings up to {largest:.6g} µm (expected ±{range_um:g} µm at most, the gauge's range)"
-        doubt += _looks_like(column, largest, range_um)
-    elif span < LEAST_SPAN_UM:
-        doubt = f"readings span {span:.3g} µm only (expected {LEAST_SPAN_UM:g} at least, of a circle)"
-        doubt += "; they look like mm: --unit reading=mm" if column.unit == "um" else ""
+    doubt = doubt_of(values, str(column.unit), range_um, bar_mm)
     if doubt and not column.is_stated:
-        own = f"--unit reading={column.unit} if they are {column.unit} all the same"
-        raise InputError(f"{table.grid.name}: column {column}, in {column.unit} by its name: {doubt}; {own}")
+        raise InputError(f"{table.grid.name}: column {column}, in {column.unit} by its name: {doubt}")
     return values
 
 
-def _looks_like(column: Column, largest_um: float, range_um: float) -> str:
-    """Return a remark where the values are readings in µm that were taken for mm."""
-    return "; they look like µm: --unit reading=um" if column.unit == "mm" and largest_um <= 1e3 * range_um else ""
+def doubt_of(reading_um: Floats, unit: str, range_um: float, bar_mm: float) -> str:
+    """Return why readings cannot be of the unit that a file states, and what to do; empty where they can be."""
+    largest, span = float(np.abs(reading_um).max()), float(np.ptp(reading_um))
+    own = f"--unit reading={unit} if they are {unit} all the same"
+    if np.abs(reading_um - 1e3 * bar_mm).max() <= 10.0 * range_um:
+        return f"values near {bar_mm:g} mm, the bar's own length (expected its deviation from it); {own}"
+    if largest > range_um:
+        like = "they look like µm: --unit reading=um; " if unit == "mm" and largest <= 1e3 * range_um else ""
+        return f"readings up to {largest:.6g} µm (expected ±{range_um:g} µm at most, the gauge's range); {like}{own}"
+    if span < LEAST_SPAN_UM:
+        like = "they look like mm: --unit reading=mm; " if unit == "um" else ""
+        return f"readings span {span:.3g} µm only (expected {LEAST_SPAN_UM:g} at least, of a circle); {like}{own}"
+    return ""
 
 
 def angle_deg(table: Table, column: Column) -> tuple[Floats, str]:

@@ -71,8 +71,6 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
     if _is_own(path):
         return read_own_record(path)
     if path.suffix.lower() not in READERS:
-        if path.suffix in FORMATS or path.suffix == ".journal":
-            return read_own_record(path)
         known = ", ".join(dict.fromkeys((*FORMATS, *READERS)))
         raise InputError(f"{path}: suffix {path.suffix!r} (expected one of {known})")
     if not path.is_file():
@@ -112,7 +110,7 @@ def _is_own(path: Path) -> bool:
         return _schema_beside(path) not in (None, SCHEMA)
     if path.suffix == ".xlsx":
         return path.is_file() and is_record_workbook(path)
-    return path.suffix.lower() not in READERS
+    return path.suffix in FORMATS or path.suffix == ".journal"
 
 
 def _schema_beside(path: Path) -> str | None:

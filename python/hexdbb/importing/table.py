@@ -63,13 +63,15 @@ def find_table(grid: Grid, mapping: Mapping) -> Table:
     else:
         ranges = [_found(grid, counts)]
     first, last = ranges[0][0], ranges[-1][1]
-    heads, lines = _headings(grid, counts, first, mapping)
+    heads, chosen = _headings(grid, counts, first, mapping)
     after = sum(any(cell != "" for cell in cells) for cells in grid.rows[last + 1 :])
     left = f", {after} {grid.unit}{'s' * (after != 1)} after them left out" if after else ""
     rows = tuple(row for a, b in ranges for row in range(a, b + 1))
     where = " and ".join(f"{grid.lines[a]}-{grid.lines[b]}" for a, b in ranges)
+    if chosen and not any(isinstance(column, int) for column in mapping.columns.values()):
+        _require_names(grid, first, chosen)
     how = f"{len(rows)} rows ({grid.unit}s {where}{left})"
-    named = f"names in {lines}" if lines else "no names"
+    named = f"names in {_where(grid, chosen)}" if chosen else "no names"
     part = tuple(number for number, (a, b) in enumerate(ranges) for _ in range(a, b + 1))
     return Table(grid, rows, part, heads, f"{named}, {how}")
 
@@ -102,6 +104,7 @@ def _found(grid: Grid, counts: Sequence[int]) -> tuple[int, int]:
         options = " ".join(f"--rows {grid.lines[a]}:{grid.lines[b]}" for a, b in tables)
         expected = f"one; one of {options} chooses it, all read them one after another"
         raise InputError(f"{grid.name}: {len(tables)} tables, {grid.unit}s {which} (expected {expected})")
+    _require_no_rest(grid, first, last)
     return first, last
 
 
@@ -120,17 +123,37 @@ def _runs(counts: Sequence[int]) -> list[tuple[int, int]]:
 
 def _require_no_bad_cell(grid: Grid, counts: Sequence[int], first: int, last: int) -> None:
     """Check that what ends a table is no row of it with a bad cell."""
-    row = last + 1
-    if row >= len(grid.rows):
-        return
-    width = max(len(cells) for cells in grid.rows[first : last + 1])
-    numeric = [column for column in range(width) if _numbers(grid, first, last, column) >= MOSTLY * (last - first + 1)]
-    goes_on = row + 1 < len(counts) and counts[row + 1] >= 2
+    for row, beyond in ((first - 1, first - 2), (last + 1, last + 2)):
+        if 0 <= row < len(grid.rows):
+            _require_no_bad_cell_in(grid, (first, last), row, 0 <= beyond < len(counts) and counts[beyond] >= 2)
+
+
+def _require_no_bad_cell_in(grid: Grid, table: tuple[int, int], row: int, goes_on: bool) -> None:
+    """Check a row beside a table: numbers in its columns, or beyond it, make it a row of the table."""
+    numeric = _numeric_columns(grid, *table)
     is_number = [grid.number(grid.cell(row, column)) is not None for column in numeric]
     if not any(is_number) or not (goes_on or is_number[0]):
         return
     column = numeric[is_number.index(False)] if False in is_number else numeric[0]
     raise InputError(f"{grid.name}: {grid.at(row)}: column {column + 1}: {described(grid, row, column)}")
+
+
+def _require_no_rest(grid: Grid, first: int, last: int) -> None:
+    """Check that no row apart from a table looks like one of it."""
+    numeric = _numeric_columns(grid, first, last)
+    for row in (*range(first), *range(last + 1, len(grid.rows))):
+        if numeric and all(grid.number(grid.cell(row, column)) is not None for column in numeric):
+            table = f"{grid.unit}s {grid.lines[first]}-{grid.lines[last]}"
+            expected = f"none; --rows {grid.lines[first]}:{grid.lines[last]} leaves it out"
+            raise InputError(
+                f"{grid.name}: {grid.at(row)}: looks like a row of the table, {table} (expected {expected})"
+            )
+
+
+def _numeric_columns(grid: Grid, first: int, last: int) -> list[int]:
+    """Return the columns that hold numbers in most rows."""
+    width = max(len(cells) for cells in grid.rows[first : last + 1])
+    return [column for column in range(width) if _numbers(grid, first, last, column) >= MOSTLY * (last - first + 1)]
 
 
 def described(grid: Grid, row: int, column: int) -> str:
@@ -144,29 +167,42 @@ def _numbers(grid: Grid, first: int, last: int, column: int) -> int:
     return sum(grid.number(grid.cell(row, column)) is not None for row in range(first, last + 1))
 
 
-def _headings(grid: Grid, counts: Sequence[int], first: int, mapping: Mapping) -> tuple[tuple[str, ...], str]:
-    """Return the headings of the columns, and the lines they stand in."""
+def _headings(grid: Grid, counts: Sequence[int], first: int, mapping: Mapping) -> tuple[tuple[str, ...], range]:
+    """Return the headings of the columns, and the rows they stand in."""
     width = max(len(cells) for cells in grid.rows[first : first + LEAST_ROWS])
+    best, chosen = ("",) * width, range(0)
     if mapping.header == 0:
-        return ("",) * width, ""
+        return best, chosen
     if mapping.header is not None:
         row = _place(grid, mapping.header)
-        return _joined(grid, range(row, row + 1), width), grid.at(row)
-    rows = [row for row in range(first - 1, -1, -1) if _is_text(grid, counts, row)]
-    beside = [row for place, row in enumerate(rows[:MOST_HEADINGS]) if row == first - 1 - place]
-    best, chosen = ("",) * width, range(0)
-    for begin in beside:
+        return _joined(grid, range(row, row + 1), width), range(row, row + 1)
+    for begin in range(first - 1, max(first - 1 - MOST_HEADINGS, -1), -1):
+        if not _is_text(grid, counts, begin):
+            break
         heads = _joined(grid, range(begin, first), width)
-        if _worth(heads) > _worth(best) or not len(chosen):
+        if _worth(heads) > _worth(best) or not chosen:
             best, chosen = heads, range(begin, first)
-    where = (
-        grid.at(chosen.start)
-        if len(chosen) == 1
-        else f"{grid.unit}s {grid.lines[first - len(chosen)]}-{grid.lines[first - 1]}"
-        if chosen
-        else ""
-    )
-    return best, where
+    return best, chosen
+
+
+def _where(grid: Grid, rows: range) -> str:
+    """Return rows in words: `line 4`, `rows 4-5`."""
+    return grid.at(rows[0]) if len(rows) == 1 else f"{grid.unit}s {grid.lines[rows[0]]}-{grid.lines[rows[-1]]}"
+
+
+def _require_names(grid: Grid, first: int, heads: range) -> None:
+    """Check that there are as many names as cells: a decimal comma between commas makes two cells of one number."""
+    names = max(_filled(grid, row) for row in heads)
+    cells = _filled(grid, first)
+    if cells > names or names > len(grid.rows[first]):  # the last cells of a row may be empty
+        note = "; a decimal comma needs another delimiter, or quotes" if cells > names else ""
+        expected = f"as many{note}; columns may be named by number: --column angle=1"
+        raise InputError(f"{grid.name}: {grid.at(first)}: {cells} cells for {names} names (expected {expected})")
+
+
+def _filled(grid: Grid, row: int) -> int:
+    """Return the number of cells up to the last that is not empty."""
+    return max((place for place, cell in enumerate(grid.rows[row], 1) if cell != ""), default=0)
 
 
 def _is_text(grid: Grid, counts: Sequence[int], row: int) -> bool:
