@@ -1,6 +1,7 @@
 """A record as an Excel workbook: the samples as a sheet, its measurement and machine file line by line as two others.
 
-So a workbook stands alone, as a Parquet record does: hexdbb reads it back, every number to the last bit.
+So a workbook stands alone, as a Parquet record does, and hexdbb reads it back. Numbers have 16 digits there, one short
+of the last bit, so that its content hash is another: for a model it is another record.
 """
 
 from __future__ import annotations
