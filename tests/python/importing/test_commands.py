@@ -82,7 +82,7 @@ def test_options_replace_keys_of_the_mapping_file(place: Path) -> None:
     [
         (("--unit", "reading"), '--unit "reading": no "=" (expected QUANTITY=VALUE, as reading=um)'),
         (("--unit", "reading=parsec"), 'options: units.reading: "parsec" (expected one of um, mm'),
-        (("--column", "lenght=2"), "options: columns.lenght: 2 (expected a quantity: "),
+        (("--column", "sliders=2"), "options: columns.sliders: 2 (expected a quantity: "),
         (("--rows", "9"), '--rows "9" (expected FIRST:LAST, lines as 5:364)'),
         (("--rows", "9:5"), "options: rows[0]: [9, 5] (expected the first line before the last"),
         (("--mapping", "none.toml"), "none.toml: no such file"),
