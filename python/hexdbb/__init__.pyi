@@ -51,6 +51,7 @@ from .effects import load_effects as load_effects
 from .errors import HexdbbError as HexdbbError
 from .errors import InputError as InputError
 from .errors import RunError as RunError
+from .importing import read_record as read_record
 from .ledger import history as history
 from .ledger import undo as undo
 from .machine import load_machine as load_machine
@@ -84,7 +85,6 @@ from .plan import load_plan as load_plan
 from .plan import save_plan as save_plan
 from .plan import shipped_plans as shipped_plans
 from .record import Record as Record
-from .record import read_record as read_record
 from .record import write_record as write_record
 from .samples import Samples as Samples
 

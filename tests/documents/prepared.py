@@ -78,6 +78,18 @@ def _simulated_rig(folder: Path, run: Run) -> None:
     (folder / "truth.toml").write_text(_block("docs/simulated-rig.md", "toml"), encoding="utf-8")
 
 
+def _import(folder: Path, run: Run) -> None:
+    """Put the files of other programs where the page supposes the reader's."""
+    files = {
+        "messung.csv": "german.csv",
+        "tests.xlsx": "dates.xlsx",
+        "test.b5r": "test.b5r",
+        "export.csv": "mm_as_um.csv",
+    }
+    for name, source in files.items():
+        (folder / name).write_bytes((ROOT / "tests" / "data" / "imports" / source).read_bytes())
+
+
 def _thesis_tables(folder: Path, run: Run) -> None:
     run("hexdbb-run --plan thesis -o demo.parquet", folder)
 
@@ -91,6 +103,7 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "README.md": _readme,
     "docs/compensation.md": _compensation,
     "docs/discovery.md": _discovery,
+    "docs/import.md": _import,
     "docs/ledger.md": _today,
     "docs/planning.md": _planning,
     "docs/measuring.md": _measuring,

@@ -31,6 +31,8 @@ ALLOWED: dict[str, set[str]] = {
     "kinematics": {"errors", "machine", "_core"},
     "plan": {"errors", "files", "machine", "kinematics"},
     "record": {"errors", "files", "machine", "plan"},
+    # readings of other programs as records
+    "importing": {"errors", "files", "machine", "kinematics", "plan", "record"},
     # the machine's line
     "learned": {"errors", "_core"},
     "model": {"errors", "files", "units", "machine", "kinematics", "learned", "_core"},
@@ -198,6 +200,7 @@ ALLOWED: dict[str, set[str]] = {
         "kinematics",
         "plan",
         "record",
+        "importing",
         "model",
         "effects",
         "samples",

@@ -81,14 +81,16 @@ def diagnose(measured: Measured, model: Model, *, robust: bool = False) -> Diagn
     return ledger.fit_model(table_of(measured), model, robust=robust)
 
 
-def compare(measured: Measured, model: Model, *, find_cause: bool = True) -> Comparison:
+def compare(measured: Measured, model: Model | None = None, *, find_cause: bool = True) -> Comparison:
     """Compare measured readings with those a model predicts: all that ``hexdbb compare`` prints.
+
+    Without a model they are compared with the commanded circles.
 
     Parameters
     ----------
     measured : Record, sequence of Record, or Samples
         The cup of a mount that the model does not know is fitted first, which is stated.
-    model : Model
+    model : Model, optional
     find_cause : bool
         Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
         20,000 readings.
@@ -99,6 +101,8 @@ def compare(measured: Measured, model: Model, *, find_cause: bool = True) -> Com
         Likely cause of the residual, ISO 230-4 quantities for each circle, feed and direction, worst places, predictors
         of the residual.
     """
+    if model is None:
+        return comparison.compare_commanded(table_of(measured))
     return comparison.compare(table_of(measured), model, find_cause=find_cause)
 
 

@@ -26,7 +26,7 @@ COMMANDS = {
     "plan": "check, propose and compare plans: reach, limits, identifiability",
     "workbench": "see and play with records and a model in a page of the browser",
     "thesis": "the method of the thesis: reference contours, linear estimator, tables",
-    "convert": "convert between record (.parquet) and text form (.csv)",
+    "convert": "make records of files of other programs; convert records between formats",
     "recover": "write the record of an interrupted capture",
 }
 

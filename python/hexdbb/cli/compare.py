@@ -15,7 +15,7 @@ from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument
-from hexdbb.comparison import Comparison, compare
+from hexdbb.comparison import Comparison, compare, compare_commanded
 from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
@@ -29,7 +29,7 @@ PICTURES = {"first": (".png",), "all": (".png", ".pdf")}
 
 @click.command("compare")
 @records_argument
-@model_option("Model file, as diagnose makes.")
+@model_option("Model file, as diagnose makes. Without it readings are compared with the commanded circles.", False)
 @effects_option
 @click.option(
     "--plot",
@@ -49,7 +49,7 @@ PICTURES = {"first": (".png",), "all": (".png", ".pdf")}
 @json_option
 def command(
     records: tuple[Path, ...],
-    model_path: Path,
+    model_path: Path | None,
     effects_path: Path | None,
     prefix: Path | None,
     pages: str | None,
@@ -57,7 +57,7 @@ def command(
     no_cause: bool,
     as_json: bool,
 ) -> None:
-    """Compare measured readings with those a model predicts.
+    """Compare measured readings with those a model predicts, or with the commanded circles.
 
     Prints first the likely cause of the residual (measured - predicted), where that is more than noise: a quick look by
     the analysis of hexdbb discover, which weighs it against all others. Then the quantities of ISO 230-4 for every
@@ -67,8 +67,14 @@ def command(
     the model does not know is fitted first, which is stated. Draws what matters first as one PNG: the circle of
     the largest residual with a stated magnification, all circles ranked, the best predictors; on request all in a PDF.
 
+    Without a model the commanded circle takes the place of the prediction, about the cup as it stands in the circle's
+    plane: ISO 230-4 quantities, harmonics and pictures need no model.
+
+    RECORD is a Parquet record, or a text file, Excel sheet or Renishaw test of another program.
+
     \b
-    RECORD is a Parquet record or a text-form CSV. Examples:
+    Examples:
+      hexdbb compare readings.csv --plan thesis
       hexdbb compare demo.parquet -m model.toml
       hexdbb compare monday.parquet tuesday.csv -m model.toml --plot week --pages all
       hexdbb compare demo.parquet -m model.toml --json --no-plot > comparison.json
@@ -93,8 +99,13 @@ def command(
 
 
 def _comparison(
-    paths: tuple[Path, ...], model_path: Path, effects_path: Path | None, find_cause: bool, progress: Progress
+    paths: tuple[Path, ...], model_path: Path | None, effects_path: Path | None, find_cause: bool, progress: Progress
 ) -> Comparison:
+    if model_path is None:
+        if effects_path is not None:
+            raise InputError(f"--effects {effects_path} without a model (expected -m MODEL with it)")
+        progress.add_task("comparing", total=None)
+        return compare_commanded(read_samples(paths, progress.console))
     model = existing_model(model_path, effects_path)
     progress.add_task("comparing", total=None)
     return compare(read_samples(paths, progress.console), model, find_cause=find_cause)

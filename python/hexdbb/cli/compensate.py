@@ -26,8 +26,8 @@ from hexdbb.compensation import (
 )
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
+from hexdbb.importing import read_measured
 from hexdbb.model import Model
-from hexdbb.record import read_record
 
 POSITIVE = click.FloatRange(min=0.0, min_open=True)
 
@@ -135,7 +135,7 @@ def command(
 def _reference_temperature_c(model: Model, path: Path, stated_c: float | None) -> float:
     if stated_c is not None:
         raise InputError(f"--reference {path} together with --reference-temperature-c: expected one of them")
-    return reference_temperature_of(model, read_record(path))
+    return reference_temperature_of(model, read_measured(path))
 
 
 def _correct_path(

@@ -50,7 +50,7 @@ def command(
     folder: Path | None,
     as_json: bool,
 ) -> None:
-    """Fit the free effects of a model to RECORD... (.parquet or .csv) and write the values into the model file.
+    """Fit the free effects of a model to RECORD... (.parquet, .csv, .xlsx, .b5r), write its values.
 
     \b
     Examples:

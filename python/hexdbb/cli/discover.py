@@ -67,7 +67,7 @@ def command(
     folder: Path | None,
     as_json: bool,
 ) -> None:
-    """Find out what a model lacks, from RECORD... (.parquet or .csv).
+    """Find out what a model lacks, from RECORD... (.parquet, .csv, .xlsx, .b5r).
 
     The verdict is one of: an effect; one of several that these readings cannot separate, with the circle that
     would; nothing that matters missing; something missing that no known effect explains, with where it acts and what

@@ -57,8 +57,10 @@ def command(
     identified; what to measure next. The page needs no network and no program but a browser. Several records, the
     earliest first, are compared: before and after.
 
+    RECORD is a Parquet record, or a text file, Excel sheet or Renishaw test of another program.
+
     \b
-    RECORD is a Parquet record or a text-form CSV. Examples:
+    Examples:
       hexdbb report today.parquet -m model.toml -o report.html
       hexdbb report today.parquet -m model.toml -o report.html --tolerance "G(b)=25" --pdf report.pdf
       hexdbb report before.parquet after.parquet -m model.toml -o change.html

@@ -9,11 +9,17 @@ from typing import Any
 import click
 from rich.console import Console
 
+from hexdbb.cli.import_options import OF_RECORDS, import_options
+
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
-records_argument: Decorator = click.argument(
-    "records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path)
-)
+
+def records_argument(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add the argument RECORD..., and the options that say how files of other programs are read as records."""
+    argument = click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
+    return argument(import_options(OF_RECORDS)(command))
+
+
 json_option: Decorator = click.option("--json", "as_json", is_flag=True, help="Print one JSON object on stdout.")
 
 
@@ -32,8 +38,14 @@ def print_pictures(written: Sequence[Path], messages: Console) -> None:
     messages.print(f"pictures: {names}", markup=False, highlight=False, soft_wrap=True)
 
 
-def model_option(help_text: str) -> Decorator:
-    """Return the required option -m MODEL with a help text."""
+def model_option(help_text: str, required: bool = True) -> Decorator:
+    """Return the option -m MODEL with a help text."""
     return click.option(
-        "-m", "--model", "model_path", required=True, metavar="MODEL", type=click.Path(path_type=Path), help=help_text
+        "-m",
+        "--model",
+        "model_path",
+        required=required,
+        metavar="MODEL",
+        type=click.Path(path_type=Path),
+        help=help_text,
     )

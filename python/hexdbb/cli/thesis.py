@@ -13,8 +13,8 @@ from rich.table import Table
 from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
+from hexdbb.importing import read_measured
 from hexdbb.plan import load_plan
-from hexdbb.record import read_record
 from hexdbb.studies.thesis.circular_test import CircularTest, joint_plane_test, plan_test
 from hexdbb.studies.thesis.contours import reference_contours
 from hexdbb.studies.thesis.estimator import ThesisEstimate, thesis_estimate_record
@@ -86,12 +86,12 @@ def estimate(record_path: Path, errors: str, minimum_norm: bool, as_json: bool) 
     The estimate has no uncertainties; it assumes that only the named errors exist and that the cup is where planned.
 
     \b
-    RECORD is a Parquet record or a text-form CSV. Examples:
+    RECORD is a Parquet record, or a file of another program with its mapping beside it. Examples:
       hexdbb thesis estimate demo.parquet --errors leg1,leg3,leg5,y1,y2
       hexdbb thesis estimate demo.csv --errors leg1,y1,cup_x,cup_y --json
     """
     with message_console().status("estimating"):
-        found = thesis_estimate_record(read_record(record_path), _names(errors), minimum_norm=minimum_norm)
+        found = thesis_estimate_record(read_measured(record_path), _names(errors), minimum_norm=minimum_norm)
     if as_json:
         say(json.dumps(_to_json(found), indent=2, allow_nan=False))
         return

@@ -9,6 +9,8 @@ import click
 
 from hexdbb.cli.consoles import say
 from hexdbb.cli.effects_option import effects_option
+from hexdbb.cli.import_options import wanted_mapping
+from hexdbb.cli.shared_options import records_argument
 from hexdbb.errors import InputError
 from hexdbb.pages import MISSING
 from hexdbb.workbench import Session
@@ -16,7 +18,7 @@ from hexdbb.workbench.own_code import COMPUTING_S
 
 
 @click.command("workbench")
-@click.argument("records", metavar="RECORD...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@records_argument
 @click.option(
     "-m",
     "--model",
@@ -45,7 +47,7 @@ def command(
     allow_code: bool,
     code_seconds: int,
 ) -> None:
-    """Open RECORD... (.parquet or .csv) and a model in a page of this computer's browser.
+    """Open RECORD... (.parquet, .csv, .xlsx, .b5r) and a model in a page of this computer's browser.
 
     Charts of every circle, measured and predicted; effects to switch off and values to drag; what is missing, previewed
     before it is added; undo and history; next circle, compensation and report. Every step is also a line of Python.
@@ -64,7 +66,9 @@ def command(
         if error.name is None or error.name.startswith("hexdbb"):
             raise
         raise InputError(f"hexdbb workbench: {MISSING}") from None
-    session = Session(records, model_path, effects_path)
+    session = Session(
+        records, model_path, effects_path, mapping=wanted_mapping(), tell=lambda line: say(line, err=True)
+    )
 
     def ready(address: str) -> None:
         say(address)

@@ -7,6 +7,7 @@
 """
 
 from hexdbb.comparison.circles import CircleComparison, DirectionComparison
+from hexdbb.comparison.commanded import compare_commanded
 from hexdbb.comparison.comparison import Comparison, compare, compare_readings
 from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
 from hexdbb.comparison.radial import RadialError
@@ -23,5 +24,6 @@ __all__ = [
     "RadialError",
     "WorstArc",
     "compare",
+    "compare_commanded",
     "compare_readings",
 ]

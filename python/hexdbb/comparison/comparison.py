@@ -68,6 +68,8 @@ class Comparison:
     predictors: tuple[Predictor, ...]
     fitted_mounts: tuple[str, ...]
     cause: LikelyCause | None = None
+    is_commanded: bool = False
+    """Whether no model predicts: the readings are compared with those of the commanded circles."""
 
     @property
     def rms_mm(self) -> float:
@@ -137,6 +139,7 @@ def compare_readings(
     noise_mm: float = 0.0,
     fitted_mounts: Sequence[str] = (),
     cause: LikelyCause | None = None,
+    is_commanded: bool = False,
 ) -> Comparison:
     """Compare the readings of samples with readings predicted by any means.
 
@@ -155,6 +158,8 @@ def compare_readings(
         Sentences on set-ups fitted before.
     cause : LikelyCause, optional
         Of the residual.
+    is_commanded : bool
+        Whether the predictions are the commanded circles' (`hexdbb.comparison.commanded`).
 
     Raises
     ------
@@ -179,6 +184,7 @@ def compare_readings(
         predictors=tuple(predictors),
         fitted_mounts=tuple(fitted_mounts),
         cause=cause,
+        is_commanded=is_commanded,
     )
 
 

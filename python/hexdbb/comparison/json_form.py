@@ -18,6 +18,7 @@ from hexdbb.comparison.radial import RadialError
 from hexdbb.comparison.worst_samples import Circumstance, WorstSamples
 from hexdbb.files.results import JsonPart, JsonResult, NotNegative, Share
 from hexdbb.predictors import Predictor, sentence
+from hexdbb.samples.unmeasured import not_measured_sentences
 
 if TYPE_CHECKING:
     from hexdbb.comparison.comparison import Comparison
@@ -242,6 +243,10 @@ class ComparisonJson(JsonResult):
 
     cause: LikelyCauseJson | None
     """Likely cause of the residual; null where it is noise, was not looked for, or the readings are too few."""
+    predicted_by: Literal["model", "commanded circle"]
+    """What predicts; without a model, the commanded circle about a cup that is fitted in its plane."""
+    not_measured: tuple[str, ...]
+    """One sentence for what the records compute instead of measure: slider positions, times."""
     rms_um: NotNegative
     """Root mean square residual of all samples."""
     peak_to_valley_um: NotNegative
@@ -272,6 +277,8 @@ class ComparisonJson(JsonResult):
         cause = comparison.cause
         return cls(
             cause=None if cause is None else LikelyCauseJson(cause.sentence, cause.choices, cause.subjects),
+            predicted_by="commanded circle" if comparison.is_commanded else "model",
+            not_measured=tuple(not_measured_sentences(comparison.samples.records)),
             rms_um=UM_PER_MM * comparison.rms_mm,
             peak_to_valley_um=UM_PER_MM * comparison.peak_to_valley_mm,
             radial=tuple(RadialJson.of(each) for each in comparison.radial),

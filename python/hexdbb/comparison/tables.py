@@ -15,9 +15,13 @@ from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison, D
 from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantity
 from hexdbb.comparison.residual_tables import residual_text
 from hexdbb.discovery.words import capital
+from hexdbb.samples.unmeasured import not_measured_sentences
 
 if TYPE_CHECKING:
     from hexdbb.comparison.comparison import Comparison
+
+COMMANDED = "the commanded circle about the cup as it stands in the circle's plane"
+"""What readings are compared with where there is no model."""
 
 
 def comparison_text(comparison: Comparison) -> RenderableType:
@@ -25,6 +29,7 @@ def comparison_text(comparison: Comparison) -> RenderableType:
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     parts: list[RenderableType] = [
         *cause_lines(comparison),
+        *origin_lines(comparison),
         *comparison.fitted_mounts,
         *_radial_lines(comparison),
         f"Residual (measured - predicted): {rms_um:.2f} µm RMS, {peak_um:.1f} µm peak to valley",
@@ -48,6 +53,14 @@ def cause_lines(comparison: Comparison) -> Iterator[Text]:
     """Yield the likely cause of the residual in one sentence, where there is one."""
     if comparison.cause is not None:
         yield Text(capital(comparison.cause.sentence), style="bold")
+
+
+def origin_lines(comparison: Comparison) -> Iterator[str]:
+    """Yield what takes the place of a model where there is none, and what the records compute instead of measure."""
+    if comparison.is_commanded:
+        yield f"No model: predicted is {COMMANDED}."
+        return  # quantities of paths depend on nothing that is computed
+    yield from (f"{capital(each)}." for each in not_measured_sentences(comparison.samples.records))
 
 
 def _radial_lines(comparison: Comparison) -> Iterator[str]:

@@ -19,6 +19,7 @@ from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
+from hexdbb.samples.unmeasured import not_measured_sentences, with_judged_free
 
 NO_ACTION = 1e-9
 """An effect whose values keep their prior standard deviations to this relative part acts on no reading: rounding of the
@@ -118,6 +119,7 @@ def diagnose(
     RunError
         Where the fit did not end in a usable solution.
     """
+    model = with_judged_free(samples.unmeasured, model)
     if not model.free.any():
         raise InputError("the model has no free value (expected at least one to fit)")
     _require_distinct(samples)
@@ -155,7 +157,11 @@ def diagnose(
         residual_mm=result.residual_mm,
         held_out=checked,
         unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
-        warnings=(*either_sign, *warnings_of(fitted, result, enough, checked, expected)),
+        warnings=(
+            *not_measured_sentences(samples.records),
+            *either_sign,
+            *warnings_of(fitted, result, enough, checked, expected),
+        ),
         sufficiency=enough,
     )
 

@@ -25,6 +25,7 @@ from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
+from hexdbb.samples.unmeasured import judged_effects, not_measured_sentences, require_judged, with_judged_free
 from hexdbb.threads import one_thread
 
 Progress = Callable[[str], None]
@@ -78,12 +79,12 @@ def discover(
     _require_enough(samples)
     _require_size(matters_um)
     known = model.with_mounts(samples.mounts)
-    names = _asked(known, candidates)
+    names = _asked(samples, known, candidates)
     require_usable_effects(samples, known, names)
     judging = judging_noise(samples)
     test = FitTest(samples, judging.noise)
     progress("fitting the model as it is")
-    engine = Engine(samples, known, judging.noise, criteria)
+    engine = Engine(samples, with_judged_free(samples.unmeasured, known), judging.noise, criteria)
 
     def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
         return assess_sufficiency(samples, fitted, residual_mm, noise=judging, matters_um=matters_um, test=test)
@@ -142,7 +143,11 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
 
 
 def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Discovery:
-    """Add what laps tell of the noise; a machine that does not repeat does not lack nothing."""
+    """Add what was not measured, and what laps tell of the noise.
+
+    A machine that does not repeat does not lack nothing.
+    """
+    found = replace(found, remarks=(*found.remarks, *not_measured_sentences(engine.samples.records)))
     if judging.remark is None:
         return found
     found = replace(found, remarks=(*found.remarks, judging.remark))
@@ -153,13 +158,14 @@ def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Dis
     return replace(found, verdict="unknown", sentence=sentence, structure=structure)
 
 
-def _asked(model: Model, candidates: Sequence[str] | None) -> list[str]:
+def _asked(samples: Samples, model: Model, candidates: Sequence[str] | None) -> list[str]:
     if candidates is None:
-        return absent_effects(model)
+        return judged_effects(samples.unmeasured, model, absent_effects(model))
     possible = {*_core.effect_names("catalogue"), *model.own_effects}
     for name in candidates:
         if name not in possible:
             raise InputError(f"candidate {name}: not a known effect (expected one of {', '.join(sorted(possible))})")
+        require_judged(samples.unmeasured, model, name, samples.name)
     return [name for name in absent_effects(model) if name in candidates]
 
 

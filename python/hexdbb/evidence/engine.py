@@ -137,7 +137,9 @@ class Engine:
             ARC: _arcs(_codes(part["sweep"])),
         }
         ports = _core.port_sensitivity(self._engine(self.base), part.block(self.base)) / self.row_noise_mm[:, None]
-        return Readings(State(part, part.machine.sliders.screw_lead_mm), groups, self.row_noise_mm, ports)
+        return Readings(
+            State(part, part.machine.sliders.screw_lead_mm, part.unmeasured), groups, self.row_noise_mm, ports
+        )
 
     def fit(self, model: Model) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.

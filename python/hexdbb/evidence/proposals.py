@@ -38,7 +38,8 @@ class Proposal:
 
 def proposals(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
     """Return the steps and periods of a linearisation that are worth a look."""
-    return [*_steps(linear, readings, thinned, criteria), *_periods(linear, readings, criteria)]
+    steps = () if "time_s" in readings.state.unmeasured else _steps(linear, readings, thinned, criteria)
+    return [*steps, *_periods(linear, readings, criteria)]
 
 
 def _shifting() -> Iterator[tuple[str, int]]:
@@ -175,7 +176,7 @@ def _periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator
         values = np.concatenate([position[:, column] for column, _ in pushes])
         yield from _period(place, element, "position", weighted, values, 1.0 / criteria.shortest_mm)
     gaps = np.diff(np.unique(time_s))
-    if len(gaps):
+    if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))
         weighted = linear.residual * _answers(readings, "reading", ALL)[:, 0]
         yield from _period("reading", ALL, "time", weighted, time_s, highest)

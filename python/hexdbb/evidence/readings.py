@@ -17,6 +17,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.errors import InputError
 from hexdbb.learned import Columns, Learned, Space, Variable
 
 Floats = NDArray[np.float64]
@@ -39,10 +40,12 @@ class State:
         Samples, or anything that has their columns.
     screw_lead_mm : float
         Travel of a slider per turn of its screw.
+    unmeasured : frozenset of str
+        Columns that were not measured: no function of them is a hypothesis.
     """
 
-    def __init__(self, columns: Columns, screw_lead_mm: float) -> None:
-        self._columns, self.screw_lead_mm = columns, screw_lead_mm
+    def __init__(self, columns: Columns, screw_lead_mm: float, unmeasured: frozenset[str] = frozenset()) -> None:
+        self._columns, self.screw_lead_mm, self.unmeasured = columns, screw_lead_mm, unmeasured
         self._known: dict[str, Floats] = {}
         self._spaces: dict[Learned, Space] = {}
         self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
@@ -59,12 +62,14 @@ class State:
 
     def rows(self, rows: Ints) -> State:
         """Return some rows, whose functions are those of the whole."""
-        part = State(_Rows(self, rows), self.screw_lead_mm)
+        part = State(_Rows(self, rows), self.screw_lead_mm, self.unmeasured)
         part._spaces, part._alike = self._spaces, self._alike
         return part
 
     def space(self, hypothesis: Learned) -> Space:
         """Return the functions of a hypothesis; `InputError` where its variable is not measured or hardly varies."""
+        if unmeasured := self.unmeasured & hypothesis.variable.needs:
+            raise InputError(f"{hypothesis.name}: {', '.join(unmeasured)} was not measured (expected it to be)")
         if hypothesis not in self._spaces:
             # Limits are those of the variable at the elements, whatever it pushes there: many hypotheses share them.
             alike = hypothesis.variable, tuple(element for element, _ in hypothesis.pushes(0))

@@ -167,12 +167,13 @@ def parse_toml(text: str, model: type[ModelT], origin: str) -> ModelT:
     try:
         return model.model_validate(data)
     except ValidationError as error:
-        raise InputError(f"{origin}: {_first_line(error, model)}") from None
+        raise InputError(f"{origin}: {validation_line(error, model)}") from None
 
 
 def dump_toml(instance: BaseModel) -> str:
-    """Return a model as TOML text under the file's own keys, unset keys left out; floats read back to the last bit."""
-    return tomlkit.dumps(instance.model_dump(by_alias=True, exclude_none=True))
+    """Return a model as TOML text under the file's own keys, unset and empty ones left out; floats read back alike."""
+    content = instance.model_dump(by_alias=True, exclude_none=True)
+    return tomlkit.dumps({key: value for key, value in content.items() if value != {}})
 
 
 def format_value(value: object) -> str:
@@ -228,8 +229,11 @@ def _check_schema(data: Mapping[str, Any], model: type[BaseModel], origin: str) 
     raise InputError(f'{origin}: schema: {format_value(found)} (expected "{expected}"{note})')
 
 
-def _first_line(error: ValidationError, model: type[BaseModel]) -> str:
-    """Return the first error as one line; unknown keys first, since a misspelt key also appears as a missing one."""
+def validation_line(error: ValidationError, model: type[BaseModel]) -> str:
+    """Return the first error of a validation as one line: key, value and what was expected.
+
+    Unknown keys come first, since a misspelt key also appears as a missing one.
+    """
     details = error.errors(include_url=False)
     return _line(min(details, key=lambda detail: detail["type"] != "extra_forbidden"), model)
 

@@ -68,6 +68,11 @@ class Variable:
         return self.count + int(self.signed)
 
     @property
+    def needs(self) -> frozenset[str]:
+        """Columns of the samples that its functions depend on."""
+        return frozenset({"time_s" if self.times == ELAPSED else self.times, self.column} - {""})
+
+    @property
     def is_smooth(self) -> bool:
         """Whether it has splines enough for their smoothness to be chosen."""
         return self.count > SPLINES_MIN and not self.instants

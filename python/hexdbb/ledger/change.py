@@ -14,6 +14,7 @@ from hexdbb.learned.places import is_learned
 from hexdbb.ledger.step import sizes_of, with_step
 from hexdbb.model import Choice, Model
 from hexdbb.samples import Samples, predict
+from hexdbb.samples.unmeasured import require_judged
 from hexdbb.threads import one_thread
 
 Floats = NDArray[np.float64]
@@ -85,6 +86,7 @@ def _require_addable(samples: Samples, model: Model, added: Choice) -> None:
         space_of(samples, model, added.effect)
     else:
         model.with_mounts(samples.mounts).with_effect(added)
+    require_judged(samples.unmeasured, model, added.effect, samples.name)
 
 
 def _fitted_as_it_is(samples: Samples, model: Model, robust: bool) -> tuple[Model, Floats, Refit]:

@@ -20,6 +20,8 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
 from hexdbb.kinematics import engine_machine
+from hexdbb.learned import Learned
+from hexdbb.learned.places import is_learned
 from hexdbb.machine import MachineFile
 from hexdbb.model.catalogue import default_effects, effect_info
 from hexdbb.model.choice import Choice
@@ -56,6 +58,15 @@ class Model:
         """Return an effect that is not the engine's, learned or the user's own; None for one of the engine's."""
         term = self.term(effect)
         return self.own_effects.get(effect) if term is None or term.learned is None else term.learned
+
+    def needs_of(self, effect: str) -> frozenset[str]:
+        """Return the columns of the samples' state on which an effect depends, in the model or not, learned or not.
+
+        What a user's own effect asks samples for, nobody states; it counts as needing none.
+        """
+        if is_learned(effect):
+            return Learned.parse(effect).variable.needs
+        return frozenset(self.info(effect).needs)
 
     @cached_property
     def needs(self) -> frozenset[str]:

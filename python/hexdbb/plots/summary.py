@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from hexdbb.charts.colours import MEASURED_COLOURS
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison
+from hexdbb.comparison.tables import COMMANDED
 from hexdbb.discovery.words import capital
 from hexdbb.plots.circle_pages import add_legend, draw_circle
 from hexdbb.plots.panels import draw_residual
@@ -54,6 +55,8 @@ def heading(comparison: Comparison) -> str:
     """Return the likely cause, where there is one, and the size of the residual."""
     rms_um, peak_um = UM_PER_MM * comparison.rms_mm, UM_PER_MM * comparison.peak_to_valley_mm
     size = f"residual (measured - predicted): {rms_um:.2f} µm RMS, {peak_um:.2f} µm peak to valley"
+    if comparison.is_commanded:
+        size += f"\nno model: predicted is {COMMANDED}"
     if comparison.cause is None:
         return size
     sentence = comparison.cause.sentence

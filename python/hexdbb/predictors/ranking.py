@@ -66,11 +66,15 @@ def rank_predictors(
         found.append(_means(variable, tested))
         if variable.is_place or variable.name == "time":
             found += _periodic(variable, samples, tested)
-    found += [
-        Predictor(step.subject, step.variable, "s", step.pushes, share, step.values, None, step.place, step.size_um)
-        for step in steps(samples, pushes, tested)
-        if (share := tested.share(step.design, True)) > LEAST_SHARE
-    ]
+    found += (
+        []
+        if "time_s" in samples.unmeasured
+        else [
+            Predictor(step.subject, step.variable, "s", step.pushes, share, step.values, None, step.place, step.size_um)
+            for step in steps(samples, pushes, tested)
+            if (share := tested.share(step.design, True)) > LEAST_SHARE
+        ]
+    )
     return sorted(found, key=lambda each: -each.worth)
 
 

@@ -80,10 +80,16 @@ class Variable:
     is_time: bool = False
     signs: tuple[str, str] | None = None
     classes: tuple[tuple[float, str], ...] = ()
+    needs: str = ""
+    """Column of the samples that must have been measured; one that follows time (`is_time`) needs `time_s`."""
+
+    def is_judged(self, unmeasured: frozenset[str]) -> bool:
+        """Return whether it needs none of the columns that were not measured (`Samples.unmeasured`)."""
+        return self.needs not in unmeasured and not (self.is_time and "time_s" in unmeasured)
 
 
 def variables(samples: Samples, pushes: Pushes | None = None) -> Iterator[Variable]:
-    """Yield the variables of some samples; one that is constant predicts nothing and is left out.
+    """Yield the variables of some samples that were measured; one that is constant predicts nothing and is left out.
 
     Parameters
     ----------
@@ -96,7 +102,8 @@ def variables(samples: Samples, pushes: Pushes | None = None) -> Iterator[Variab
     if pushes is not None:
         moving += [_of_guideway(samples, g, pushes) for g in range(1, 4)]
         moving += [_of_leg(samples, k, pushes) for k in SLIDERS]
-    return (each for group in moving for each in group if _varies(each))
+    unmeasured = samples.unmeasured
+    return (each for group in moving for each in group if each.is_judged(unmeasured) and _varies(each))
 
 
 def _varies(variable: Variable) -> bool:
@@ -135,12 +142,14 @@ def _of_slider(samples: Samples, k: int, pushes: Pushes | None) -> Iterator[Vari
     yield Variable(subject, f"{subject} direction of travel", "", ((weight, travel),), where, classes=senses)
     timed = ((weight * travel, samples["time_s"]),)
     yield Variable(subject, f"{subject} direction of travel, over time", "s", timed, where, is_time=True)
-    yield Variable(subject, f"{subject} velocity", "mm/s", ((weight, samples["velocity_mm_s"][:, of]),), where)
+    moving = ((weight, samples["velocity_mm_s"][:, of]),)
+    yield Variable(subject, f"{subject} velocity", "mm/s", moving, where, needs="velocity_mm_s")
     since_s = samples["since_reversal_s"][:, of]
     # Before the first reversal of a sweep nothing is known of the time since one.
     known = np.where(since_s < NEVER_S, since_s, np.nan)
     # What a reversal leaves behind acts the other way after the next one.
-    yield Variable(subject, f"time since {subject} reversed", "s", ((weight * travel, known),), where)
+    since = ((weight * travel, known),)
+    yield Variable(subject, f"time since {subject} reversed", "s", since, where, needs="since_reversal_s")
 
 
 def _of_guideway(samples: Samples, g: int, pushes: Pushes) -> Iterator[Variable]:
@@ -158,7 +167,8 @@ def _of_guideway(samples: Samples, g: int, pushes: Pushes) -> Iterator[Variable]
         yield Variable(subject, place, "mm", parts, where, is_place=True, signs=signs)
         for course, later in courses.items():
             timed = tuple((weight * (later - later.mean()), values) for weight, values in parts)
-            yield Variable(subject, f"{place}, {course} with time", "mm", timed, where, bins=COARSE_BINS)
+            name = f"{place}, {course} with time"
+            yield Variable(subject, name, "mm", timed, where, bins=COARSE_BINS, needs="time_s")
 
 
 def _of_leg(samples: Samples, k: int, pushes: Pushes) -> Iterator[Variable]:

@@ -4,6 +4,7 @@ from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, TARGET_COLUM
 from hexdbb.record.conditions import conditions_metadata
 from hexdbb.record.formats import read_record, write_record
 from hexdbb.record.journal import Journal, journal_path
+from hexdbb.record.not_measured import NotMeasured
 from hexdbb.record.plausibility import Doubt, doubts
 from hexdbb.record.record import Record
 from hexdbb.record.recovery import recover
@@ -14,6 +15,7 @@ __all__ = [
     "TARGET_COLUMNS",
     "Doubt",
     "Journal",
+    "NotMeasured",
     "Record",
     "conditions_metadata",
     "doubts",

@@ -1,6 +1,6 @@
 """Conditions of a test in a record's metadata, and in the text form's TOML.
 
-Metadata keys: `conditions` (a dict of `hexdbb.plan.Conditions`), `started`, `plan`.
+Metadata keys: `conditions` (a dict of `hexdbb.plan.Conditions`), `started`, `plan`, `not_measured`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from pydantic import ValidationError
 
 from hexdbb.plan import Conditions
 from hexdbb.record.measurement import Measurement
+from hexdbb.record.not_measured import KEY as NOT_MEASURED
+from hexdbb.record.not_measured import not_measured_in, not_measured_metadata
 
 KEY = "conditions"
 DESCRIBED = ("plan", "started")
@@ -43,7 +45,8 @@ def conditions_metadata(*conditions: Conditions | None) -> dict[str, object]:
 def described_metadata(measurement: Measurement) -> dict[str, Any]:
     """Return what a measurement file says of a test, as metadata of its record."""
     texts = {name: getattr(measurement, name) for name in DESCRIBED if getattr(measurement, name) is not None}
-    return {**texts, **conditions_metadata(measurement.conditions)}
+    computed = not_measured_metadata(measurement.not_measured)
+    return {**texts, **conditions_metadata(measurement.conditions), **computed}
 
 
 def with_description(measurement: Measurement, metadata: Mapping[str, Any]) -> Measurement:
@@ -51,4 +54,5 @@ def with_description(measurement: Measurement, metadata: Mapping[str, Any]) -> M
     texts = {name: metadata[name] for name in DESCRIBED if isinstance(metadata.get(name), str) and metadata[name]}
     stated = conditions_in(metadata)
     conditions = stated if stated != Conditions() else None
-    return measurement.model_copy(update={**texts, KEY: conditions})
+    computed = not_measured_in(metadata) or None
+    return measurement.model_copy(update={**texts, KEY: conditions, NOT_MEASURED: computed})

@@ -128,7 +128,7 @@ def _type_words(schema: Schema, definitions: Schema) -> str:
         return f"`{json.dumps(schema['const'])}`"
     if "enum" in schema:
         return " or ".join(f"{each}" for each in schema["enum"])
-    if "properties" in schema:
+    if "properties" in schema or schema.get("type") == "object":
         return "table"
     if schema["type"] == "array":
         if "prefixItems" in schema:
@@ -153,7 +153,7 @@ def _default_words(key: str, schema: Schema, of: Schema) -> str:
     if key in of.get("required", ()) or "const" in schema:
         return "required"
     default = schema.get("default")
-    if default is None:
+    if default is None or default == {}:
         return "none"
     if isinstance(default, dict):
         return "as below"

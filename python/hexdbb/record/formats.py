@@ -1,4 +1,4 @@
-"""File formats of a record, chosen by suffix: Parquet and the text form."""
+"""File formats of a record, chosen by suffix: Parquet, the text form, an Excel workbook."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from hexdbb.record.columns import RowSource
 from hexdbb.record.parquet import read_parquet, write_parquet
 from hexdbb.record.record import Record
 from hexdbb.record.text_form import read_text_form, write_text_form
+from hexdbb.record.workbook import read_record_workbook, write_record_workbook
 
 
 @dataclass(frozen=True)
@@ -28,7 +29,11 @@ class FileFormat:
     write: Callable[[Record, Path, bool], None]
 
 
-FORMATS = {".parquet": FileFormat(read_parquet, write_parquet), ".csv": FileFormat(read_text_form, write_text_form)}
+FORMATS = {
+    ".parquet": FileFormat(read_parquet, write_parquet),
+    ".csv": FileFormat(read_text_form, write_text_form),
+    ".xlsx": FileFormat(read_record_workbook, write_record_workbook),
+}
 """Formats by suffix; a further format is a further entry."""
 
 
@@ -38,7 +43,7 @@ def read_record(path: Path | str) -> Record:
     Parameters
     ----------
     path : Path or str
-        A Parquet record, or the CSV of a text form (its TOML beside it).
+        A Parquet record, the CSV of a text form (its TOML beside it), or a workbook written by `write_record`.
 
     Returns
     -------
@@ -63,7 +68,7 @@ def write_record(record: Record, path: Path | str, overwrite: bool = False, *, c
     ----------
     record : Record
     path : Path or str
-        ``.parquet``, or ``.csv`` for the text form: ``NAME.csv``, ``NAME.toml`` and ``NAME.machine.toml``.
+        ``.parquet``, ``.xlsx``, or ``.csv`` for the text form: ``NAME.csv``, ``NAME.toml`` and ``NAME.machine.toml``.
     overwrite : bool
         Whether an existing file may be replaced.
     checked : bool
@@ -86,5 +91,5 @@ def _format_of(path: Path) -> FileFormat:
     if path.suffix == ".journal":
         raise InputError(f"{path}: the journal of a capture (expected a record; make one with: hexdbb recover {path})")
     if path.suffix not in FORMATS:
-        raise InputError(f"{path}: suffix {path.suffix!r} (expected a record: {' or '.join(FORMATS)})")
+        raise InputError(f"{path}: suffix {path.suffix!r} (expected a record: {', '.join(FORMATS)})")
     return FORMATS[path.suffix]

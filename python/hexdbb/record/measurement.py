@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 
 from hexdbb.files.validation import FileModel
 from hexdbb.plan import Circles, Conditions, Gauge, Mounts, check_ids
+from hexdbb.record.not_measured import NotMeasured
 
 
 class Measurement(FileModel):
@@ -25,6 +26,8 @@ class Measurement(FileModel):
     """Date, or date and time, of the first sample, for reports."""
     conditions: Conditions | None = None
     """Conditions of the test, for reports."""
+    not_measured: NotMeasured | None = None
+    """What was computed instead of measured; absent where everything was measured."""
     gauge: Gauge
     """Ball bar and length gauge."""
     mounts: Mounts = Field(alias="mount")

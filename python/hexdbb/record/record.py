@@ -20,6 +20,7 @@ from hexdbb.plan import Circle, Conditions, Gauge, Mount
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, RowSource, normalise
 from hexdbb.record.conditions import conditions_in
 from hexdbb.record.measurement import Measurement
+from hexdbb.record.not_measured import NotMeasured, not_measured_in
 from hexdbb.record.summary import summary_html, summary_line
 
 DIMENSIONS = ("base", "platform", "legs", "sliders")
@@ -98,12 +99,22 @@ class Record:
     def to_frame(self) -> Any:
         """Return the samples as a ``pandas.DataFrame`` of n rows, its columns those of the record's file.
 
+        Its ``attrs`` hold the rest as plain values: ``measurement`` (gauge, mounts, circles), ``machine``,
+        ``metadata`` and ``complete``.
+
         Raises
         ------
         InputError
             pandas is not installed.
         """
-        return to_frame(self.columns)
+        frame = to_frame(self.columns)
+        frame.attrs = {
+            "measurement": self.measurement("machine").model_dump(mode="json", by_alias=True, exclude_none=True),
+            "machine": self.machine.model_dump(mode="json", by_alias=True, exclude_none=True),
+            "metadata": self.metadata,
+            "complete": self.complete,
+        }
+        return frame
 
     def sweeps(self) -> list[NDArray[np.intp]]:
         """Return the rows of each sweep (uninterrupted capture), in the order in which the sweeps begin."""
@@ -114,6 +125,11 @@ class Record:
     def conditions(self) -> Conditions:
         """Conditions of the test as far as they are recorded; values of another kind count as not recorded."""
         return conditions_in(self.metadata)
+
+    @property
+    def not_measured(self) -> NotMeasured:
+        """What was computed instead of measured, and from what; empty for a record of `hexdbb-run`."""
+        return not_measured_in(self.metadata)
 
     def measurement(self, machine: str) -> Measurement:
         """Return gauge, mounts and circles as a measurement file that names its machine `machine`."""

@@ -10,6 +10,7 @@ import numpy as np
 from hexdbb import __version__
 from hexdbb.comparison.circles import compensation_of
 from hexdbb.record import Record
+from hexdbb.samples.unmeasured import not_measured_sentences
 
 NOT_RECORDED = "not recorded"
 
@@ -26,6 +27,7 @@ def condition_rows(record: Record) -> list[tuple[str, str]]:
         ("plan", _text(record.metadata.get("plan"))),
         ("circles and feeds", _driven(record)),
         ("driven with compensation", compensation_of(record) or "none"),
+        ("not measured", "; ".join(not_measured_sentences([record])) or "nothing: encoders and clock were read"),
         ("ball bar", _bar(record)),
         ("serial number of the bar", record.gauge.serial_number),
         ("calibrated", None if record.gauge.calibrated is None else record.gauge.calibrated.isoformat()),

@@ -8,6 +8,7 @@ from hexdbb.comparison import Comparison
 from hexdbb.contributions import Contribution, Contributions, RecordContributions
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.reporting.judgement import Judged
+from hexdbb.samples.unmeasured import not_measured_sentences
 
 MOST_NAMED = 3
 """Parts of a combined contribution that are named: the sentence remains one."""
@@ -37,6 +38,7 @@ def _clauses(
         yield f"the model explains all but {sufficiency.lack_of_fit.rms_um:.2f} µm RMS, nothing that matters is missing"
     else:
         yield f"something is missing from the model: {sufficiency.sentence}"
+    yield from not_measured_sentences(comparison.samples.records)
 
 
 def _judgement(judged: Sequence[Judged]) -> str:

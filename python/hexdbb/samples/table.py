@@ -25,6 +25,7 @@ from hexdbb.machine import MachineFile
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, is_shaped
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.samples.unmeasured import unmeasured_columns
 from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
 Floats = NDArray[np.float64]
@@ -157,6 +158,11 @@ class Samples:
     def machine(self) -> MachineFile:
         """Machine of the records."""
         return self._whole.machine
+
+    @property
+    def unmeasured(self) -> frozenset[str]:
+        """Columns of the state that cannot be judged: some record computes what they follow from."""
+        return unmeasured_columns(self.records)
 
     @property
     def set_ups(self) -> tuple[_core.SetUp, ...]:

@@ -7,14 +7,16 @@ from pathlib import Path
 
 from hexdbb.diagnosis import fit_mounts
 from hexdbb.effects import UserEffect
+from hexdbb.importing import Mapping
 from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples
 from hexdbb.workbench.model_file import ModelFile
 
 
-def opened_records(paths: Sequence[Path]) -> tuple[str, ...]:
-    """Return the lines that read the records."""
-    read = ", ".join(f"hx.read_record({str(path)!r})" for path in paths)
+def opened_records(paths: Sequence[Path], mapping: Mapping) -> tuple[str, ...]:
+    """Return the lines that read the records; a mapping says how those of other programs are read."""
+    choices = "".join(f", {key}={value!r}" for key, value in mapping.choices().items())
+    read = ", ".join(f"hx.read_record({str(path)!r}{choices})" for path in paths)
     return f"records = [{read}]", "samples = hx.Samples.of(records)"
 
 

@@ -74,7 +74,8 @@ def write_effects(session: Session, path: Path, source: str, computing_s: int = 
             raise InputError(f"{path}: not written (expected a new name that ends in .py)")
         write_text(path, source)
         session.effects_path = path
-        require_ending(path, [record.path for record in session.records if record.path is not None], computing_s)
+        paths = [record.path for record in session.records if record.path is not None]
+        require_ending(path, paths, computing_s, mapping=session.mapping)
         effects = load_effects(path)
         session.know_effects(effects)
     return [each.name for each in effects]

@@ -18,8 +18,8 @@ from pathlib import Path
 from hexdbb.discovery import require_usable_effects
 from hexdbb.effects import load_effects
 from hexdbb.errors import HexdbbError, InputError
+from hexdbb.importing import Mapping, read_measured
 from hexdbb.model import new_model
-from hexdbb.record import read_record
 from hexdbb.samples import Samples
 
 COMPUTING_S = 20
@@ -31,9 +31,15 @@ START = "import sys; from hexdbb.workbench.own_code import main; main(*sys.argv[
 
 
 def require_ending(
-    effects: Path, records: Sequence[Path], computing_s: int = COMPUTING_S, waiting_s: float = WAITING_S
+    effects: Path,
+    records: Sequence[Path],
+    computing_s: int = COMPUTING_S,
+    waiting_s: float = WAITING_S,
+    mapping: Mapping | None = None,
 ) -> None:
     """Check that the effects of a file can be evaluated for some records, and that they end.
+
+    `mapping` says how records of other programs are read.
 
     Raises
     ------
@@ -41,8 +47,9 @@ def require_ending(
         The file does not run, an effect of it cannot be used (with file and line), or it did not end in time: its
         process was ended.
     """
+    how = (mapping or Mapping()).model_dump_json(by_alias=True, exclude_unset=True)
     with subprocess.Popen(
-        [sys.executable, "-c", START, str(computing_s), str(effects), *map(str, records)],
+        [sys.executable, "-c", START, str(computing_s), str(effects), how, *map(str, records)],
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
@@ -63,12 +70,16 @@ def require_ending(
         raise InputError(lines[-1])
 
 
-def main(computing_s: str, effects: str, *records: str) -> None:
-    """Load a file of effects and evaluate each for the readings of some records; exit with 2 where that is refused."""
+def main(computing_s: str, effects: str, how: str, *records: str) -> None:
+    """Load a file of effects and evaluate each for the readings of some records; exit with 2 where that is refused.
+
+    `how` is the JSON of a mapping, by which records of other programs are read.
+    """
     resource.setrlimit(resource.RLIMIT_CPU, (int(computing_s), resource.RLIM_INFINITY))
     try:
         found = load_effects(effects)
-        samples = Samples.of([read_record(path) for path in records])
+        mapping = Mapping.model_validate_json(how)
+        samples = Samples.of([read_measured(path, mapping) for path in records])
         model = new_model(samples.machine, []).knowing_effects(found)
         require_usable_effects(samples, model, [each.name for each in found])
     except HexdbbError as error:

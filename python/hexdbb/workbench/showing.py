@@ -5,15 +5,16 @@ Every action appends the lines that do the same to `Showing.script`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from hexdbb.diagnosis import JudgingNoise, Sufficiency, assess_sufficiency, judging_noise
 from hexdbb.discovery import Discovery
 from hexdbb.effects import UserEffect, load_effects
+from hexdbb.importing import Mapping, read_measured
 from hexdbb.ledger import History, history
 from hexdbb.model import Model
-from hexdbb.record import Record, read_record
+from hexdbb.record import Record
 from hexdbb.samples import Prediction, Samples, predict
 from hexdbb.threads import one_thread
 from hexdbb.workbench.changes import EVERYTHING, Changes
@@ -35,6 +36,10 @@ class Showing:
         a path the model is in memory only, until `save_as`.
     effects_path : Path, optional
         Python file that declares effects of the user's own; it is run.
+    mapping : Mapping, optional
+        How records of other programs are read.
+    tell : callable
+        Is told in one line what was detected in a record of another program.
 
     Raises
     ------
@@ -43,9 +48,16 @@ class Showing:
     """
 
     def __init__(
-        self, record_paths: Sequence[Path], model_path: Path | None = None, effects_path: Path | None = None
+        self,
+        record_paths: Sequence[Path],
+        model_path: Path | None = None,
+        effects_path: Path | None = None,
+        *,
+        mapping: Mapping | None = None,
+        tell: Callable[[str], None] = lambda _: None,
     ) -> None:
-        self.records: list[Record] = [read_record(path) for path in record_paths]
+        self.mapping = mapping or Mapping()
+        self.records: list[Record] = [read_measured(path, self.mapping, tell) for path in record_paths]
         self.samples = Samples.of(self.records)
         self.file = None if model_path is None else ModelFile(model_path)
         self.script = Script()
@@ -54,7 +66,7 @@ class Showing:
         self.effects_path = effects_path
         self.own_effects: list[UserEffect] = [] if effects_path is None else load_effects(effects_path)
         self.changes = Changes()
-        self.script.add(*opened_records(record_paths))
+        self.script.add(*opened_records(record_paths, self.mapping))
         self.selections = selections(self.samples)
         self.selection = self.selections[0]
         self.model = self._open()

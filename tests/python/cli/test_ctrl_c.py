@@ -46,7 +46,7 @@ def test_in_a_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(convert, "read_record", interrupted)
+    monkeypatch.setattr(convert, "read_measured", interrupted)
     done = called("hexdbb", "convert", "a.csv", "b.parquet", folder=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "error: interrupted\n")
 

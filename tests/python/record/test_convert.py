@@ -28,7 +28,7 @@ def test_record_to_text_form_and_back(record: Record, tmp_path: Path) -> None:
     ("source", "target", "message"),
     [
         ("none.csv", "b.parquet", "none.csv: no such file"),
-        ("a.parquet", "b.xlsx", "b.xlsx: suffix '.xlsx' (expected a record: .parquet or .csv)"),
+        ("a.parquet", "b.ods", "b.ods: suffix '.ods' (expected a record: .parquet, .csv, .xlsx)"),
         ("a.parquet", "a.parquet", "a.parquet: exists already"),
         ("a.parquet", "none/b.csv", "b.csv: no such directory"),
     ],

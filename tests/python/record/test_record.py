@@ -259,7 +259,7 @@ def test_files_that_are_no_records_are_refused(record: Record, tmp_path: Path) -
     torn.write_bytes(written(record, tmp_path / "a.parquet").read_bytes()[:-100])
     assert error_of(lambda: read_record(torn)).startswith(f"{torn}: not a whole Parquet file")
     assert error_of(lambda: read_record(tmp_path / "none.parquet")).endswith("none.parquet: no such file")
-    assert "suffix '.txt' (expected a record: .parquet or .csv)" in error_of(lambda: read_record("a.txt"))
+    assert "suffix '.txt' (expected a record: .parquet, .csv, .xlsx)" in error_of(lambda: read_record("a.txt"))
     assert "hexdbb recover a.parquet.journal" in error_of(lambda: read_record("a.parquet.journal"))
     assert "no such directory" in error_of(lambda: write_record(record, tmp_path / "none" / "a.parquet"))
 
