@@ -134,6 +134,9 @@ class Criteria:
     form_described : float
         Part of a form that the functions beside an effect leave undescribed, at most: a further known effect, itself
         larger than forms may be off, must explain more than its square where others stand in for most of it.
+    of_size : float
+        Part of what several known effects explain that the squares of what they push beyond geometry must sum to. Of
+        true pairs and triples it is 0.7 to 1.3; three drifts that stood in for a ball off its axis had 0.06.
     """
 
     max_rows: int = 12000
@@ -189,6 +192,7 @@ class Criteria:
     same_kind_share: float = 0.05
     secondary: float = 2.0
     form_described: float = 0.05
+    of_size: float = 0.5
 
 
 DEFAULT = Criteria()

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 
 def needs_all(search: Search, node: Node) -> bool:
-    """Check that no hypothesis of a set could be left out."""
-    return all(needs(search, node, member) for member in node.members)
+    """Check that no hypothesis of a set could be left out, and that known effects together are what they explain."""
+    return all(needs(search, node, member) for member in node.members) and _are_of_size(search, node)
 
 
 def needs(search: Search, node: Node, member: Member) -> bool:
@@ -45,5 +45,21 @@ def needs(search: Search, node: Node, member: Member) -> bool:
 
 def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:
     """Check the size of a known effect; what pushes more than was missing is undone by another of the set."""
-    sizes = {each: search.trials.size(node.trial, each) for each in node.hypotheses if isinstance(each, Known)}
+    sizes = _sizes(search, node)
     return least <= sizes[known] and max(sizes.values()) <= search.root.trial.left
+
+
+def _are_of_size(search: Search, node: Node) -> bool:
+    """Check that what several known effects push is not mostly what geometry pushes too.
+
+    Slow drifts that geometry stands in for can be made to cancel but for a step that none of them has.
+    """
+    sizes = _sizes(search, node)
+    if len(sizes) < max(len(node.members), 2):
+        return True
+    explained = search.root.trial.left - node.trial.left + search.trials.explained_before
+    return sum(sizes.values()) >= search.criteria.of_size * explained
+
+
+def _sizes(search: Search, node: Node) -> dict[Known, float]:
+    return {each: search.trials.size(node.trial, each) for each in node.hypotheses if isinstance(each, Known)}
