@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.learned import Columns, Learned, Space, Variable
+from hexdbb.machine import MachineFile
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -37,12 +38,12 @@ class State:
     ----------
     columns : Columns
         Samples, or anything that has their columns.
-    screw_lead_mm : float
-        Travel of a slider per turn of its screw.
+    machine : MachineFile
+        That the samples are of.
     """
 
-    def __init__(self, columns: Columns, screw_lead_mm: float) -> None:
-        self._columns, self.screw_lead_mm = columns, screw_lead_mm
+    def __init__(self, columns: Columns, machine: MachineFile) -> None:
+        self._columns, self.machine = columns, machine
         self._known: dict[str, Floats] = {}
         self._spaces: dict[Learned, Space] = {}
         self._designs: dict[tuple[Variable, int, float, float], NDArray[np.float32]] = {}
@@ -58,14 +59,14 @@ class State:
 
     def rows(self, rows: Ints) -> State:
         """Return some rows, whose functions are those of the whole."""
-        part = State(_Rows(self, rows), self.screw_lead_mm)
+        part = State(_Rows(self, rows), self.machine)
         part._spaces = self._spaces
         return part
 
     def space(self, hypothesis: Learned) -> Space:
         """Return the functions of a hypothesis; `InputError` where its variable is not measured or hardly varies."""
         if hypothesis not in self._spaces:
-            self._spaces[hypothesis] = Space.of(hypothesis, self, self.screw_lead_mm)
+            self._spaces[hypothesis] = Space.of(hypothesis, self, self.machine.sliders.screw_lead_mm)
         return self._spaces[hypothesis]
 
     def design(self, space: Space, element: int) -> NDArray[np.float32]:

@@ -35,9 +35,9 @@ class Detectable:
 
     size: float | None
     """Smallest detectable size of the element and parameter detected most easily, in `unit`; None where none is
-    detectable at any size."""
+    detectable at a size that a machine can have (the limit of its value)."""
     hardest: float | None
-    """The same of the one detected least easily, in `unit`; None where one is never detectable."""
+    """The same of the one detected least easily, in `unit`; None where one is not detectable."""
     unit: str
     """Unit of files and JSON."""
     kept: float
@@ -72,10 +72,14 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     signature = sensitivity.scaled(own)
     rest = _core.project_out(signature, sensitivity.scaled(sensitivity.free & ~own))
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
-    visible = left > ROUNDING_SHARE * whole.max()
-    parameter = sensitivity.where(own)[0]
-    rms_mm = left[visible] / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own][visible]
-    sizes = DETECTION_RATIO * noise_mm / rms_mm * shown_factor(parameter.unit)
+    parameters = sensitivity.where(own)
+    parameter = parameters[0]
+    with np.errstate(divide="ignore"):
+        rms_mm = left / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own]
+        needed = DETECTION_RATIO * noise_mm / rms_mm
+    # A value beyond its limit is no error of a machine: such an effect is not detectable, at whatever size.
+    visible = (left > ROUNDING_SHARE * whole.max()) & (needed <= [each.limit for each in parameters])
+    sizes = needed[visible] * shown_factor(parameter.unit)
     return Detectable(
         size=float(sizes.min()) if len(sizes) else None,
         hardest=float(sizes.max()) if visible.all() else None,
