@@ -90,8 +90,8 @@ TEST_F(Forward, OtherMachines) {
     Machine other;
     other.base_inradius_mm = inradius;
     other.platform_circumradius_mm = circumradius;
-    other.leg_length_mm = leg;
-    other.travel_max_mm = 2.0 * std::sqrt(3.0) * inradius - 20.0;
+    other.leg_length_mm = six_of(leg);
+    other.travel_max_mm = six_of(2.0 * std::sqrt(3.0) * inradius - 20.0);
     const NominalGeometry geometry(other);
     for (int i = 0; i < 100; ++i) {
       const Reached reached = draw_reachable(drawing, geometry, {80.0, 60.0, 400.0, 0.15, 0.15}, 0.05);

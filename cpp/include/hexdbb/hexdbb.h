@@ -86,7 +86,7 @@ typedef struct hexdbb_dimensions {
    HEXDBB_SP120_SCREW_LEAD_MM,            \
    HEXDBB_SP120_MOVED_MASS_KG}
 
-/* What a machine has for each guideway, leg and slider; since 0.3.0. A machine without a layout has guideways and ball
+/* What a machine has for each guideway, leg and slider; since 0.2.0. A machine without a layout has guideways and ball
  * joints at thirds of a turn, six equal legs and six equal travels. */
 typedef struct hexdbb_layout {
   uint32_t struct_size;
@@ -175,7 +175,7 @@ typedef struct hexdbb_constants {
   uint32_t table_count; /* this and what follows: since 0.2.0; a smaller struct_size has no tables */
   uint32_t reserved;
   const hexdbb_table* tables;
-  const hexdbb_layout* layout; /* since 0.3.0; NULL, or a smaller struct_size: none */
+  const hexdbb_layout* layout; /* since 0.2.0; NULL, or a smaller struct_size: none */
 } hexdbb_constants;
 
 typedef struct hexdbb_compensator hexdbb_compensator;

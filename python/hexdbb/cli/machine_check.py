@@ -11,7 +11,7 @@ import click
 
 from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.machine_tables import print_assessment
-from hexdbb.cli.workspace_option import WorkspaceType
+from hexdbb.cli.workspace_option import FORM, workspace_of
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.machine import SHIPPED_MACHINE, MachineFile, Workspace, load_machine, shipped_machine
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 @click.argument("machine_path", metavar="MACHINE", type=click.Path(path_type=Path))
 @click.option(
     "--workspace",
-    type=WorkspaceType(),
+    type=workspace_of,
+    metavar=FORM,
     help="Workspace to look at instead of the file's: X,Y,Z,RADIUS[,HEIGHT[,TILT]], mm and deg.",
 )
 @click.option("--plot", type=click.Path(path_type=Path), help="Picture to write (.png or .svg); replaces one there.")

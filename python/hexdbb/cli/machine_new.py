@@ -13,7 +13,7 @@ from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.machine_check import assessed, check_picture, draw
 from hexdbb.cli.machine_questions import QUESTIONS, ask
 from hexdbb.cli.machine_tables import print_assessment
-from hexdbb.cli.workspace_option import WorkspaceType
+from hexdbb.cli.workspace_option import FORM, workspace_of, workspace_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.files.validation import dump_toml, parse_toml
@@ -38,7 +38,8 @@ def _asks(command: Callable[..., Any]) -> Callable[..., Any]:
 @_asks
 @click.option(
     "--workspace",
-    type=WorkspaceType(),
+    type=workspace_of,
+    metavar=FORM,
     help="Where the platform is wanted: X,Y,Z,RADIUS[,HEIGHT[,TILT]], mm and deg; default: one that is reached.",
 )
 @click.option(
@@ -111,9 +112,8 @@ def _with_workspace(
         workspace = suggested_workspace(machine)
     while True:
         if asked:
-            shown = _shown(workspace)
             text = "Where the platform is wanted: x,y,z of its centre, radius, height, tilt; mm and deg"
-            workspace = click.prompt(text, default=shown, type=WorkspaceType())
+            workspace = click.prompt(text, default=workspace_text(workspace), value_proc=workspace_of)
         assert workspace is not None  # given, suggested or asked for
         try:
             _, assessment = assessed(machine, workspace, origin)
@@ -122,10 +122,6 @@ def _with_workspace(
             if not asked:
                 raise
             say(f"  {error}", err=True)
-
-
-def _shown(space: Workspace) -> str:
-    return ",".join(f"{each:g}" for each in (*space.centre_mm, space.radius_mm, space.height_mm, space.tilt_deg))
 
 
 def _save(machine: MachineFile, path: Path) -> None:

@@ -64,16 +64,19 @@ class Legs:
 
     def guideway_angle_rad(self) -> Floats:
         """Return the acute angle of each leg and its guideway, shape (n, 6)."""
-        return np.arccos(np.clip(np.abs(np.einsum("nki,ki->nk", self.unit, self.along)), 0.0, 1.0))
+        found: Floats = np.arccos(np.clip(np.abs(np.einsum("nki,ki->nk", self.unit, self.along)), 0.0, 1.0))
+        return found
 
     def normal_angle_rad(self) -> Floats:
         """Return the angle of each leg and the platform's normal, shape (n, 6)."""
-        return np.arccos(np.clip(np.einsum("nki,ni->nk", self.unit, self.normal), -1.0, 1.0))
+        found: Floats = np.arccos(np.clip(np.einsum("nki,ni->nk", self.unit, self.normal), -1.0, 1.0))
+        return found
 
     def swing_rad(self) -> Floats:
         """Return each pair's lean from the vertical about its guideway, inward positive, shape (n, 6); RSSR angles."""
         inward = np.column_stack([self.along[:, 1], -self.along[:, 0], np.zeros(6)])
-        return np.arctan2(np.einsum("nki,ki->nk", self.unit, inward), self.unit[..., 2])
+        found: Floats = np.arctan2(np.einsum("nki,ki->nk", self.unit, inward), self.unit[..., 2])
+        return found
 
     def to_joint_limit_rad(self, machine: MachineFile) -> Floats:
         """Return the least angle that each leg leaves to the machine file's limits, shape (n, 6); negative beyond."""

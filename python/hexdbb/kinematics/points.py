@@ -21,7 +21,7 @@ def guideway_ends(machine: MachineFile) -> Floats:
     engine = engine_machine(machine)
     return np.array(
         [
-            _core.guideway_vertex(engine, i) + np.outer(travel_mm, _core.guideway_direction(engine, i))
+            _core.guideway_vertex(engine, i) + np.outer(np.array(travel_mm), _core.guideway_direction(engine, i))
             for i, travel_mm in enumerate(machine.sliders.guideway_travels_mm)
         ]
     )

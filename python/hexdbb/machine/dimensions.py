@@ -92,6 +92,10 @@ class Legs(StrictModel):
         """Lengths of legs 1 to 6."""
         return self.length_mm if isinstance(self.length_mm, tuple) else (self.length_mm,) * 6
 
+    def length_key(self, leg: int) -> tuple[str | int, ...]:
+        """Return the key that holds the length of a leg, counted from 0."""
+        return ("length_mm", leg) if isinstance(self.length_mm, tuple) else ("length_mm",)
+
 
 class Sliders(StrictModel):
     """Six sliders, two on each guideway."""

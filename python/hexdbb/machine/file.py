@@ -87,15 +87,15 @@ class MachineFile(FileModel):
         legs = home_legs(self)
         for k, (leg, travel_mm) in enumerate(zip(legs, self.sliders.travels_mm, strict=True)):
             if leg.length_mm <= leg.aside_mm:
-                where = ("length_mm", k) if isinstance(self.legs.length_mm, tuple) else ("length_mm",)
                 expected = f"more than {leg.aside_mm:.6g}, the distance between guideway and joint circle: the platform"
-                raise BadValueError(("legs", *where), leg.length_mm, f"{expected} cannot stand")
+                raise BadValueError(("legs", *self.legs.length_key(k)), leg.length_mm, f"{expected} cannot stand")
             near, far = leg.span_range_mm(travel_mm)
             if far < near:
                 ends = sorted((leg.foot_mm, leg.place_mm(leg.widest_mm)))
                 expected = f"some of {ends[0]:.1f} to {ends[1]:.1f}, where slider {k + 1} stands with the platform"
-                where = ("sliders", *self.sliders.travel_key(k))
-                raise BadValueError(where, list(travel_mm), f"{expected} centred and level")
+                raise BadValueError(
+                    ("sliders", *self.sliders.travel_key(k)), list(travel_mm), f"{expected} centred and level"
+                )
         least, largest = home_heights_mm(self)
         if least > largest:
             travels = [list(each) for each in self.sliders.travels_mm]

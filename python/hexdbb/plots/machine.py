@@ -74,7 +74,8 @@ class _Stand:
         """Return the workspace's edge at a height from its middle, shape (n, 3)."""
         angle = np.linspace(0.0, 2.0 * np.pi, 73)
         edge = self.workspace.radius_mm * np.column_stack([np.cos(angle), np.sin(angle)])
-        return self.centre_mm + np.column_stack([edge, np.full(len(angle), height_mm)])
+        ring: Floats = self.centre_mm + np.column_stack([edge, np.full(len(angle), height_mm)])
+        return ring
 
 
 def _draw_in_space(axes: Any, stand: _Stand) -> None:

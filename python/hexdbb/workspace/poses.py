@@ -53,7 +53,8 @@ class Poses:
     @property
     def reached(self) -> NDArray[np.bool_]:
         """Which poses are reached, shape (n,)."""
-        return self.status == 0
+        found: NDArray[np.bool_] = self.status == 0
+        return found
 
     @property
     def rotation(self) -> Floats:

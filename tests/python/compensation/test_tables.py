@@ -180,7 +180,7 @@ def test_knots_are_halved_until_lines_are_close() -> None:
 
 def test_a_table_holds_the_whole_function(nominal: Table) -> None:
     model = model_of("learned:leg:5:turning_rate", nominal)
-    (table,) = learned_tables(model.terms[-1])
+    (table,) = learned_tables(model.terms[-1], MACHINE)
     effect = model.terms[-1].learned
     assert effect is not None
     at = np.linspace(table.knots[0], table.knots[-1], 1001)
