@@ -45,7 +45,7 @@ class MachineFile(FileModel):
     platform: Platform
     """Moving platform."""
     legs: Legs
-    """Six legs."""
+    """Six legs, two on each guideway."""
     sliders: Sliders
     """Six sliders, two on each guideway."""
     joints: Joints | None = None

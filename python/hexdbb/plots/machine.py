@@ -20,14 +20,14 @@ from hexdbb.workspace import LevelMap
 
 Floats = NDArray[np.float64]
 
-HEIGHT_IN = 8.6
+HEIGHT_IN = 6.8
 PLATFORM_COLOUR, LEG_COLOUR, WORKSPACE_COLOUR = PREDICTED_COLOURS[1], QUIET_COLOUR, COMMON_COLOUR
 BEST, WORST = 3.0, 50.0
 """Range of the condition's colours: from the best that such machines have to where a pose counts as near-singular."""
 LABELLED = (5, 10, 16, 30, 50)
 """Lines of equal condition that are drawn."""
-BEYOND_END = 1.06
-"""Place of a guideway's name, from its middle to its end."""
+NAME_BESIDE_MM, NUMBER_BESIDE_MM = 95.0, 38.0
+"""Distance of a guideway's name and of a slider's number from the guideway, for an inradius of 250 mm."""
 
 
 @styled
@@ -45,17 +45,17 @@ def machine_figure(machine: MachineFile, workspace: Workspace, level: LevelMap) 
     figure = sheet(HEIGHT_IN)
     x, y, z = workspace.centre_mm
     figure.suptitle(f"{machine.name}, to scale, mm; platform level at x {x:g}, y {y:g}, z {z:g}")
-    grid = figure.add_gridspec(2, 2, height_ratios=(1.15, 1.0))
+    grid = figure.add_gridspec(2, 2, height_ratios=(1.1, 1.0))
     stand = _Stand(machine, workspace)
     _draw_in_space(figure.add_subplot(grid[0, 0], projection="3d"), stand)
     _draw_from_above(figure.add_subplot(grid[0, 1]), stand)
     condition, margin = figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
     _draw_map(condition, level, np.clip(level.condition, None, WORST), LogNorm(BEST, WORST), "viridis_r", workspace)
     _label_condition(condition, level)
-    condition.set_title("condition of the machine's Jacobian, platform level (small is good)")
+    condition.set_title("condition, platform level (small is good)")
     largest = float(np.nanmax(level.margin_mm, initial=1.0))
     _draw_map(margin, level, level.margin_mm, Normalize(0.0, largest), "cividis", workspace)
-    margin.set_title("mm left to an end of travel or to the smallest gap, platform level")
+    margin.set_title("mm left to end of travel or smallest gap")
     return figure
 
 
@@ -69,6 +69,8 @@ class _Stand:
         self.sliders = slider_points(machine, sliders_mm)[0]
         self.joints = platform_points(machine) + self.centre_mm
         self.guideways = guideway_ends(machine)
+        angle = np.array(machine.base.guideway_angles_rad)
+        self.outward = np.column_stack([np.cos(angle), np.sin(angle)])
 
     def ring(self, height_mm: float) -> Floats:
         """Return the workspace's edge at a height from its middle, shape (n, 3)."""
@@ -95,21 +97,23 @@ def _draw_in_space(axes: Any, stand: _Stand) -> None:
     every = np.vstack([stand.guideways.reshape(-1, 3), stand.joints, stand.ring(half_mm)])
     low, high = every.min(axis=0), every.max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.05)
+    axes.set_box_aspect(high - low, zoom=1.3)
     axes.set(xlabel="x", ylabel="y", zlabel="z")
     axes.view_init(elev=24.0, azim=-58.0)
     axes.locator_params(nbins=4)
-    axes.set_title("guideways, sliders 1 to 6, legs, platform; green: workspace")
+    axes.set_title("sliders 1 to 6; green: workspace")
 
 
 def _draw_from_above(axes: Axes, stand: _Stand) -> None:
     machine = stand.machine
+    scale = machine.base.inradius_mm / 250.0
     for number, ends in enumerate(stand.guideways, start=1):
         axes.plot(*ends[:, :2].T, color=LINE_COLOUR, linewidth=2.2)
         middle = ends[:, :2].mean(axis=0)
+        outward = stand.outward[number - 1]
         axes.annotate(
             f"guideway {number}, {machine.base.guideway_angles_deg[number - 1]:g}°",
-            middle + 0.12 * middle,
+            middle + scale * NAME_BESIDE_MM * outward,
             ha="center",
             va="center",
             rotation=_upright(ends),
@@ -118,8 +122,8 @@ def _draw_from_above(axes: Axes, stand: _Stand) -> None:
         axes.plot(*np.array([slider, joint])[:, :2].T, color=LEG_COLOUR, linewidth=1.4)
     axes.plot(*stand.sliders[:, :2].T, "s", color=LINE_COLOUR, markersize=4)
     for number, slider in enumerate(stand.sliders, start=1):
-        outward = 1.0 + 26.0 / max(float(np.linalg.norm(slider[:2])), 1.0)
-        axes.annotate(str(number), outward * slider[:2], ha="center", va="center")
+        outward = stand.outward[(number - 1) // 2]
+        axes.annotate(str(number), slider[:2] + scale * NUMBER_BESIDE_MM * outward, ha="center", va="center")
     axes.add_patch(Polygon(stand.joints[::2, :2], color=PLATFORM_COLOUR, alpha=0.35))
     axes.add_patch(_edge(stand.workspace))
     axes.plot(0.0, 0.0, "+", color=NOMINAL_COLOUR)
@@ -146,7 +150,7 @@ def _draw_map(axes: Axes, level: LevelMap, values: Floats, norm: Normalize, colo
     axes.grid(False)
     axes.set_aspect("equal")
     axes.set(xlabel="x, mm (grey: out of reach)", ylabel="y, mm")
-    bar = axes.figure.colorbar(mesh, ax=axes, shrink=0.85)
+    bar = axes.figure.colorbar(mesh, ax=axes, fraction=0.046, pad=0.03)
     if isinstance(norm, LogNorm):
         bar.set_ticks(list(LABELLED), labels=[str(each) for each in LABELLED])
         bar.minorticks_off()

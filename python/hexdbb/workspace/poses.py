@@ -69,8 +69,9 @@ class Poses:
 
     def words(self, row: int) -> str:
         """Return a pose for people: ``x 12, y 0, z 280 mm, roll 0, pitch 12, yaw 0 deg``."""
-        x, y, z = self.position_mm[row] + 0.0
-        roll, pitch, yaw = np.degrees(self.rpy_rad[row]) + 0.0
+        # Rounded here, because -0.4 would be shown as -0.
+        x, y, z = np.round(self.position_mm[row]) + 0.0
+        roll, pitch, yaw = np.round(np.degrees(self.rpy_rad[row])) + 0.0
         return f"x {x:.0f}, y {y:.0f}, z {z:.0f} mm, roll {roll:.0f}, pitch {pitch:.0f}, yaw {yaw:.0f} deg"
 
 

@@ -68,8 +68,8 @@ def require_reach(machine: MachineFile, workspace: Workspace, origin: str) -> No
 def suggested_workspace(machine: MachineFile) -> Workspace:
     """Return a workspace for a machine whose file has none: a disc over the base centre that a ball bar's circle fills.
 
-    Of the radii and tilts that are reached the largest; of the heights the one where the condition of the machine's
-    Jacobian stays best.
+    Of the radii and tilts that are reached the largest; of the heights the one where nothing is near a limit, and
+    the condition of the machine's Jacobian stays best.
 
     Raises
     ------
@@ -84,9 +84,9 @@ def suggested_workspace(machine: MachineFile) -> Workspace:
                 Workspace(centre_mm=(0.0, 0.0, round(float(z), 0)), radius_mm=radius_mm, tilt_deg=tilt_deg)
                 for z in heights
             ]
-            found = [(assess(machine, each).condition, each) for each in discs if _is_reached(machine, each)]
+            found = [assess(machine, each) for each in discs if _is_reached(machine, each)]
             if found:
-                return min(found, key=lambda each: each[0])[1]
+                return min(found, key=lambda each: (len(each.findings), each.condition)).workspace
     raise InputError(
         f"{machine.path or machine.name}: legs.length_mm: {format_value(machine.legs.length_mm)} (expected a machine"
         f" that reaches a level circle of {RADII_MM[-1]:g} mm over its base centre; its home is {low_mm:.0f} to"
