@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,6 +18,9 @@ from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.files.validation import dump_toml, parse_toml
 from hexdbb.machine import MachineFile, Workspace
+
+if TYPE_CHECKING:
+    from hexdbb.plan import Plan
 
 CIRCLES = 7
 """Circles proposed where no number is given: as many as the plan `standard` has."""
@@ -81,6 +84,8 @@ def new(
       hexdbb machine new -o big.toml --defaults --inradius 400 --leg-length 650
       hexdbb machine new -o mine.toml --defaults --guideway-angles 0,100,230 --leg-length 398,403,407,391,400,412
     """
+    from hexdbb.workspace import plan_template
+
     plan_path = plan_path or output.with_name(f"{output.stem}-plan.toml")
     plot = plot or output.with_suffix(".png")
     for path in (output, plan_path, plot):
@@ -94,11 +99,16 @@ def new(
     bar_mm = bar_mm or next((each for each in BARS_MM if each <= space.radius_mm), BARS_MM[-1])
     if interactive and circles is None:
         circles = click.prompt("Circles to propose, 0 for no plan", default=CIRCLES, type=click.IntRange(min=0))
+    circles = CIRCLES if circles is None else circles
+    template = None if circles == 0 else plan_template(machine, space, bar_mm)
     _save(machine, output)
     print_assessment(machine, assessment, is_wanted=True)
     draw(machine, space, plot)
-    if circles != 0:
-        _propose(machine, space, bar_mm, circles or CIRCLES, grid, plan_path, output, assessment.condition)
+    if template is not None:
+        template = template.model_copy(
+            update={"machine": os.path.relpath(output, plan_path.parent).replace(os.sep, "/")}
+        )
+        _propose(machine, template, circles, grid, plan_path, assessment.condition)
 
 
 def _with_workspace(
@@ -131,26 +141,14 @@ def _save(machine: MachineFile, path: Path) -> None:
     say(f"{path}: machine file written", err=True)
 
 
-def _propose(
-    machine: MachineFile,
-    space: Workspace,
-    bar_mm: float,
-    circles: int,
-    grid: str,
-    path: Path,
-    machine_path: Path,
-    condition: float,
-) -> None:
-    """Choose circles within the workspace's limits and write them as a plan."""
+def _propose(machine: MachineFile, template: Plan, circles: int, grid: str, path: Path, condition: float) -> None:
+    """Choose circles that go no nearer to singular poses than the workspace does, and write them as a plan."""
     from hexdbb.cli.plan_assessment import assess_plan, plan_noise_mm
     from hexdbb.cli.plan_tables import print_circles, print_comparison, warn_of_condition
     from hexdbb.model import new_model
     from hexdbb.plan import save_plan
     from hexdbb.planning import GRIDS, PlanRequest, RequiredClearances, planned_unknowns, propose
-    from hexdbb.workspace import plan_template
 
-    template = plan_template(machine, space, bar_mm)
-    template = template.model_copy(update={"machine": Path(os.path.relpath(machine_path, path.parent)).as_posix()})
     model, rate_hz = new_model(machine), machine.can_setup.cycle_rate_hz
     usual = RequiredClearances()
     request = PlanRequest(
@@ -159,7 +157,6 @@ def _propose(
         unknowns=planned_unknowns(model, None, plan_noise_mm(template, None), rate_hz),
         circles=circles,
         criterion="minmax",
-        # Circles may go as near to singular poses as the workspace that is wanted.
         required=RequiredClearances(condition=max(usual.condition, condition)),
         grid=GRIDS[grid],
     )

@@ -72,17 +72,22 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     signature = sensitivity.scaled(own)
     rest = _core.project_out(signature, sensitivity.scaled(sensitivity.free & ~own))
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
-    parameters = sensitivity.where(own)
-    parameter = parameters[0]
+    parameters, prior = sensitivity.where(own), sensitivity.prior_sigma[own]
     with np.errstate(divide="ignore"):
-        rms_mm = left / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own]
-        needed = DETECTION_RATIO * noise_mm / rms_mm
-    # A value beyond its limit is no error of a machine: such an effect is not detectable, at whatever size.
-    visible = (left > ROUNDING_SHARE * whole.max()) & (needed <= [each.limit for each in parameters])
-    sizes = needed[visible] * shown_factor(parameter.unit)
+        needed = DETECTION_RATIO * noise_mm / (left / np.sqrt(sensitivity.readings) / prior)
+    seen = left > ROUNDING_SHARE * whole.max()
+    # No machine has a value beyond its limit: an effect that would need it is not detectable with this plan.
+    visible = seen & (needed <= [each.limit for each in parameters])
+    kept = float((left[seen] / whole[seen]).max(initial=0.0))
+    if not visible.any():
+        return Detectable(None, None, shown_unit(parameters[0].unit), kept)
+    # Values of several units compare by what is expected of each; the size is that of the easiest, and of its like.
+    easiest = parameters[int(np.argmin(np.where(visible, needed / prior, np.inf)))]
+    alike = np.array([each.name == easiest.name for each in parameters])
+    sizes = needed * shown_factor(easiest.unit)
     return Detectable(
-        size=float(sizes.min()) if len(sizes) else None,
-        hardest=float(sizes.max()) if visible.all() else None,
-        unit=shown_unit(parameter.unit),
-        kept=float((left[visible] / whole[visible]).max(initial=0.0)),
+        size=float(sizes[alike & visible].min()),
+        hardest=float(sizes[alike].max()) if visible[alike].all() else None,
+        unit=shown_unit(easiest.unit),
+        kept=kept,
     )

@@ -9,7 +9,7 @@ import numpy as np
 from hexdbb.errors import InputError
 from hexdbb.files.validation import format_value
 from hexdbb.machine import MachineFile, Workspace, home_heights_mm
-from hexdbb.workspace.assessment import assess
+from hexdbb.workspace.assessment import Assessment, assess
 from hexdbb.workspace.poses import Poses, workspace_poses
 
 HALVINGS = 12
@@ -68,8 +68,8 @@ def require_reach(machine: MachineFile, workspace: Workspace, origin: str) -> No
 def suggested_workspace(machine: MachineFile) -> Workspace:
     """Return a workspace for a machine whose file has none: a disc over the base centre that a ball bar's circle fills.
 
-    Of the radii and tilts that are reached the largest; of the heights the one where nothing is near a limit, and
-    the condition of the machine's Jacobian stays best.
+    Of the radii and tilts that are reached, and if possible nowhere near a limit, the largest; of the heights the one
+    where the condition of the machine's Jacobian stays best.
 
     Raises
     ------
@@ -78,6 +78,7 @@ def suggested_workspace(machine: MachineFile) -> Workspace:
     """
     low_mm, high_mm = (each - machine.platform.joint_plane_height_mm for each in home_heights_mm(machine))
     heights = np.linspace(low_mm, high_mm, HEIGHT_STEPS + 2)[1:-1]
+    near_limits: list[Assessment] = []
     for radius_mm in RADII_MM:
         for tilt_deg in TILTS_DEG:
             discs = [
@@ -85,8 +86,12 @@ def suggested_workspace(machine: MachineFile) -> Workspace:
                 for z in heights
             ]
             found = [assess(machine, each) for each in discs if _is_reached(machine, each)]
-            if found:
-                return min(found, key=lambda each: (len(each.findings), each.condition)).workspace
+            best = min(found, key=lambda each: (len(each.findings), each.condition), default=None)
+            if best is not None and not best.findings:
+                return best.workspace
+            near_limits += [best] if best is not None else []
+    if near_limits:
+        return near_limits[0].workspace
     raise InputError(
         f"{machine.path or machine.name}: legs.length_mm: {format_value(machine.legs.length_mm)} (expected a machine"
         f" that reaches a level circle of {RADII_MM[-1]:g} mm over its base centre; its home is {low_mm:.0f} to"

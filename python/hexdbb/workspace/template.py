@@ -21,7 +21,7 @@ def plan_template(machine: MachineFile, workspace: Workspace, bar_length_mm: flo
     """
     if bar_length_mm > workspace.radius_mm:
         expected = f"at most the workspace's radius, {workspace.radius_mm:g} mm"
-        raise InputError(f"bar {bar_length_mm:g} mm: no circle of it fits (expected {expected})")
+        raise InputError(f"bar length {bar_length_mm:g} mm: no circle of it fits (expected {expected})")
     standard = load_plan("standard")
     ball_mm = (0.0, 0.0, machine.platform.joint_plane_height_mm + BALL_ABOVE_JOINTS_MM)
     x, y, z = workspace.centre_mm
