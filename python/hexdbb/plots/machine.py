@@ -20,7 +20,7 @@ from hexdbb.workspace import LevelMap
 
 Floats = NDArray[np.float64]
 
-HEIGHT_IN = 6.8
+HEIGHT_IN = 7.8
 PLATFORM_COLOUR, LEG_COLOUR, WORKSPACE_COLOUR = PREDICTED_COLOURS[1], QUIET_COLOUR, COMMON_COLOUR
 BEST, WORST = 3.0, 50.0
 """Range of the condition's colours: from the best that such machines have to where a pose counts as near-singular."""
@@ -97,7 +97,7 @@ def _draw_in_space(axes: Any, stand: _Stand) -> None:
     every = np.vstack([stand.guideways.reshape(-1, 3), stand.joints, stand.ring(half_mm)])
     low, high = every.min(axis=0), every.max(axis=0)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(low[2], high[2]))
-    axes.set_box_aspect(high - low, zoom=1.3)
+    axes.set_box_aspect(high - low, zoom=1.1)
     axes.set(xlabel="x", ylabel="y", zlabel="z")
     axes.view_init(elev=24.0, azim=-58.0)
     axes.locator_params(nbins=4)
@@ -107,13 +107,14 @@ def _draw_in_space(axes: Any, stand: _Stand) -> None:
 def _draw_from_above(axes: Axes, stand: _Stand) -> None:
     machine = stand.machine
     scale = machine.base.inradius_mm / 250.0
+    reach = scale * NAME_BESIDE_MM
     for number, ends in enumerate(stand.guideways, start=1):
         axes.plot(*ends[:, :2].T, color=LINE_COLOUR, linewidth=2.2)
         middle = ends[:, :2].mean(axis=0)
         outward = stand.outward[number - 1]
         axes.annotate(
             f"guideway {number}, {machine.base.guideway_angles_deg[number - 1]:g}°",
-            middle + scale * NAME_BESIDE_MM * outward,
+            middle + reach * outward,
             ha="center",
             va="center",
             rotation=_upright(ends),
@@ -128,7 +129,9 @@ def _draw_from_above(axes: Axes, stand: _Stand) -> None:
     axes.add_patch(_edge(stand.workspace))
     axes.plot(0.0, 0.0, "+", color=NOMINAL_COLOUR)
     axes.set_aspect("equal")
-    axes.margins(0.12)
+    named = np.vstack([*stand.guideways[:, :, :2], stand.guideways[:, :, :2].mean(axis=1) + reach * stand.outward])
+    low, high = named.min(axis=0) - 0.4 * reach, named.max(axis=0) + 0.4 * reach
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     axes.set(xlabel="x, mm", ylabel="y, mm", title="plan view")
 
 
@@ -150,7 +153,7 @@ def _draw_map(axes: Axes, level: LevelMap, values: Floats, norm: Normalize, colo
     axes.grid(False)
     axes.set_aspect("equal")
     axes.set(xlabel="x, mm (grey: out of reach)", ylabel="y, mm")
-    bar = axes.figure.colorbar(mesh, ax=axes, fraction=0.046, pad=0.03)
+    bar = axes.figure.colorbar(mesh, ax=axes, location="bottom", fraction=0.05, pad=0.02, shrink=0.75)
     if isinstance(norm, LogNorm):
         bar.set_ticks(list(LABELLED), labels=[str(each) for each in LABELLED])
         bar.minorticks_off()
