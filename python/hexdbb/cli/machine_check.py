@@ -40,7 +40,7 @@ def check(machine_path: Path, workspace: Workspace | None, plot: Path | None, as
     \b
     Examples:
       hexdbb machine check machine.toml --plot machine.png
-      hexdbb machine check sp120 --workspace 0,0,280,100,0,12
+      hexdbb machine check sp120 --workspace 0,0,265,100,0,10
     """
     machine = shipped_machine() if str(machine_path) == SHIPPED_MACHINE else load_machine(machine_path)
     if plot is not None:

@@ -83,7 +83,7 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
         return Detectable(None, None, shown_unit(parameters[0].unit), kept)
     # Values of several units compare by what is expected of each; the size is that of the easiest, and of its like.
     easiest = parameters[int(np.argmin(np.where(visible, needed / prior, np.inf)))]
-    alike = np.array([each.name == easiest.name for each in parameters])
+    alike = np.array([each.unit == easiest.unit for each in parameters])
     sizes = needed * shown_factor(easiest.unit)
     return Detectable(
         size=float(sizes[alike & visible].min()),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -59,8 +60,8 @@ def require_reach(machine: MachineFile, workspace: Workspace, origin: str) -> No
                 )
             )
             raise InputError(
-                f"{origin}: workspace.{key}: {format_value(wanted)} (expected at most {largest * wanted:.1f}: more is"
-                f" out of reach {what})"
+                f"{origin}: workspace.{key}: {format_value(wanted)} (expected at most {_down(largest * wanted):.1f}: more"
+                f" is out of reach {what})"
             )
         point = grown
 
@@ -110,6 +111,11 @@ def _largest(is_reached: Callable[[float], bool]) -> float:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if is_reached(max(middle, 1e-9)) else (low, middle)
     return low
+
+
+def _down(value: float) -> float:
+    """Round down to what is shown, so that the value shown is reached."""
+    return math.floor(10.0 * value) / 10.0
 
 
 def _heights_words(machine: MachineFile, x_mm: float, y_mm: float) -> str:

@@ -67,7 +67,7 @@ def test_unlike_values_are_read_and_written() -> None:
         (
             "[20.0, 846.0]",
             "[[20, 446], [400, 846], [20, 446], [400, 846], [1, 44], [400, 846]]",
-            "sliders.travel_mm[4]: [1.0, 44.0] (expected some of 54.7 to 433.0, where slider 5 stands with the platform",
+            "sliders.travel_mm[4]: [1.0, 44.0] (expected some of 54.7 to 433.0, where slider 5 stands with",
         ),
         (
             "[20.0, 846.0]",
