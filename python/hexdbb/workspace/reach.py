@@ -60,8 +60,8 @@ def require_reach(machine: MachineFile, workspace: Workspace, origin: str) -> No
                 )
             )
             raise InputError(
-                f"{origin}: workspace.{key}: {format_value(wanted)} (expected at most {_down(largest * wanted):.1f}: more"
-                f" is out of reach {what})"
+                f"{origin}: workspace.{key}: {format_value(wanted)} (expected at most"
+                f" {_down(largest * wanted):.1f}: more is out of reach {what})"
             )
         point = grown
 
