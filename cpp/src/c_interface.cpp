@@ -233,7 +233,8 @@ hexdbb_status hexdbb_create_from_memory(const char* text, size_t length, const h
 hexdbb_status hexdbb_create_from_constants(const hexdbb_constants* constants, const hexdbb_dimensions* machine,
                                            hexdbb_compensator** out, char* message, size_t message_size) noexcept {
   if (!is_known(constants)) return HEXDBB_BAD_ARGUMENT;
-  if (!is_known_machine(&constants->machine, layout_of(*constants)) || !is_complete(*constants)) return HEXDBB_BAD_ARGUMENT;
+  if (!is_known_machine(&constants->machine, layout_of(*constants)) || !is_complete(*constants))
+    return HEXDBB_BAD_ARGUMENT;
   return create([constants] { return from_constants(*constants); }, "compensation constants", machine, out, message,
                 message_size);
 }

@@ -173,13 +173,15 @@ CompensationData compensation_of(const Model& model, const std::string& name, co
   return out;
 }
 
-bool is_same_machine(const Machine& one, const Machine& other) noexcept { return differing(one, other).dimension == nullptr; }
+bool is_same_machine(const Machine& one, const Machine& other) noexcept {
+  return differing(one, other).dimension == nullptr;
+}
 
 void require_machine(const Machine& of_data, const Machine& of_controller, const std::string& source) {
   const auto [dimension, at] = differing(of_data, of_controller);
   if (dimension == nullptr) return;
-  const bool is_list = dimension->is_angle || !layout::is_regular(*dimension, of_data) ||
-                       !layout::is_regular(*dimension, of_controller);
+  const bool is_list =
+      dimension->is_angle || !layout::is_regular(*dimension, of_data) || !layout::is_regular(*dimension, of_controller);
   const std::string index = is_list ? "[" + std::to_string(at) + "]" : "";
   refuse(CompensationFault::kOtherMachine, source + ": of another machine: " + dimension->name + index + " is " +
                                                layout::number(dimension->values(of_data)[at]) + " (expected " +

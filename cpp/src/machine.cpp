@@ -8,9 +8,7 @@ namespace hexdbb {
 
 namespace {
 
-Matrix3 turn_about_z(double angle_rad) {
-  return Eigen::AngleAxisd(angle_rad, Vector3::UnitZ()).toRotationMatrix();
-}
+Matrix3 turn_about_z(double angle_rad) { return Eigen::AngleAxisd(angle_rad, Vector3::UnitZ()).toRotationMatrix(); }
 
 Travel between(double least_mm, double largest_mm) {
   return {0.5 * (least_mm + largest_mm), 0.5 * (largest_mm - least_mm)};

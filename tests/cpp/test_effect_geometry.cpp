@@ -75,7 +75,8 @@ TEST_F(EffectGeometry, GuidewaysRotateAsRigidBodies) {
     for (int k = 0; k < kLegs; ++k) {
       const int g = guideway_of(k);
       const Vector3 centre = each.about_midpoint ? guideway_midpoint(machine, g) : Vector3(0.0, 0.0, 0.0);
-      const Matrix3 turn = Eigen::AngleAxisd(angle[g], guideway_axes(machine, g).col(each.local_axis)).toRotationMatrix();
+      const Matrix3 turn =
+          Eigen::AngleAxisd(angle[g], guideway_axes(machine, g).col(each.local_axis)).toRotationMatrix();
       for (Eigen::Index row = 0; row < samples.size(); ++row) {
         const Vector3 nominal_joint = nominal.vertex.col(k) + samples.sliders_mm(row, k) * nominal.direction.col(k);
         const Vector3 wanted = centre + turn * (nominal_joint - centre);
