@@ -35,7 +35,7 @@ inline Vec<Lanes> load_base(const NominalGeometry& nominal, const Block& block, 
 }
 
 inline Lanes load_length(const NominalGeometry& nominal, const Block& block, Eigen::Index row, int k) {
-  return nominal.machine.leg_length_mm + load(&block.ports(row, port::kLeg + k));
+  return nominal.machine.leg_length_mm[k] + load(&block.ports(row, port::kLeg + k));
 }
 
 inline Vec<Lanes> load_platform_joint(const NominalGeometry& nominal, const Block& block, Eigen::Index row, int k) {

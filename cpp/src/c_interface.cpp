@@ -57,11 +57,18 @@ bool is_known(const Struct* given) {
 }
 
 constexpr size_t kConstantsWithoutTables = offsetof(hexdbb_constants, table_count);
+constexpr size_t kConstantsWithoutLayout = offsetof(hexdbb_constants, layout);
 
-/// Constants have grown once.
+/// Constants have grown twice.
 bool is_known(const hexdbb_constants* given) {
   return given != nullptr &&
-         (given->struct_size == sizeof(hexdbb_constants) || given->struct_size == kConstantsWithoutTables);
+         (given->struct_size == sizeof(hexdbb_constants) || given->struct_size == kConstantsWithoutTables ||
+          given->struct_size == kConstantsWithoutLayout);
+}
+
+/// Return the layout of constants, or null.
+const hexdbb_layout* layout_of(const hexdbb_constants& constants) {
+  return constants.struct_size == sizeof(hexdbb_constants) ? constants.layout : nullptr;
 }
 
 bool has_pointers(const hexdbb_table& t) {
@@ -72,7 +79,7 @@ bool has_pointers(const hexdbb_table& t) {
 
 /// Return the tables of constants and their number.
 const hexdbb_table* tables_of(const hexdbb_constants& constants, uint32_t& count) {
-  const bool has_tables = constants.struct_size == sizeof(hexdbb_constants);
+  const bool has_tables = constants.struct_size != kConstantsWithoutTables;
   count = has_tables ? constants.table_count : 0;
   return has_tables ? constants.tables : nullptr;
 }
@@ -85,16 +92,30 @@ bool is_complete(const hexdbb_constants& constants) {
   return std::all_of(tables, tables + count, has_pointers);
 }
 
-Machine to_machine(const hexdbb_dimensions& d) {
-  return {d.base_inradius_mm,
-          d.platform_circumradius_mm,
-          d.joint_plane_height_mm,
-          d.leg_length_mm,
-          d.travel_min_mm,
-          d.travel_max_mm,
-          d.min_gap_mm,
-          d.screw_lead_mm,
-          d.moved_mass_kg};
+/// Return the machine of dimensions and a layout, which may be null.
+Machine to_machine(const hexdbb_dimensions& d, const hexdbb_layout* layout = nullptr) {
+  Machine out;
+  out.base_inradius_mm = d.base_inradius_mm;
+  out.platform_circumradius_mm = d.platform_circumradius_mm;
+  out.joint_plane_height_mm = d.joint_plane_height_mm;
+  out.leg_length_mm = hexdbb::six_of(d.leg_length_mm);
+  out.travel_min_mm = hexdbb::six_of(d.travel_min_mm);
+  out.travel_max_mm = hexdbb::six_of(d.travel_max_mm);
+  out.min_gap_mm = d.min_gap_mm;
+  out.screw_lead_mm = d.screw_lead_mm;
+  out.moved_mass_kg = d.moved_mass_kg;
+  if (layout == nullptr) return out;
+  std::copy_n(layout->guideway_angle_rad, HEXDBB_GUIDEWAYS, out.guideway_angle_rad.begin());
+  std::copy_n(layout->joint_angle_rad, HEXDBB_GUIDEWAYS, out.joint_angle_rad.begin());
+  std::copy_n(layout->leg_length_mm, HEXDBB_SLIDERS, out.leg_length_mm.begin());
+  std::copy_n(layout->travel_min_mm, HEXDBB_SLIDERS, out.travel_min_mm.begin());
+  std::copy_n(layout->travel_max_mm, HEXDBB_SLIDERS, out.travel_max_mm.begin());
+  return out;
+}
+
+/// Return whether dimensions and a layout, which may be null, can be read.
+bool is_known_machine(const hexdbb_dimensions* machine, const hexdbb_layout* layout) {
+  return is_known(machine) && (layout == nullptr || is_known(layout));
 }
 
 void report(const char* what, char* message, size_t message_size) {
@@ -142,7 +163,7 @@ hexdbb::CompensationTable to_table(const hexdbb_table& given) {
 /// Convert constants, in which the values of one effect are consecutive.
 hexdbb::CompensationData from_constants(const hexdbb_constants& constants) {
   hexdbb::CompensationData out;
-  out.machine = to_machine(constants.machine);
+  out.machine = to_machine(constants.machine, layout_of(constants));
   out.limits = {constants.max_correction_mm, constants.reversal_travel_mm};
   out.reference_temperature_c = constants.reference_temperature_c;
   for (uint32_t at = 0; at < constants.value_count; ++at) {
@@ -177,11 +198,18 @@ const char* hexdbb_status_name(hexdbb_status status) noexcept { return text_of(s
 const char* hexdbb_status_text(hexdbb_status status) noexcept { return text_of(status).text; }
 
 hexdbb_status hexdbb_create_nominal(const hexdbb_dimensions* machine, hexdbb_compensator** out) noexcept {
+  return hexdbb_create_nominal_layout(machine, nullptr, out);
+}
+
+hexdbb_status hexdbb_create_nominal_layout(const hexdbb_dimensions* machine, const hexdbb_layout* layout,
+                                           hexdbb_compensator** out) noexcept {
   if (out == nullptr) return HEXDBB_BAD_ARGUMENT;
   *out = nullptr;
-  if (!is_known(machine) || !hexdbb::is_possible(to_machine(*machine))) return HEXDBB_BAD_ARGUMENT;
+  if (!is_known_machine(machine, layout)) return HEXDBB_BAD_ARGUMENT;
+  const Machine wanted = to_machine(*machine, layout);
+  if (!hexdbb::is_possible(wanted)) return HEXDBB_BAD_ARGUMENT;
   try {
-    *out = new hexdbb_compensator{hexdbb::Compensator(to_machine(*machine))};
+    *out = new hexdbb_compensator{hexdbb::Compensator(wanted)};
     return HEXDBB_OK;
   } catch (const std::bad_alloc&) {
     return HEXDBB_OUT_OF_MEMORY;
@@ -204,8 +232,9 @@ hexdbb_status hexdbb_create_from_memory(const char* text, size_t length, const h
 
 hexdbb_status hexdbb_create_from_constants(const hexdbb_constants* constants, const hexdbb_dimensions* machine,
                                            hexdbb_compensator** out, char* message, size_t message_size) noexcept {
-  if (!is_known(constants) || !is_known(&constants->machine)) return HEXDBB_BAD_ARGUMENT;
-  if (!is_complete(*constants)) return HEXDBB_BAD_ARGUMENT;
+  if (!is_known(constants)) return HEXDBB_BAD_ARGUMENT;
+  if (!is_known_machine(&constants->machine, layout_of(*constants)) || !is_complete(*constants))
+    return HEXDBB_BAD_ARGUMENT;
   return create([constants] { return from_constants(*constants); }, "compensation constants", machine, out, message,
                 message_size);
 }
@@ -213,8 +242,13 @@ hexdbb_status hexdbb_create_from_constants(const hexdbb_constants* constants, co
 void hexdbb_destroy(hexdbb_compensator* compensator) noexcept { delete compensator; }
 
 hexdbb_status hexdbb_check_machine(const hexdbb_compensator* compensator, const hexdbb_dimensions* machine) noexcept {
-  if (compensator == nullptr || !is_known(machine)) return HEXDBB_BAD_ARGUMENT;
-  const bool is_same = hexdbb::is_same_machine(compensator->engine.machine(), to_machine(*machine));
+  return hexdbb_check_layout(compensator, machine, nullptr);
+}
+
+hexdbb_status hexdbb_check_layout(const hexdbb_compensator* compensator, const hexdbb_dimensions* machine,
+                                  const hexdbb_layout* layout) noexcept {
+  if (compensator == nullptr || !is_known_machine(machine, layout)) return HEXDBB_BAD_ARGUMENT;
+  const bool is_same = hexdbb::is_same_machine(compensator->engine.machine(), to_machine(*machine, layout));
   return is_same ? HEXDBB_OK : HEXDBB_OTHER_MACHINE;
 }
 
@@ -226,12 +260,23 @@ hexdbb_status hexdbb_get_machine(const hexdbb_compensator* compensator, hexdbb_d
               m.base_inradius_mm,
               m.platform_circumradius_mm,
               m.joint_plane_height_mm,
-              m.leg_length_mm,
-              m.travel_min_mm,
-              m.travel_max_mm,
+              m.leg_length_mm[0],
+              m.travel_min_mm[0],
+              m.travel_max_mm[0],
               m.min_gap_mm,
               m.screw_lead_mm,
               m.moved_mass_kg};
+  return HEXDBB_OK;
+}
+
+hexdbb_status hexdbb_get_layout(const hexdbb_compensator* compensator, hexdbb_layout* layout) noexcept {
+  if (compensator == nullptr || !is_known(layout)) return HEXDBB_BAD_ARGUMENT;
+  const Machine& m = compensator->engine.machine();
+  std::copy(m.guideway_angle_rad.begin(), m.guideway_angle_rad.end(), layout->guideway_angle_rad);
+  std::copy(m.joint_angle_rad.begin(), m.joint_angle_rad.end(), layout->joint_angle_rad);
+  std::copy(m.leg_length_mm.begin(), m.leg_length_mm.end(), layout->leg_length_mm);
+  std::copy(m.travel_min_mm.begin(), m.travel_min_mm.end(), layout->travel_min_mm);
+  std::copy(m.travel_max_mm.begin(), m.travel_max_mm.end(), layout->travel_max_mm);
   return HEXDBB_OK;
 }
 

@@ -115,23 +115,38 @@ Eigen::VectorXd ordered_values(const EffectInfo& info, const CompensatedEffect& 
   return out;
 }
 
-const layout::Dimension* differing(const Machine& one, const Machine& other) {
+/// A dimension in which two machines differ.
+struct Difference {
+  const layout::Dimension* dimension = nullptr;  // none: the machines are the same
+  std::size_t at = 0;                            // the guideway, leg or slider
+};
+
+Difference differing(const Machine& one, const Machine& other) {
   for (const layout::Dimension& dimension : layout::kDimensions) {
-    const double a = one.*dimension.member, b = other.*dimension.member;
-    if (!(std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)))) return &dimension;
+    const std::span<const double> a = dimension.values(one), b = dimension.values(other);
+    for (std::size_t at = 0; at < a.size(); ++at) {
+      if (!layout::is_same(a[at], b[at])) return {&dimension, at};
+    }
   }
-  return nullptr;
+  return {};
 }
 
 }  // namespace
 
 bool is_possible(const Machine& machine) noexcept {
   for (const layout::Dimension& each : layout::kDimensions) {
-    if (!std::isfinite(machine.*each.member)) return false;
+    for (const double value : each.values(machine)) {
+      if (!std::isfinite(value)) return false;
+    }
   }
-  const double reach = std::abs(machine.base_inradius_mm - machine.platform_circumradius_mm);
-  return machine.base_inradius_mm > 0.0 && machine.platform_circumradius_mm > 0.0 && machine.leg_length_mm > reach &&
-         machine.min_gap_mm > 0.0 && machine.travel_max_mm - machine.travel_min_mm > machine.min_gap_mm &&
+  for (int k = 0; k < kLegs; ++k) {
+    const int i = guideway_of(k);
+    const double aside = std::cos(machine.joint_angle_rad[i] - machine.guideway_angle_rad[i]);
+    const double reach = std::abs(machine.base_inradius_mm - machine.platform_circumradius_mm * aside);
+    if (!(machine.leg_length_mm[k] > reach) || !(slider_travel(machine, k).half_mm > 0.0)) return false;
+    if (!(2.0 * guideway_travel(machine, i).half_mm > machine.min_gap_mm)) return false;
+  }
+  return machine.base_inradius_mm > 0.0 && machine.platform_circumradius_mm > 0.0 && machine.min_gap_mm > 0.0 &&
          machine.screw_lead_mm > 0.0 && machine.moved_mass_kg >= 0.0;
 }
 
@@ -158,14 +173,19 @@ CompensationData compensation_of(const Model& model, const std::string& name, co
   return out;
 }
 
-bool is_same_machine(const Machine& one, const Machine& other) noexcept { return differing(one, other) == nullptr; }
+bool is_same_machine(const Machine& one, const Machine& other) noexcept {
+  return differing(one, other).dimension == nullptr;
+}
 
 void require_machine(const Machine& of_data, const Machine& of_controller, const std::string& source) {
-  const layout::Dimension* dimension = differing(of_data, of_controller);
+  const auto [dimension, at] = differing(of_data, of_controller);
   if (dimension == nullptr) return;
-  refuse(CompensationFault::kOtherMachine, source + ": of another machine: " + dimension->name + " is " +
-                                               layout::number(of_data.*dimension->member) + " (expected " +
-                                               layout::number(of_controller.*dimension->member) + ")");
+  const bool is_list =
+      dimension->is_angle || !layout::is_regular(*dimension, of_data) || !layout::is_regular(*dimension, of_controller);
+  const std::string index = is_list ? "[" + std::to_string(at) + "]" : "";
+  refuse(CompensationFault::kOtherMachine, source + ": of another machine: " + dimension->name + index + " is " +
+                                               layout::number(dimension->values(of_data)[at]) + " (expected " +
+                                               layout::number(dimension->values(of_controller)[at]) + ")");
 }
 
 Model compensation_model(const CompensationData& data, const std::string& source) {

@@ -8,6 +8,7 @@ namespace hexdbb {
 namespace {
 
 constexpr const char* kValues = "hexdbb_compensation_values";
+constexpr const char* kLayout = "hexdbb_compensation_layout";
 constexpr const char* kTables = "hexdbb_compensation_tables";
 
 /// Return "fitted to the records a, b", nothing where there are none.
@@ -68,6 +69,30 @@ std::string tables_array(const CompensationData& data) {
   return arrays + "static const hexdbb_table " + kTables + "[] = {\n" + rows + "};\n\n";
 }
 
+/// Return the rows of hexdbb_dimensions: of what is different for each leg or slider, the first.
+std::string dimensions_rows(const Machine& machine) {
+  std::string out;
+  for (const layout::Dimension& each : layout::kDimensions) {
+    if (each.is_angle) continue;
+    const bool is_last = &each + 1 == layout::kDimensions.end() || (&each + 1)->is_angle;
+    out += "     " + layout::number(each.values(machine)[0]) + (is_last ? "}," : ",") + " /* " + each.name + " */\n";
+  }
+  return out;
+}
+
+/// Return the constant with what a machine has for each guideway, leg and slider; nothing where all is alike.
+std::string layout_struct(const Machine& machine) {
+  if (layout::is_regular(machine)) return {};
+  const auto row = [](const char* name, const auto& values, const char* end) {
+    const auto text = [&](std::size_t at) { return layout::number(values[at]); };
+    return "    " + layout::list(values.size(), text, "{", "}") + end + " /* " + name + " */\n";
+  };
+  return std::string("static const hexdbb_layout ") + kLayout + " = {\n    sizeof(hexdbb_layout), 0,\n" +
+         row("guideway_angle_rad", machine.guideway_angle_rad, ",") +
+         row("joint_angle_rad", machine.joint_angle_rad, ",") + row("leg_length_mm", machine.leg_length_mm, ",") +
+         row("travel_min_mm", machine.travel_min_mm, ",") + row("travel_max_mm", machine.travel_max_mm, "") + "};\n\n";
+}
+
 }  // namespace
 
 std::string compensation_header(const CompensationData& data) {
@@ -79,19 +104,17 @@ std::string compensation_header(const CompensationData& data) {
                     ".\n * Use: hexdbb_create_from_constants(&hexdbb_compensation, ...). */\n" +
                     "#ifndef HEXDBB_COMPENSATION_CONSTANTS_H\n#define HEXDBB_COMPENSATION_CONSTANTS_H\n\n" +
                     "#include <hexdbb/hexdbb.h>\n#include <math.h>\n\n";
-  out += values_array(data, count) + tables_array(data);
+  out += values_array(data, count) + tables_array(data) + layout_struct(data.machine);
   out += "static const hexdbb_constants hexdbb_compensation = {\n    sizeof(hexdbb_constants),\n" +
          member(std::to_string(count), "values") + "    {sizeof(hexdbb_dimensions), 0,\n";
-  for (const layout::Dimension& each : layout::kDimensions) {
-    const bool is_last = &each == &layout::kDimensions.back();
-    out += "     " + layout::number(data.machine.*each.member) + (is_last ? "}," : ",") + " /* " + each.name + " */\n";
-  }
+  out += dimensions_rows(data.machine);
   for (const layout::Limit& each : layout::kLimits) out += member(layout::number(data.limits.*each.member), each.name);
   const bool has_reference = std::isfinite(data.reference_temperature_c);
   out += member(has_reference ? layout::number(data.reference_temperature_c) : "NAN", "reference_temperature_c");
   out += std::string("    ") + kValues + ",\n";
   out += data.tables.empty() ? std::string("    0, 0, 0, /* no tables */\n")
                              : "    " + std::to_string(data.tables.size()) + ", 0, " + kTables + ",\n";
+  out += layout::is_regular(data.machine) ? "    0, /* no layout */\n" : std::string("    &") + kLayout + ",\n";
   return out + "};\n\n#endif\n";
 }
 

@@ -1,38 +1,82 @@
 // Layout of a compensation file, shared by writer and reader.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
+#include <span>
 #include <string>
+#include <type_traits>
 
 #include "hexdbb/compensation_file.hpp"
 
 namespace hexdbb::layout {
 
 inline const std::string kSchema = "hexdbb.compensation/";
-constexpr int kVersion = 2;
-
-/// Return the version that these data are written as.
-inline int version_of(const CompensationData& data) { return data.tables.empty() ? 1 : 2; }
+constexpr int kVersion = 3;
 
 /// Return the section of a table, counted from 0 here and from 1 in the file.
 inline std::string table_section(std::size_t table) { return "table." + std::to_string(table + 1); }
 
+/// A dimension: one value, or one for each guideway, leg or slider.
 struct Dimension {
   const char* name;
-  double Machine::* member;
+  std::span<double> (*of)(Machine&);
+  bool is_angle = false;  // in the machine of the thesis thirds of a turn, otherwise alike for all
+
+  std::span<const double> values(const Machine& machine) const { return of(const_cast<Machine&>(machine)); }
 };
 
-constexpr std::array<Dimension, 9> kDimensions = {{{"base_inradius_mm", &Machine::base_inradius_mm},
-                                                   {"platform_circumradius_mm", &Machine::platform_circumradius_mm},
-                                                   {"joint_plane_height_mm", &Machine::joint_plane_height_mm},
-                                                   {"leg_length_mm", &Machine::leg_length_mm},
-                                                   {"travel_min_mm", &Machine::travel_min_mm},
-                                                   {"travel_max_mm", &Machine::travel_max_mm},
-                                                   {"min_gap_mm", &Machine::min_gap_mm},
-                                                   {"screw_lead_mm", &Machine::screw_lead_mm},
-                                                   {"moved_mass_kg", &Machine::moved_mass_kg}}};
+template <auto Member>
+constexpr std::span<double> values_of(Machine& machine) {
+  auto& value = machine.*Member;
+  if constexpr (std::is_same_v<decltype(value), double&>) {
+    return {&value, 1};
+  } else {
+    return value;
+  }
+}
+
+constexpr std::array<Dimension, 11> kDimensions = {
+    {{"base_inradius_mm", values_of<&Machine::base_inradius_mm>},
+     {"platform_circumradius_mm", values_of<&Machine::platform_circumradius_mm>},
+     {"joint_plane_height_mm", values_of<&Machine::joint_plane_height_mm>},
+     {"leg_length_mm", values_of<&Machine::leg_length_mm>},
+     {"travel_min_mm", values_of<&Machine::travel_min_mm>},
+     {"travel_max_mm", values_of<&Machine::travel_max_mm>},
+     {"min_gap_mm", values_of<&Machine::min_gap_mm>},
+     {"screw_lead_mm", values_of<&Machine::screw_lead_mm>},
+     {"moved_mass_kg", values_of<&Machine::moved_mass_kg>},
+     {"guideway_angle_rad", values_of<&Machine::guideway_angle_rad>, true},
+     {"joint_angle_rad", values_of<&Machine::joint_angle_rad>, true}}};
+
+/// Return whether two values of a dimension count as one: files hold decimal numbers.
+inline bool is_same(double one, double other) {
+  return std::abs(one - other) <= 1e-9 * std::max(std::abs(one), std::abs(other));
+}
+
+/// Return whether a dimension is as in the machine of the thesis: angles are thirds of a turn, all others alike.
+inline bool is_regular(const Dimension& dimension, const Machine& machine) {
+  const std::span<const double> values = dimension.values(machine);
+  for (std::size_t at = 0; at < values.size(); ++at) {
+    if (!is_same(values[at], dimension.is_angle ? kThirds_rad[at] : values[0])) return false;
+  }
+  return true;
+}
+
+/// Return whether a machine needs a list for some dimension.
+inline bool is_regular(const Machine& machine) {
+  return std::all_of(kDimensions.begin(), kDimensions.end(),
+                     [&](const Dimension& each) { return is_regular(each, machine); });
+}
+
+/// Return the version that these data are written as: 3 has lists of dimensions, 2 has tables.
+inline int version_of(const CompensationData& data) {
+  if (!is_regular(data.machine)) return 3;
+  return data.tables.empty() ? 1 : 2;
+}
 
 struct Limit {
   const char* name;
@@ -108,6 +152,14 @@ std::string list(std::size_t count, Text text, const char* open, const char* clo
   std::string out = open;
   for (std::size_t at = 0; at < count; ++at) out += (at == 0 ? "" : ", ") + text(at);
   return out + close;
+}
+
+/// Return the values of a dimension as one number where it is regular, otherwise as a list; angles are always a list.
+inline std::string dimension_text(const Dimension& dimension, const Machine& machine, const char* open,
+                                  const char* close) {
+  const std::span<const double> values = dimension.values(machine);
+  if (!dimension.is_angle && is_regular(dimension, machine)) return number(values[0]);
+  return list(values.size(), [&](std::size_t at) { return number(values[at]); }, open, close);
 }
 
 /// Call write(key, list as text) for each list of numbers of a table; elements and columns count from 1 in files.

@@ -31,7 +31,9 @@ class Reader {
     out.record_sha256 = records_;
     if (has("", "reference_temperature_c")) out.reference_temperature_c = number(take("", "reference_temperature_c"));
     for (const layout::Dimension& each : layout::kDimensions) {
-      out.machine.*each.member = number(take("dimensions", each.name));
+      if (!each.is_angle || has("dimensions", each.name)) {
+        fill(each.of(out.machine), take("dimensions", each.name));
+      }
     }
     for (const layout::Limit& each : layout::kLimits) out.limits.*each.member = positive(take("limits", each.name));
     take("check", "crc32");
@@ -173,6 +175,20 @@ class Reader {
     const auto parsed = std::from_chars(entry.value.data(), end, out);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(out)) malformed(entry, "a finite number");
     return out;
+  }
+
+  /// Set one value for all, or, where there are several, one each.
+  void fill(std::span<double> values, const Entry& entry) const {
+    if (values.size() == 1 || version_ < 3 || entry.value.front() != '[') {
+      std::fill(values.begin(), values.end(), number(entry));
+      return;
+    }
+    const std::vector<double> given = numbers<double>(entry);
+    if (given.size() != values.size() ||
+        !std::all_of(given.begin(), given.end(), [](double each) { return std::isfinite(each); })) {
+      malformed(entry, "a list of " + std::to_string(values.size()) + " finite numbers");
+    }
+    std::copy(given.begin(), given.end(), values.begin());
   }
 
   /// Parse "[1, 2]"; that numbers are finite is checked with the table.

@@ -48,7 +48,8 @@ std::string without_check(const CompensationData& data) {
   }
   out += "\n[dimensions]\n";
   for (const layout::Dimension& each : layout::kDimensions) {
-    out += line(each.name, layout::number(data.machine.*each.member));
+    if (each.is_angle && layout::is_regular(each, data.machine)) continue;
+    out += line(each.name, layout::dimension_text(each, data.machine, "[", "]"));
   }
   out += "\n[limits]\n";
   for (const layout::Limit& each : layout::kLimits) out += line(each.name, layout::number(data.limits.*each.member));

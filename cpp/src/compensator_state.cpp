@@ -53,7 +53,7 @@ void Compensator::follow_joints(const Vector6& nominal_mm, const Vector6& veloci
   for (int k = 0; k < kLegs; ++k) {
     const LegPair moved(model_.nominal, guideway_of(k), nominal_mm, travel_mm);  // within one unit of time
     const LegPair moving(model_.nominal, guideway_of(k), nominal_mm, velocity_mm_s);
-    const double turned_mm = moved.length_mm * moved.rate_rad_s(k % 2), rate = moving.rate_rad_s(k % 2);
+    const double turned_mm = moved.length_mm[k % 2] * moved.rate_rad_s(k % 2), rate = moving.rate_rad_s(k % 2);
     const double sense = rate == 0.0 ? 0.0 : std::copysign(1.0, rate);
     const double towards = rate == 0.0 ? turned_mm : std::copysign(turned_mm, rate);
     const double play = std::clamp(joint_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
@@ -108,7 +108,7 @@ Vector6 Compensator::leg_force(const Pose& pose, const Vector6& nominal_mm) cons
                        rssr::placed(pose), rssr::vec(Vector3::Zero()), rssr::vec(Vector3::UnitZ()));
   const bool is_held = carried.determinant * carried.determinant > 1e-18 * carried.scale;
   Vector6 out;
-  for (int k = 0; k < kLegs; ++k) out[k] = is_held ? -carried.share[k] * nominal.machine.leg_length_mm : 0.0;
+  for (int k = 0; k < kLegs; ++k) out[k] = is_held ? -carried.share[k] * nominal.machine.leg_length_mm[k] : 0.0;
   return out;
 }
 

@@ -66,7 +66,7 @@ class Legs {
   }
 
   double platform_angle_rad(int leg) const {
-    return std::acos(std::clamp(along(leg).dot(normal_) / nominal_.machine.leg_length_mm, -1.0, 1.0));
+    return std::acos(std::clamp(along(leg).dot(normal_) / nominal_.machine.leg_length_mm[leg], -1.0, 1.0));
   }
 
   /// From the guideway's outward axis, z x d, towards z.
@@ -92,7 +92,7 @@ class PlatformMotion {
     for (int i = 0; i < kGuideways; ++i) {
       const Vector3 d = nominal.direction.col(2 * i), outward = legs.outward(i);
       turning.col(i) = d.cross(outward);
-      const double growing = -pairs[i].half_mm * pairs[i].half_mm_s / pairs[i].radius_squared;
+      const double growing = -pairs[i].foot_mm[0] * pairs[i].foot_mm_s[0] / pairs[i].radius_squared;
       velocity_.col(i) = pairs[i].along_mm_s * d + growing * outward;
     }
     for (int i = 0; i < kGuideways; ++i) {
@@ -110,9 +110,9 @@ class PlatformMotion {
   double platform_rate_rad_s(int leg) const {
     const int i = guideway_of(leg);
     const LegPair& pair = pairs_[i];
-    const double slider_mm_s = pair.along_mm_s + (leg % 2 == 0 ? -pair.half_mm_s : pair.half_mm_s);
-    const Vector3 along = legs_.along(leg), along_rate = velocity_.col(i) - slider_mm_s * nominal_.direction.col(leg);
-    const double length_mm = nominal_.machine.leg_length_mm, cosine = along.dot(legs_.normal()) / length_mm;
+    const Vector3 along = legs_.along(leg);
+    const Vector3 along_rate = velocity_.col(i) - pair.slider_mm_s[leg % 2] * nominal_.direction.col(leg);
+    const double length_mm = pair.length_mm[leg % 2], cosine = along.dot(legs_.normal()) / length_mm;
     const double cosine_rate = (along_rate.dot(legs_.normal()) + along.dot(normal_rate())) / length_mm;
     return -cosine_rate / std::sqrt(std::max(1.0 - cosine * cosine, 0.0));
   }
@@ -158,20 +158,27 @@ unsigned union_of(const TableSet& tables, TableVariable one, TableVariable other
 }  // namespace
 
 LegPair::LegPair(const NominalGeometry& nominal, int guideway, const Vector6& sliders_mm,
-                 const Vector6& velocity_mm_s) noexcept
-    : length_mm(nominal.machine.leg_length_mm) {
-  const int a = 2 * guideway, b = a + 1;
-  half_mm = 0.5 * (sliders_mm[b] - sliders_mm[a]);
-  half_mm_s = 0.5 * (velocity_mm_s[b] - velocity_mm_s[a]);
-  along_mm_s = 0.5 * (velocity_mm_s[a] + velocity_mm_s[b]);
-  radius_squared = length_mm * length_mm - half_mm * half_mm;
+                 const Vector6& velocity_mm_s) noexcept {
+  const int first = 2 * guideway;
+  for (int leg = 0; leg < 2; ++leg) {
+    length_mm[leg] = nominal.machine.leg_length_mm[first + leg];
+    slider_mm_s[leg] = velocity_mm_s[first + leg];
+  }
+  const double distance = sliders_mm[first + 1] - sliders_mm[first], distance_rate = slider_mm_s[1] - slider_mm_s[0];
+  const double longer_squared = (length_mm[0] - length_mm[1]) * (length_mm[0] + length_mm[1]);
+  const double aside = longer_squared == 0.0 ? 0.0 : 0.5 * longer_squared / distance;
+  foot_mm[0] = 0.5 * distance + aside;
+  foot_mm[1] = aside - 0.5 * distance;
+  const double aside_rate = aside == 0.0 ? 0.0 : -aside * distance_rate / distance;
+  foot_mm_s[0] = 0.5 * distance_rate + aside_rate;
+  foot_mm_s[1] = aside_rate - 0.5 * distance_rate;
+  along_mm_s = 0.5 * (slider_mm_s[0] + slider_mm_s[1]) + aside_rate;
+  radius_squared = length_mm[0] * length_mm[0] - foot_mm[0] * foot_mm[0];
 }
 
-double LegPair::angle_rad(int leg) const noexcept { return std::acos((leg == 0 ? half_mm : -half_mm) / length_mm); }
+double LegPair::angle_rad(int leg) const noexcept { return std::acos(foot_mm[leg] / length_mm[leg]); }
 
-double LegPair::rate_rad_s(int leg) const noexcept {
-  return (leg == 0 ? -half_mm_s : half_mm_s) / std::sqrt(radius_squared);
-}
+double LegPair::rate_rad_s(int leg) const noexcept { return -foot_mm_s[leg] / std::sqrt(radius_squared); }
 
 HEXDBB_MULTIVERSION
 void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6& sliders_mm,

@@ -1,12 +1,12 @@
 // Joints of the nominal machine in motion: angles and rates as state.hpp defines them, for one pose.
 //
-// All legs are equally long, so that the two of a guideway form an isosceles triangle: along the guideway the ball joint
-// is half-way between the two sliders, at radius rho from the line of their joints. Hence, with h half the distance of
-// the sliders (of the first leg; -h of the second),
-//   angle = acos(h / l),   its rate = -h' / rho,
+// The two legs of a guideway form a triangle over the distance D of their sliders. Along the guideway the ball joint is
+// x_a = D / 2 + (l_a^2 - l_b^2) / (2 D) beyond slider a and x_b = D - x_a before slider b, at radius rho from the line of
+// their joints. Hence
+//   angle_a = acos(x_a / l_a),   its rate = -x_a' / rho;   angle_b = acos(-x_b / l_b),   its rate = x_b' / rho,
 // without the pose. The swing about the guideway and all that turns at the platform follow from the ball joints'
-// velocities: (s_a' + s_b') / 2 along the guideway, -h h' / rho outward, and across it the speed that keeps the three
-// sides of the platform, three cyclic linear equations.
+// velocities: s_a' + x_a' along the guideway, -x_a x_a' / rho outward, and across it the speed that keeps the three sides
+// of the platform, three cyclic linear equations.
 #pragma once
 
 #include "hexdbb/compensation_tables.hpp"
@@ -23,10 +23,11 @@ struct LegPair {
   double angle_rad(int leg) const noexcept;
   double rate_rad_s(int leg) const noexcept;
 
-  double length_mm = 0.0;
-  double half_mm = 0.0, half_mm_s = 0.0;  // h and its rate
-  double radius_squared = 0.0;            // rho^2; not positive where the legs do not meet
-  double along_mm_s = 0.0;                // of the ball joint
+  double length_mm[2] = {};
+  double foot_mm[2] = {}, foot_mm_s[2] = {};  // of the ball joint beyond each slider, x_a and -x_b, and their rates
+  double slider_mm_s[2] = {};
+  double radius_squared = 0.0;  // rho^2; not positive where the legs do not meet
+  double along_mm_s = 0.0;      // of the ball joint
 };
 
 /// Fill in the joints' columns of a state that tables need, of the legs that they name. Where locked sliders do not

@@ -157,12 +157,12 @@ InverseResult failed(Status status, int leg) { return {Vector6::Zero(), status, 
 void check_limits(const Machine& machine, InverseResult& out) {
   for (int k = 0; k < kLegs; k += 2) {
     const double low = out.sliders_mm[k], high = out.sliders_mm[k + 1];
-    if (!(low >= machine.travel_min_mm) || !(low <= machine.travel_max_mm)) {
+    if (!(low >= machine.travel_min_mm[k]) || !(low <= machine.travel_max_mm[k])) {
       out.status = Status::kTravel;
       out.leg = k;
       return;
     }
-    if (!(high >= machine.travel_min_mm) || !(high <= machine.travel_max_mm)) {
+    if (!(high >= machine.travel_min_mm[k + 1]) || !(high <= machine.travel_max_mm[k + 1])) {
       out.status = Status::kTravel;
       out.leg = k + 1;
       return;
@@ -225,7 +225,7 @@ InverseResult inverse(const NominalGeometry& nominal, const Pose& pose, const Po
     const Vector3 joint = nominal.platform_joint.col(k) + push.platform_joint(k);
     const Vector3 base = nominal.vertex.col(k) + push.slider_joint(k);
     const Vector3 from_base = pose.rotation * joint + (pose.position - base);
-    const double leg = machine.leg_length_mm + push.leg()[k];
+    const double leg = machine.leg_length_mm[k] + push.leg()[k];
     const double foot = from_base.dot(nominal.direction.col(k));
     const double half_span_squared = leg * leg - (from_base.squaredNorm() - foot * foot);
     if (!(half_span_squared > 0.0)) return failed(Status::kUnreachable, k);
@@ -309,10 +309,10 @@ ForwardResult forward_six(const Mechanism& mechanism, const Pose& start) noexcep
 Pose home_pose(const NominalGeometry& nominal) {
   const Machine& machine = nominal.machine;
   const double lean = machine.base_inradius_mm - machine.platform_circumradius_mm;
-  const double height_squared = 0.66 * machine.leg_length_mm * machine.leg_length_mm - lean * lean;
+  const double leg = *std::min_element(machine.leg_length_mm.begin(), machine.leg_length_mm.end());
+  const double height_squared = 0.66 * leg * leg - lean * lean;
   Pose pose;
-  pose.position.z() = std::sqrt(std::max(height_squared, 0.01 * machine.leg_length_mm * machine.leg_length_mm)) -
-                      machine.joint_plane_height_mm;
+  pose.position.z() = std::sqrt(std::max(height_squared, 0.01 * leg * leg)) - machine.joint_plane_height_mm;
   return pose;
 }
 

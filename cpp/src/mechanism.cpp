@@ -9,7 +9,7 @@ namespace hexdbb {
 NominalGeometry::NominalGeometry(const Machine& machine_in) : machine(machine_in) {
   for (int k = 0; k < kLegs; ++k) {
     vertex.col(k) = guideway_vertex(machine, guideway_of(k));
-    direction.col(k) = guideway_direction(guideway_of(k));
+    direction.col(k) = guideway_direction(machine, guideway_of(k));
     platform_joint.col(k) = hexdbb::platform_joint(machine, guideway_of(k));
   }
 }
@@ -29,7 +29,7 @@ Mechanism assemble(const NominalGeometry& nominal, const Vector6& sliders_mm, co
   for (int k = 0; k < kLegs; ++k) {
     const double along = sliders_mm[k] + push.slider()[k];
     out.slider_joint.col(k) = nominal.vertex.col(k) + along * nominal.direction.col(k) + push.slider_joint(k);
-    out.leg_length[k] = nominal.machine.leg_length_mm + push.leg()[k];
+    out.leg_length[k] = nominal.machine.leg_length_mm[k] + push.leg()[k];
     out.platform_joint.col(k) = nominal.platform_joint.col(k) + push.platform_joint(k);
   }
   return out;

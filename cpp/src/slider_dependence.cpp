@@ -25,11 +25,12 @@ double on_leg(const Eigen::Matrix<double, 1, port::kCount>& push, int k) {
 }  // namespace
 
 SliderTable trial_positions(const Machine& machine) {
-  const double middle_mm = 0.5 * (machine.travel_min_mm + machine.travel_max_mm);
-  const double half_mm = 0.5 * (machine.travel_max_mm - machine.travel_min_mm);
   SliderTable out(int{kTrials}, int{kLegs});
   for (int row = 0; row < kTrials; ++row) {
-    for (int k = 0; k < kLegs; ++k) out(row, k) = middle_mm + half_mm * spread(row, k);
+    for (int k = 0; k < kLegs; ++k) {
+      const Travel travel = slider_travel(machine, k);
+      out(row, k) = travel.middle_mm + travel.half_mm * spread(row, k);
+    }
   }
   return out;
 }

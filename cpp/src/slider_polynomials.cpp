@@ -35,17 +35,19 @@ State unit_state(int factor, Eigen::Index rows) {
 
 }  // namespace
 
-SliderPolynomials::SliderPolynomials(const Machine& machine)
-    : machine_(machine),
-      middle_mm_(0.5 * (machine.travel_min_mm + machine.travel_max_mm)),
-      half_mm_(0.5 * (machine.travel_max_mm - machine.travel_min_mm)) {
+SliderPolynomials::SliderPolynomials(const Machine& machine) : machine_(machine) {
+  for (int k = 0; k < kLegs; ++k) {
+    const Travel travel = slider_travel(machine, k);
+    middle_mm_[k] = travel.middle_mm;
+    half_mm_[k] = travel.half_mm;
+  }
   for (Coefficients& each : of_factor_) each.setZero();
   settled_.setZero();
 }
 
 SliderPolynomials::Coefficients SliderPolynomials::coefficients_of(const Term& term, int factor) const {
   SliderTable positions(3, int{kLegs});
-  for (int row = 0; row < 3; ++row) positions.row(row).setConstant(middle_mm_ + (row - 1) * half_mm_);
+  for (int row = 0; row < 3; ++row) positions.row(row) = (middle_mm_ + (row - 1) * half_mm_).transpose();
   const Pushes known = pushes_of(term, positions, unit_state(factor, 3));
   Coefficients out;
   out.col(0) = known.row(1).head<kPorts>();
@@ -108,7 +110,7 @@ void SliderPolynomials::settle(const InstantState& state) noexcept {
 
 HEXDBB_MULTIVERSION
 void SliderPolynomials::evaluate(const Vector6& sliders_mm, Ports& push) const noexcept {
-  const PortVector place = of_ports((sliders_mm.array() - middle_mm_) * (1.0 / half_mm_));
+  const PortVector place = of_ports((sliders_mm - middle_mm_).cwiseQuotient(half_mm_));
   const double *u = place.data(), *c = settled_.data();
   double* out = push.value.data();
   for (int p = 0; p < kPorts; ++p) out[p] = c[p] + u[p] * (c[kPorts + p] + u[p] * c[2 * kPorts + p]);

@@ -38,9 +38,12 @@ double angle_between(const Vector3& one, const Vector3& other) {
 
 /// Fill the columns of motion, of sliders and joints. Angles of joints are handled as arcs of the leg's far end, so
 /// that the dead band of reversals is that of the sliders.
-void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, double leg_length_mm, State& state) {
-  const SliderTable slider_arc_mm = leg_length_mm * poses.slider_joint_angle_rad;
-  const SliderTable platform_arc_mm = leg_length_mm * poses.platform_joint_angle_rad;
+void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, const PerLeg& leg_length_mm,
+                   State& state) {
+  const SliderTable length_mm =
+      Eigen::Map<const Vector6>(leg_length_mm.data()).transpose().replicate(sliders_mm.rows(), 1);
+  const SliderTable slider_arc_mm = poses.slider_joint_angle_rad.cwiseProduct(length_mm);
+  const SliderTable platform_arc_mm = poses.platform_joint_angle_rad.cwiseProduct(length_mm);
   std::vector<Motion> all =
       motions(state.time_s, state.sweep, {{sliders_mm, kMostDerivatives}, {slider_arc_mm, 1}, {platform_arc_mm, 1}});
   Motion& slider = all[0];
@@ -52,10 +55,10 @@ void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, dou
   state.since_reversal_s = std::move(slider.since_reversal_s);
   state.since_reversal_mm = std::move(slider.since_reversal_mm);
   const auto turned_mm = all[1].since_reversal_mm.array();
-  state.slider_joint_rate_rad_s = all[1].velocity_mm_s / leg_length_mm;
+  state.slider_joint_rate_rad_s = all[1].velocity_mm_s.cwiseQuotient(length_mm);
   state.slider_joint_direction = std::move(all[1].travel_direction);
-  state.slider_joint_since_reversal_rad = (turned_mm < kLongAgo).select(turned_mm / leg_length_mm, kLongAgo);
-  state.platform_joint_rate_rad_s = all[2].velocity_mm_s / leg_length_mm;
+  state.slider_joint_since_reversal_rad = (turned_mm < kLongAgo).select(turned_mm / length_mm.array(), kLongAgo);
+  state.platform_joint_rate_rad_s = all[2].velocity_mm_s.cwiseQuotient(length_mm);
 }
 
 double wrapped(double angle_rad) {

@@ -70,19 +70,35 @@ class Machine:
         base_inradius_mm: typing.SupportsFloat | typing.SupportsIndex,
         platform_circumradius_mm: typing.SupportsFloat | typing.SupportsIndex,
         joint_plane_height_mm: typing.SupportsFloat | typing.SupportsIndex,
-        leg_length_mm: typing.SupportsFloat | typing.SupportsIndex,
-        travel_min_mm: typing.SupportsFloat | typing.SupportsIndex,
-        travel_max_mm: typing.SupportsFloat | typing.SupportsIndex,
+        leg_length_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"
+        ],
+        travel_min_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"
+        ],
+        travel_max_mm: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(6)"
+        ],
         min_gap_mm: typing.SupportsFloat | typing.SupportsIndex,
         screw_lead_mm: typing.SupportsFloat | typing.SupportsIndex,
         moved_mass_kg: typing.SupportsFloat | typing.SupportsIndex,
+        guideway_angle_rad: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
+        joint_angle_rad: typing.Annotated[
+            collections.abc.Sequence[typing.SupportsFloat | typing.SupportsIndex], "FixedSize(3)"
+        ],
     ) -> None: ...
     @property
     def base_inradius_mm(self) -> float: ...
     @property
+    def guideway_angle_rad(self) -> typing.Annotated[list[float], "FixedSize(3)"]: ...
+    @property
+    def joint_angle_rad(self) -> typing.Annotated[list[float], "FixedSize(3)"]: ...
+    @property
     def joint_plane_height_mm(self) -> float: ...
     @property
-    def leg_length_mm(self) -> float: ...
+    def leg_length_mm(self) -> typing.Annotated[list[float], "FixedSize(6)"]: ...
     @property
     def min_gap_mm(self) -> float: ...
     @property
@@ -92,9 +108,9 @@ class Machine:
     @property
     def screw_lead_mm(self) -> float: ...
     @property
-    def travel_max_mm(self) -> float: ...
+    def travel_max_mm(self) -> typing.Annotated[list[float], "FixedSize(6)"]: ...
     @property
-    def travel_min_mm(self) -> float: ...
+    def travel_min_mm(self) -> typing.Annotated[list[float], "FixedSize(6)"]: ...
 
 class SetUp:
     """
@@ -804,14 +820,14 @@ def forward_table(
     """
 
 def guideway_axes(
-    guideway: typing.SupportsInt | typing.SupportsIndex,
+    machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
     """
     Return the local axes of guideway 0..2 as columns (3, 3): outward, -d, up. IndexError for any other guideway.
     """
 
 def guideway_direction(
-    guideway: typing.SupportsInt | typing.SupportsIndex,
+    machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 1]"]:
     """
     Return d of guideway 0..2, unit vector (3,), base frame. IndexError for any other guideway.

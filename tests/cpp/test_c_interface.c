@@ -42,6 +42,11 @@ LAYOUT(hexdbb_constants, max_correction_mm, 88);
 LAYOUT(hexdbb_constants, values, 112);
 LAYOUT(hexdbb_constants, table_count, 112 + sizeof(char*)); /* the struct's size before there were tables */
 LAYOUT(hexdbb_constants, tables, 120 + sizeof(char*));
+LAYOUT(hexdbb_constants, layout, 120 + 2 * sizeof(char*)); /* the struct's size before there were layouts */
+SIZE(hexdbb_layout, 200);
+LAYOUT(hexdbb_layout, joint_angle_rad, 32);
+LAYOUT(hexdbb_layout, leg_length_mm, 56);
+LAYOUT(hexdbb_layout, travel_max_mm, 152);
 LAYOUT(hexdbb_table, period, 4 * sizeof(char*));
 LAYOUT(hexdbb_table, push_count, 4 * sizeof(char*) + 8);
 LAYOUT(hexdbb_table, elements, 4 * sizeof(char*) + 16);

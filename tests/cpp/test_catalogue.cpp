@@ -301,7 +301,7 @@ TEST_F(Catalogue, JointFrictionFollowsTheInclinationOfTheLeg) {
       const Pose pose = poses.at(row);
       const Vector3 joint = pose.position + pose.rotation * platform_joint(machine, k / 2);
       const Vector3 from_vertex = joint - guideway_vertex(machine, k / 2);
-      const double along_mm = from_vertex.dot(guideway_direction(k / 2)) - slider(k, row);
+      const double along_mm = from_vertex.dot(guideway_direction(machine, k / 2)) - slider(k, row);
       const double angle = std::acos(along_mm / 400.0);
       ASSERT_NEAR(state().slider_joint_angle_rad(row, k), angle, 1e-9);
       const double change = row == 0 ? 0.0 : angle - before;

@@ -80,7 +80,7 @@ TEST(CompensationFile, OfAnotherMachineIsNamed) {
   std::ofstream(path) << compensation_text(everything());
   Machine ours;
   EXPECT_NO_THROW(load_compensation(path, ours));
-  ours.leg_length_mm = 401.0;
+  ours.leg_length_mm = six_of(401.0);
   try {
     load_compensation(path, ours);
     FAIL();

@@ -75,7 +75,8 @@ TEST_F(EffectGeometry, GuidewaysRotateAsRigidBodies) {
     for (int k = 0; k < kLegs; ++k) {
       const int g = guideway_of(k);
       const Vector3 centre = each.about_midpoint ? guideway_midpoint(machine, g) : Vector3(0.0, 0.0, 0.0);
-      const Matrix3 turn = Eigen::AngleAxisd(angle[g], guideway_axes(g).col(each.local_axis)).toRotationMatrix();
+      const Matrix3 turn =
+          Eigen::AngleAxisd(angle[g], guideway_axes(machine, g).col(each.local_axis)).toRotationMatrix();
       for (Eigen::Index row = 0; row < samples.size(); ++row) {
         const Vector3 nominal_joint = nominal.vertex.col(k) + samples.sliders_mm(row, k) * nominal.direction.col(k);
         const Vector3 wanted = centre + turn * (nominal_joint - centre);
@@ -91,7 +92,7 @@ TEST_F(EffectGeometry, TranslationFollowsTheLocalAxes) {
   values.segment<3>(3) << 0.3, 0.2, 0.1;  // guideway 2
   const PortRows push = push_of("guideway_translation", values);
   const Vector3 outward = guideway_midpoint(machine, 1).normalized();
-  const Vector3 wanted = 0.3 * outward - 0.2 * guideway_direction(1) + Vector3(0, 0, 0.1);
+  const Vector3 wanted = 0.3 * outward - 0.2 * guideway_direction(machine, 1) + Vector3(0, 0, 0.1);
   for (int k = 0; k < kLegs; ++k) {
     const Vector3 found = push.row(5).segment<3>(port::kSliderJoint + 3 * k);
     EXPECT_LT((found - (guideway_of(k) == 1 ? wanted : Vector3(0, 0, 0))).norm(), 1e-15) << "leg " << k;

@@ -90,8 +90,8 @@ TEST_F(Forward, OtherMachines) {
     Machine other;
     other.base_inradius_mm = inradius;
     other.platform_circumradius_mm = circumradius;
-    other.leg_length_mm = leg;
-    other.travel_max_mm = 2.0 * std::sqrt(3.0) * inradius - 20.0;
+    other.leg_length_mm = six_of(leg);
+    other.travel_max_mm = six_of(2.0 * std::sqrt(3.0) * inradius - 20.0);
     const NominalGeometry geometry(other);
     for (int i = 0; i < 100; ++i) {
       const Reached reached = draw_reachable(drawing, geometry, {80.0, 60.0, 400.0, 0.15, 0.15}, 0.05);
@@ -109,7 +109,7 @@ TEST_F(Forward, RoundTripWarmOverTheWholeWorkspace) {
   for (int i = 0; i < 500; ++i) {
     const Reached reached = draw_reachable(drawing, nominal, kWorkspace, 0.05);
     RssrAngles angles;  // of the pose itself, then sliders move on by up to 0.1 mm
-    const Matrix3 axes[3] = {guideway_axes(0), guideway_axes(1), guideway_axes(2)};
+    const Matrix3 axes[3] = {guideway_axes(machine, 0), guideway_axes(machine, 1), guideway_axes(machine, 2)};
     for (int g = 0; g < kGuideways; ++g) {
       const Vector3 joint = reached.pose.position + reached.pose.rotation * nominal.platform_joint.col(2 * g);
       const Vector3 local = axes[g].transpose() * (joint - nominal.vertex.col(2 * g));

@@ -25,7 +25,7 @@ TEST_F(Inverse, LegsHaveTheirLength) {
     for (int k = 0; k < kLegs; ++k) {
       const Vector3 slider = nominal.vertex.col(k) + reached.sliders_mm[k] * nominal.direction.col(k);
       const Vector3 joint = reached.pose.position + reached.pose.rotation * nominal.platform_joint.col(k);
-      EXPECT_NEAR((joint - slider).norm(), machine.leg_length_mm, 1e-10);
+      EXPECT_NEAR((joint - slider).norm(), machine.leg_length_mm[k], 1e-10);
     }
     for (int i2 = 0; i2 < kGuideways; ++i2) EXPECT_LT(reached.sliders_mm[2 * i2], reached.sliders_mm[2 * i2 + 1]);
   }
@@ -61,7 +61,7 @@ TEST_F(Inverse, BeyondTravel) {
   const InverseResult result = inverse(nominal, make_pose(0, 150, 150, 0, 0, 0));
   EXPECT_EQ(result.status, Status::kTravel);
   EXPECT_EQ(result.leg, 0);
-  EXPECT_LT(result.sliders_mm[0], machine.travel_min_mm);
+  EXPECT_LT(result.sliders_mm[0], machine.travel_min_mm[0]);
 }
 
 TEST_F(Inverse, SlidersTooClose) {

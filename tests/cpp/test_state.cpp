@@ -183,7 +183,7 @@ TEST(State, JointRatesAreThoseOfTheLegs) {
     const Pose pose = poses.at(row);
     return Vector3((pose.position + pose.rotation * nominal.platform_joint.col(k) - nominal.vertex.col(k) -
                     samples.sliders_mm(row, k) * nominal.direction.col(k)) /
-                   machine.leg_length_mm);
+                   machine.leg_length_mm[k]);
   };
   for (Eigen::Index row = 5; row + 5 < samples.size(); row += 37) {
     if (samples.state.circle[row - 5] != samples.state.circle[row + 5]) continue;

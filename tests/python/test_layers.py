@@ -54,9 +54,9 @@ ALLOWED: dict[str, set[str]] = {
     },
     "ledger": {"errors", "files", "threads", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
     # which variables of the samples predict a residual
-    "predictors": {"record", "model", "samples", "effects", "_core"},
+    "predictors": {"record", "kinematics", "model", "samples", "effects", "_core"},
     # hypotheses on what is missing, decided by their evidence
-    "evidence": {"errors", "units", "learned", "model", "samples", "diagnosis", "predictors", "_core"},
+    "evidence": {"errors", "units", "machine", "learned", "model", "samples", "diagnosis", "predictors", "_core"},
     "discovery": {
         "errors",
         "files",
@@ -109,6 +109,9 @@ ALLOWED: dict[str, set[str]] = {
     "plots": {
         "errors",
         "files",
+        "machine",
+        "kinematics",
+        "workspace",
         "plan",
         "learned",
         "model",
@@ -153,6 +156,8 @@ ALLOWED: dict[str, set[str]] = {
         "trajectory",
         "_core",
     },
+    # where a machine is wanted to go: reach, limits, singular poses
+    "workspace": {"errors", "files", "machine", "kinematics", "identifiability", "plan"},
     # the thesis' own way, beside ours
     "studies": {
         "errors",

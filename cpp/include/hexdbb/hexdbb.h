@@ -28,6 +28,7 @@ extern "C" {
 
 #define HEXDBB_ABI_VERSION 1
 #define HEXDBB_SLIDERS 6
+#define HEXDBB_GUIDEWAYS 3
 
 typedef int32_t hexdbb_status;
 
@@ -55,7 +56,8 @@ enum {
   HEXDBB_OUT_OF_MEMORY = 41
 };
 
-/* Nominal dimensions of a machine, as in its machine file. */
+/* Nominal dimensions of a machine, as in its machine file. Where its legs, travels or angles are not all alike, these
+ * are the values of leg 1 and slider 1, and a hexdbb_layout has all. */
 typedef struct hexdbb_dimensions {
   uint32_t struct_size;
   uint32_t reserved;
@@ -83,6 +85,18 @@ typedef struct hexdbb_dimensions {
    HEXDBB_SP120_MIN_GAP_MM,               \
    HEXDBB_SP120_SCREW_LEAD_MM,            \
    HEXDBB_SP120_MOVED_MASS_KG}
+
+/* What a machine has for each guideway, leg and slider; since 0.2.0. A machine without a layout has guideways and ball
+ * joints at thirds of a turn, six equal legs and six equal travels. */
+typedef struct hexdbb_layout {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double guideway_angle_rad[HEXDBB_GUIDEWAYS]; /* about z, from the x axis to the direction of the guideway */
+  double joint_angle_rad[HEXDBB_GUIDEWAYS];    /* of the ball joints, in the platform frame */
+  double leg_length_mm[HEXDBB_SLIDERS];
+  double travel_min_mm[HEXDBB_SLIDERS];
+  double travel_max_mm[HEXDBB_SLIDERS];
+} hexdbb_layout;
 
 /* Pose of the platform frame in the base frame. */
 typedef struct hexdbb_pose {
@@ -161,6 +175,7 @@ typedef struct hexdbb_constants {
   uint32_t table_count; /* this and what follows: since 0.2.0; a smaller struct_size has no tables */
   uint32_t reserved;
   const hexdbb_table* tables;
+  const hexdbb_layout* layout; /* since 0.2.0; NULL, or a smaller struct_size: none */
 } hexdbb_constants;
 
 typedef struct hexdbb_compensator hexdbb_compensator;
@@ -178,8 +193,13 @@ const char* hexdbb_status_text(hexdbb_status status) HEXDBB_NOEXCEPT;
 /* Create the kinematics of the nominal machine, without compensation. *out is NULL where it fails. */
 hexdbb_status hexdbb_create_nominal(const hexdbb_dimensions* machine, hexdbb_compensator** out) HEXDBB_NOEXCEPT;
 
+/* Create the kinematics of a nominal machine with a layout; NULL: without one. */
+hexdbb_status hexdbb_create_nominal_layout(const hexdbb_dimensions* machine, const hexdbb_layout* layout,
+                                           hexdbb_compensator** out) HEXDBB_NOEXCEPT;
+
 /* Create a compensator from a compensation file, from the text of one in memory, or from constants.
- * machine: the machine the controller drives; a file of another machine is refused. NULL: not checked.
+ * machine: the machine the controller drives; a file of another machine is refused, and so is every file of a machine
+ * with a layout: give NULL, which checks nothing, and call hexdbb_check_layout.
  * message: receives one line stating what is wrong (empty where nothing is), cut to message_size; may be NULL.
  * *out is NULL where it fails; a controller should then run without compensation only if configured to. */
 hexdbb_status hexdbb_create_from_file(const char* path, const hexdbb_dimensions* machine, hexdbb_compensator** out,
@@ -197,8 +217,15 @@ void hexdbb_destroy(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
 hexdbb_status hexdbb_check_machine(const hexdbb_compensator* compensator,
                                    const hexdbb_dimensions* machine) HEXDBB_NOEXCEPT;
 
+/* The same of a machine with a layout; NULL: without one. */
+hexdbb_status hexdbb_check_layout(const hexdbb_compensator* compensator, const hexdbb_dimensions* machine,
+                                  const hexdbb_layout* layout) HEXDBB_NOEXCEPT;
+
 /* Get the dimensions the compensator was created for; machine->struct_size must be set. */
 hexdbb_status hexdbb_get_machine(const hexdbb_compensator* compensator, hexdbb_dimensions* machine) HEXDBB_NOEXCEPT;
+
+/* Get its layout, also where all is alike; layout->struct_size must be set. */
+hexdbb_status hexdbb_get_layout(const hexdbb_compensator* compensator, hexdbb_layout* layout) HEXDBB_NOEXCEPT;
 
 /* Switch compensation off (0) or on (any other value; on after creation). It fades over the next 500 calls of
  * hexdbb_sliders_from_pose, so that no slider jumps. */

@@ -43,7 +43,7 @@ class SliderPolynomials {
   Coefficients coefficients_of(const Term& term, int factor) const;
 
   Machine machine_;
-  double middle_mm_, half_mm_;
+  Vector6 middle_mm_, half_mm_;
   std::array<Coefficients, kFactors> of_factor_;
   std::array<std::array<bool, 3>, kFactors> is_used_{};  // of factor and power
   std::array<bool, 3> varies_{};                         // of power: any factor but 1

@@ -14,7 +14,11 @@ inline const std::vector<std::string> kWhole = {"1"};                           
 
 constexpr double kSecondsPerHour = 3600.0;
 
-/// Slider coordinate at mid-travel.
-inline double mid_travel_mm(const Machine& machine) { return 0.5 * (machine.travel_min_mm + machine.travel_max_mm); }
+/// Slider coordinates at mid-travel.
+inline PerLeg mid_travel_mm(const Machine& machine) {
+  PerLeg out;
+  for (int k = 0; k < kLegs; ++k) out[k] = slider_travel(machine, k).middle_mm;
+  return out;
+}
 
 }  // namespace hexdbb::effects

@@ -27,7 +27,7 @@ class GuidewayRotation : public Effect {
     for (int i = 0; i < kGuideways; ++i) {
       Lever lever;
       lever.u0 = hinges[i].axis.cross(guideway_vertex(machine, i) - hinges[i].centre);
-      lever.u1 = hinges[i].axis.cross(guideway_direction(i));
+      lever.u1 = hinges[i].axis.cross(guideway_direction(machine, i));
       lever.w0 = hinges[i].axis.cross(lever.u0);
       lever.w1 = hinges[i].axis.cross(lever.u1);
       levers_.push_back(lever);
@@ -88,7 +88,7 @@ inline EffectInfo rotation_info(EffectInfo own) {
 inline EffectPtr rotation_about_midpoint(EffectInfo own, const Machine& machine, int local_axis) {
   std::vector<Hinge> hinges;
   for (int i = 0; i < kGuideways; ++i) {
-    hinges.push_back({guideway_axes(i).col(local_axis), guideway_midpoint(machine, i)});
+    hinges.push_back({guideway_axes(machine, i).col(local_axis), guideway_midpoint(machine, i)});
   }
   return std::make_shared<GuidewayRotation>(rotation_info(std::move(own)), machine, hinges);
 }

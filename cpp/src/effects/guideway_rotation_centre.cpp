@@ -9,7 +9,7 @@ EffectPtr guideway_rotation_centre(const Context& context) {
                                    .formula = "slider_joint = (Rot(z, angle) - 1) B",
                                    .source = "thesis 3.2 (3) 3, Figure 3.2 (c)"});
   std::vector<Hinge> hinges;
-  for (int i = 0; i < kGuideways; ++i) hinges.push_back({guideway_axes(i).col(2), Vector3::Zero()});
+  for (int i = 0; i < kGuideways; ++i) hinges.push_back({guideway_axes(context.machine, i).col(2), Vector3::Zero()});
   return std::make_shared<GuidewayRotation>(std::move(info), context.machine, hinges);
 }
 

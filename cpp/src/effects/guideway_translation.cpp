@@ -5,10 +5,10 @@
 
 namespace hexdbb::effects {
 
-EffectPtr guideway_translation(const Context&) {
+EffectPtr guideway_translation(const Context& context) {
   std::vector<Link> links;
   for (int k = 0; k < kLegs; ++k) {
-    const Matrix3 axes = guideway_axes(guideway_of(k));
+    const Matrix3 axes = guideway_axes(context.machine, guideway_of(k));
     for (int local = 0; local < 3; ++local) {
       for (int base = 0; base < 3; ++base) {
         links.push_back({3 * guideway_of(k) + local, port::kSliderJoint + 3 * k + base, axes(base, local)});

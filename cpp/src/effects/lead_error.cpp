@@ -6,8 +6,9 @@ namespace hexdbb::effects {
 
 EffectPtr lead_error(const Context& context) {
   std::vector<Shape> shapes;
-  const double mid_mm = mid_travel_mm(context.machine);
+  const PerLeg middle_mm = mid_travel_mm(context.machine);
   for (int k = 0; k < kLegs; ++k) {
+    const double mid_mm = middle_mm[k];
     shapes.push_back(
         {[k, mid_mm](const SampleBlock& block) -> BlockColumn { return block.slider_mm(k).array() - mid_mm; },
          {{k, port::kSlider + k, 1.0}}});

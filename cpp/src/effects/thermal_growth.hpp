@@ -19,10 +19,10 @@ class ThermalGrowth : public Effect {
   /// Values of an element: growth per kelvin, rate at the start, logarithm of the time constant over 30 minutes.
   enum { kPerKelvin, kPerTime, kLogTime, kValues };
 
-  /// What grows: every screw on its own, in proportion to the distance from mid-travel `mid_mm`, or all legs alike.
+  /// What grows: every screw on its own, in proportion to the distance from mid-travel `mid_mm`, one each, or all legs alike.
   enum class Part { kScrews, kLegs };
 
-  ThermalGrowth(EffectInfo info, Part part, double mid_mm = 0.0)
+  ThermalGrowth(EffectInfo info, Part part, const PerLeg& mid_mm = {})
       : Effect(std::move(info)), of_screws_(part == Part::kScrews), mid_mm_(mid_mm) {}
 
   void push(const SampleBlock& block, hexdbb::Values values, PortBlock ports) const override {
@@ -57,7 +57,7 @@ class ThermalGrowth : public Effect {
   int port_of(int k) const { return (of_screws_ ? port::kSlider : port::kLeg) + k; }
 
   BlockColumn lever(const SampleBlock& block, int k) const {
-    if (of_screws_) return block.slider_mm(k).array() - mid_mm_;
+    if (of_screws_) return block.slider_mm(k).array() - mid_mm_[k];
     return BlockColumn::Ones(block.count);
   }
 
@@ -78,7 +78,7 @@ class ThermalGrowth : public Effect {
   }
 
   bool of_screws_;
-  double mid_mm_;
+  PerLeg mid_mm_;
 };
 
 }  // namespace hexdbb::effects

@@ -117,9 +117,9 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
         identify(device, DRIVE_PROFILE if device in devices.drives else GAUGE_PROFILE)
     network.nmt.send_command(NMT_PRE_OPERATIONAL)
     notes: list[str] = []
-    for drive in devices.drives:
+    for slider, drive in enumerate(devices.drives, start=1):
         check_mode_offered(drive)
-        notes += configure_drive(drive, machine, cycle_s, timed)
+        notes += configure_drive(drive, machine, cycle_s, timed, slider)
     notes += configure_gauge(devices.gauge, machine, cycle_s, timed)
     network.nmt.send_command(NMT_START)
     return notes

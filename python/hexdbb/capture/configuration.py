@@ -73,9 +73,11 @@ def expect_fixed(device: RemoteDevice, index: int, subindex: int, value: int, ig
         raise RunError(f"{device.label}: object {place} is {found:X}h and read-only (expected {value:X}h)")
 
 
-def configure_drive(device: RemoteDevice, machine: MachineFile, cycle_s: float, timed: bool) -> Iterator[str]:
-    """Write all settings and PDO mappings of a drive; yield one line for each object it lacks."""
-    yield from apply(device, drive_settings(machine, cycle_s, timed))
+def configure_drive(
+    device: RemoteDevice, machine: MachineFile, cycle_s: float, timed: bool, slider: int
+) -> Iterator[str]:
+    """Write all settings and PDO mappings of a slider's drive (1 to 6); yield one line for each object it lacks."""
+    yield from apply(device, drive_settings(machine, cycle_s, timed, slider))
     yield from map_pdo(device, DRIVE_RPDO, machine.can_setup.rpdo_timeout_ms)
     yield from map_pdo(device, DRIVE_TPDO)
 

@@ -79,7 +79,7 @@ class Expected:
 GAUGE_UNIT = Expected(0x6131, 1, MICROMETRE, "micrometre", "the unit of its readings is not known")
 
 
-def drive_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> list[Setting]:
+def drive_settings(machine: MachineFile, cycle_s: float, timed: bool = True, slider: int = 1) -> list[Setting]:
     """Return the settings of a drive.
 
     Parameters
@@ -90,6 +90,8 @@ def drive_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> 
         Time from one target to the next, s.
     timed : bool
         Whether SYNC comes once in that time.
+    slider : int
+        That the drive moves, 1 to 6.
 
     Raises
     ------
@@ -97,7 +99,7 @@ def drive_settings(machine: MachineFile, cycle_s: float, timed: bool = True) -> 
         The cycle time does not fit object 60C2h.
     """
     can, scale = machine.can_setup, machine.can_setup.counts_per_mm
-    low, high = sorted(round(s * scale) for s in machine.sliders.travel_mm)
+    low, high = sorted(round(s * scale) for s in machine.sliders.travels_mm[slider - 1])
     period, exponent = interpolation_period(cycle_s)
     window = round(can.limits.following_error_mm * abs(scale))
     return [
@@ -166,7 +168,7 @@ def interpolation_period(cycle_s: float) -> tuple[int, int]:
 def check_counts(machine: MachineFile) -> None:
     """Check that the travel in counts fits the 32 bits of object 607Ah; raises `InputError` otherwise."""
     scale = machine.can_setup.counts_per_mm
-    for end_mm in machine.sliders.travel_mm:
+    for end_mm in (end for travel in machine.sliders.travels_mm for end in travel):
         if abs(end_mm * scale) > MAX_COUNTS:
             raise InputError(
                 f"{machine.path or machine.name}: can.counts_per_mm: {scale:g} "

@@ -13,6 +13,7 @@ from hexdbb_start import ends_at_once
 COMMANDS = {
     "rig": "run the simulated rig as a process of its own",
     "eds": "check whether drives and gauges can run the test, by their EDS files",
+    "machine": "describe a machine of one's own, draw it, check what it reaches",
     "model": "create model files",
     "diagnose": "fit the model's effects to records",
     "effects": "list the effects a model can have; write their handbook",

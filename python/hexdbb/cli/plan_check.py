@@ -12,12 +12,13 @@ import numpy as np
 from hexdbb.capture.bus_load import check_load
 from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option
-from hexdbb.cli.plan_tables import LIMITED, print_assessment, print_clearances, print_motion
+from hexdbb.cli.plan_tables import LIMITED, print_assessment, print_clearances, print_motion, print_nearest
 from hexdbb.errors import InputError
+from hexdbb.kinematics.margins import nearest_end, nearest_sliders
 from hexdbb.machine import MachineFile
 from hexdbb.model import load_model, new_model
 from hexdbb.plan import Plan, load_plan
-from hexdbb.planning import Clearances, circle_clearances
+from hexdbb.planning import Clearances, angle_of_row, circle_clearances
 from hexdbb.trajectory import Programme, plan_programme
 
 
@@ -73,6 +74,7 @@ def check(
     if as_json:
         extent = {"rows": len(programme.table), "memory_bytes": int(programme.extent.memory_bytes)}
         motion = {"reachable": True, "duration_s": programme.duration_s, **extent, "bus_load": load, "runs": runs}
+        motion["nearest"] = _nearest(programme, machine)
         circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
         say(json.dumps({**motion, "circles": circles, **assessment.to_json()}, indent=2))
         return
@@ -90,6 +92,7 @@ def _print(
 ) -> None:
     print_motion(f"plan {plan_name}: within reach and limits", runs, machine.can_setup.limits)
     say(f"{programme.extent.words()} at {1.0 / programme.cycle_s:g} Hz, bus load at most {load:.0%}\n")
+    print_nearest(_nearest(programme, machine))
     print_clearances(clearances)
     print_assessment(assessment)
 
@@ -105,11 +108,47 @@ def _clearances(plan: Plan, machine: MachineFile, plan_name: str) -> dict[int, C
     return {identity: each for identity, each in found.items() if each is not None}
 
 
+def _nearest(programme: Programme, machine: MachineFile) -> dict[str, dict[str, Any]]:
+    """Return which sliders come nearest to each other and to an end of travel in the whole motion, and where."""
+    sliders_mm = programme.table.sliders_mm
+    pair, end = nearest_sliders(sliders_mm), nearest_end(machine, sliders_mm)
+    return {
+        "sliders": {
+            "sliders": [pair.first, pair.second],
+            "distance_mm": pair.distance_mm,
+            "min_gap_mm": machine.sliders.min_gap_mm,
+            **_place(programme, pair.row),
+        },
+        "end_of_travel": {
+            "slider": end.slider,
+            "end_mm": end.end_mm,
+            "left_mm": end.left_mm,
+            **_place(programme, end.row),
+        },
+    }
+
+
+def _place(programme: Programme, row: int) -> dict[str, Any]:
+    """Return where in the motion a row of the programme is; null off the circles."""
+    run, angle_deg = int(programme.table.run[row]), float(programme.table.angle_deg[row])
+    return {
+        "circle": programme.runs[run].circle.id if run >= 0 else None,
+        "direction": programme.runs[run].direction if run >= 0 else None,
+        "angle_deg": None if np.isnan(angle_deg) else angle_deg,
+    }
+
+
 def _clearance_json(identity: int, found: Clearances) -> dict[str, Any]:
+    assert found.nearest is not None and found.nearest_end is not None  # of every circle within reach
     return {
         "circle": identity,
         "to_end_of_travel_mm": found.to_end_of_travel_mm,
+        "slider": found.nearest_end.slider,
         "to_min_gap_mm": found.to_min_gap_mm,
+        "sliders": [found.nearest.first, found.nearest.second],
+        "slider_distance_mm": found.nearest.distance_mm,
+        "angle_deg": angle_of_row(found.nearest.row),
+        "to_joint_limit_deg": found.to_joint_limit_deg if np.isfinite(found.to_joint_limit_deg) else None,
         "bar_angle_deg": found.bar_angle_deg,
         "pose_condition": found.condition,
     }
@@ -128,11 +167,9 @@ def _run_json(programme: Programme, index: int) -> dict[str, float]:
 def _margins(programme: Programme, index: int, machine: MachineFile) -> dict[str, float]:
     """Return the largest slider rates of a run, and its margins to the ends of travel and to the smallest gap."""
     sliders_mm = programme.table.sliders_mm[programme.table.run == index]
-    low_mm, high_mm = machine.sliders.travel_mm
-    gaps_mm = sliders_mm[:, 1::2] - sliders_mm[:, 0::2] - machine.sliders.min_gap_mm
     margins = {
-        "to_end_of_travel_mm": float(min(sliders_mm.min() - low_mm, high_mm - sliders_mm.max())),
-        "to_min_gap_mm": float(gaps_mm.min()),
+        "to_end_of_travel_mm": nearest_end(machine, sliders_mm).left_mm,
+        "to_min_gap_mm": nearest_sliders(sliders_mm).distance_mm - machine.sliders.min_gap_mm,
     }
     rate = sliders_mm
     for name, unit in LIMITED:

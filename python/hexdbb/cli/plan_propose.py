@@ -9,7 +9,7 @@ import click
 
 from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option, plan_noise_mm
-from hexdbb.cli.plan_tables import print_circles, print_comparison
+from hexdbb.cli.plan_tables import print_circles, print_comparison, warn_of_condition
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.machine import SHIPPED_MACHINE, load_machine
@@ -104,6 +104,7 @@ def propose_command(
     except InputError as error:
         say(f"not compared with {like}, which this machine cannot follow: {error}", err=True)
     print_comparison(found)
+    warn_of_condition(str(output), found[str(output)][1])
     if aim is not None:
         _print_aim(aim, {name: each for name, (_, each) in found.items()})
     say(f"{output}: plan written", err=True)
@@ -112,10 +113,10 @@ def propose_command(
 def _print_aim(aim: str, found: dict[str, PlanAssessment]) -> None:
     for name, each in found.items():
         size = each.detectable[aim]
-        shown = "not detectable alone"
+        shown = "not detectable with this plan"
         if size.size is not None:
             shown = f"detectable from {size.size:.3g} {readable_unit(size.unit)}"
-        say(f"{aim}: {shown} with {name}")
+        say(f"{name}: {aim} {shown}")
 
 
 def _machine_name(template: Plan, machine_path: Path | None, output: Path) -> str:

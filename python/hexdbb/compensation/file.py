@@ -86,7 +86,7 @@ def _tables(model: Model) -> tuple[list[_core.CompensationTable], list[tuple[str
     for term in model.terms:
         own = model.own(term.effect)
         if term.learned is not None:
-            tables += learned_tables(term)
+            tables += learned_tables(term, model.machine)
         elif own is not None:
             try:
                 tables += own_tables(own, term.values, model.machine)

@@ -27,9 +27,10 @@ def ranges(machine: MachineFile) -> dict[str, tuple[float, float]]:
     """Return the range of every column that a controller knows, in its unit; beyond it a table is held."""
     fastest = machine.can_setup.limits.velocity_mm_s
     # The ball joint of two legs that are drawn apart by both sliders at full speed, at a third of a leg's length.
-    turning = 3.0 * fastest / machine.legs.length_mm
+    turning = 3.0 * fastest / min(machine.legs.lengths_mm)
+    travels_mm = machine.sliders.travels_mm
     found = {
-        "sliders_mm": machine.sliders.travel_mm,
+        "sliders_mm": (min(low for low, _ in travels_mm), max(high for _, high in travels_mm)),
         "velocity_mm_s": (-fastest, fastest),
         "travel_direction": (-1.0, 1.0),
         "leg_force": (-2.0, 2.0),  # six steep legs carry a sixth each; legs that nearly lie carry several times that

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.machine import MachineFile
 from hexdbb.model import Term
 
 Floats = NDArray[np.float64]
@@ -20,11 +21,11 @@ MOST_HALVINGS = 6
 less than a thousandth of what a cubic bends between two of them."""
 
 
-def learned_tables(term: Term) -> list[_core.CompensationTable]:
+def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationTable]:
     """Return the tables of a learned effect's term, one a component, knots close enough for `TOLERANCE_MM`."""
     effect = term.learned
     assert effect is not None
-    space, tables = effect.space, effect.tables(term.values)
+    space, tables = effect.space, effect.tables(term.values, machine.base.guideway_angles_rad)
     parts = effect.coefficients(term.values).reshape(len(tables), -1)
 
     def values_mm(at: Floats) -> Floats:

@@ -104,7 +104,7 @@ def _signature(space: Space, around: Projection) -> Floats:
     parts = []
     for component in range(space.hypothesis.components):
         total = np.zeros((len(around.samples), space.hypothesis.variable.columns))
-        for element, pushes in space.hypothesis.pushes(component):
+        for element, pushes in space.hypothesis.pushes(component, around.samples.machine.base.guideway_angles_rad):
             answer = sum(weight * around.ports[:, port] for port, weight in pushes)
             total += np.asarray(answer)[:, None] * space.design(around.samples, element)
         parts.append(total)
@@ -113,7 +113,7 @@ def _signature(space: Space, around: Projection) -> Floats:
 
 def _mean_square(space: Space, samples: Samples) -> Floats:
     """Return the mean of B'B over samples and elements: c' of it c is the mean square of a function."""
-    designs = [space.design(samples, element) for element, _ in space.hypothesis.pushes(0)]
+    designs = [space.design(samples, element) for element in space.hypothesis.elements]
     found: Floats = np.mean([each.T @ each for each in designs], axis=0) / len(samples)
     return found
 

@@ -15,6 +15,7 @@ from hexdbb.errors import InputError
 from hexdbb.learned import Curve, Form, Space, describe
 from hexdbb.learned.shown import place_words
 from hexdbb.learned.variables import ELAPSED
+from hexdbb.machine import MachineFile
 from hexdbb.model import Model
 from hexdbb.samples import PUSH_SHAPES
 
@@ -48,7 +49,7 @@ def draft(model: Model, name: str) -> str:
     space = term.learned.space
     parts = [HEAD]
     for component, curve in enumerate(term.learned.curves(term.values)):
-        parts.append(_effect(space, curve, describe(curve, space.period), component))
+        parts.append(_effect(space, curve, describe(curve, space.period), component, model.machine))
     return "\n\n".join(parts)
 
 
@@ -58,7 +59,7 @@ def drafted_name(space: Space, component: int) -> str:
     return space.hypothesis.name.replace(":", "_") + axis
 
 
-def _effect(space: Space, curve: Curve, form: Form, component: int) -> str:
+def _effect(space: Space, curve: Curve, form: Form, component: int, machine: MachineFile) -> str:
     height, shapes, function = _function(space, curve, form)
     port, count = space.hypothesis.port, max(abs(height), 1e-6)
     declared = f'@effect(port="{port}", unit="mm", prior_sigma={_number(count)}'
@@ -74,7 +75,7 @@ def _effect(space: Space, curve: Curve, form: Form, component: int) -> str:
         '    """',
         *(f"    {line}".rstrip() for line in function),
         f"    push = np.zeros((len(samples), {int(np.prod(PUSH_SHAPES[port], dtype=int))}))",
-        f"    for element, pushed in {_pushed(space, component)}:",
+        f"    for element, pushed in {_pushed(space, component, machine)}:",
         *(f"        {line}" for line in _value(space)),
         "        for column, weight in pushed:",
         "            push[:, column] += weight * value",
@@ -83,9 +84,9 @@ def _effect(space: Space, curve: Curve, form: Form, component: int) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _pushed(space: Space, component: int) -> str:
+def _pushed(space: Space, component: int, machine: MachineFile) -> str:
     """Return elements and columns of the port, counted within it, as source."""
-    pushes = space.hypothesis.pushes(component)
+    pushes = space.hypothesis.pushes(component, machine.base.guideway_angles_rad)
     width = {port: int(np.prod(shape, dtype=int)) for port, shape in PUSH_SHAPES.items()}
     ports = list(PUSH_SHAPES)
     first = sum(width[port] for port in ports[: ports.index(space.hypothesis.port)])

@@ -87,7 +87,7 @@ class TabulatedLearned:
         for component in range(hypothesis.components):
             own = self.factor[component * functions : (component + 1) * functions]
             kept = np.flatnonzero(np.any(own != 0.0, axis=0))
-            for element, pushes in hypothesis.pushes(component):
+            for element, pushes in hypothesis.pushes(component, samples.machine.base.guideway_angles_rad):
                 pushed = self.state.design(self.space, element) @ own[:, kept]
                 for port, weight in pushes:
                     values += kept.tolist()
@@ -137,9 +137,7 @@ class Engine:
             ARC: _arcs(_codes(part["sweep"])),
         }
         ports = _core.port_sensitivity(self._engine(self.base), part.block(self.base)) / self.row_noise_mm[:, None]
-        return Readings(
-            State(part, part.machine.sliders.screw_lead_mm, part.unmeasured), groups, self.row_noise_mm, ports
-        )
+        return Readings(State(part, part.machine, part.unmeasured), groups, self.row_noise_mm, ports)
 
     def fit(self, model: Model) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.

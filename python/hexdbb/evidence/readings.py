@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.learned import Columns, Learned, Space, Variable
+from hexdbb.machine import MachineFile
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -38,14 +39,14 @@ class State:
     ----------
     columns : Columns
         Samples, or anything that has their columns.
-    screw_lead_mm : float
-        Travel of a slider per turn of its screw.
+    machine : MachineFile
+        That the samples are of.
     unmeasured : frozenset of str
         Columns that were not measured: no function of them is a hypothesis.
     """
 
-    def __init__(self, columns: Columns, screw_lead_mm: float, unmeasured: frozenset[str] = frozenset()) -> None:
-        self._columns, self.screw_lead_mm, self.unmeasured = columns, screw_lead_mm, unmeasured
+    def __init__(self, columns: Columns, machine: MachineFile, unmeasured: frozenset[str] = frozenset()) -> None:
+        self._columns, self.machine, self.unmeasured = columns, machine, unmeasured
         self._known: dict[str, Floats] = {}
         self._spaces: dict[Learned, Space] = {}
         self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
@@ -62,7 +63,7 @@ class State:
 
     def rows(self, rows: Ints) -> State:
         """Return some rows, whose functions are those of the whole."""
-        part = State(_Rows(self, rows), self.screw_lead_mm, self.unmeasured)
+        part = State(_Rows(self, rows), self.machine, self.unmeasured)
         part._spaces, part._alike = self._spaces, self._alike
         return part
 
@@ -72,9 +73,9 @@ class State:
             raise InputError(f"{hypothesis.name}: {', '.join(unmeasured)} was not measured (expected it to be)")
         if hypothesis not in self._spaces:
             # Limits are those of the variable at the elements, whatever it pushes there: many hypotheses share them.
-            alike = hypothesis.variable, tuple(element for element, _ in hypothesis.pushes(0))
+            alike = hypothesis.variable, tuple(element for element, _ in hypothesis.pushes(0, self.machine.base.guideway_angles_rad))
             if alike not in self._alike:
-                self._alike[alike] = Space.of(hypothesis, self, self.screw_lead_mm)
+                self._alike[alike] = Space.of(hypothesis, self, self.machine.sliders.screw_lead_mm)
             self._spaces[hypothesis] = replace(self._alike[alike], hypothesis=hypothesis)
         return self._spaces[hypothesis]
 

@@ -61,12 +61,12 @@ def signature_of(hypothesis: Learned, readings: Readings) -> Signature:
     parts = []
     for component in range(hypothesis.components):
         total: Floats | None = None
-        for element, pushes in hypothesis.pushes(component):
+        for element, pushes in hypothesis.pushes(component, state.machine.base.guideway_angles_rad):
             part = readings.answer(pushes)[:, None] * state.design(space, element)
             total = part if total is None else total + part
         assert total is not None  # every place has an element
         parts.append(total)
-    designs = [state.design(space, element) for element, _ in hypothesis.pushes(0)]
+    designs = [state.design(space, element) for element in hypothesis.elements]
     square = sum((np.asarray(each.T @ each, np.float64) for each in designs), np.zeros(2 * designs[0].shape[1:]))
     return Signature(space, np.hstack(parts), square / (len(designs) * len(readings)))
 

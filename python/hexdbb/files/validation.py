@@ -14,7 +14,16 @@ from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_args
 
 import tomlkit
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, ValidationError
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    PrivateAttr,
+    Tag,
+    ValidationError,
+)
 from pydantic_core import ErrorDetails
 
 from hexdbb.errors import InputError
@@ -30,6 +39,39 @@ NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
 """A finite float, zero or above."""
 Vector3 = Annotated[tuple[Number, Number, Number], Field(strict=False)]
 """Three finite floats."""
+
+BRANCH = "|"
+"""Begins the tags of alternatives, which pydantic puts into the path of a key and no file has."""
+
+
+ONE, EACH = Tag(BRANCH + "one"), Tag(BRANCH + "each")
+"""Tags of the two alternatives of a key that takes one value for all, or a list with one value each."""
+
+
+def _merged(values: Any) -> Any:
+    return values[0] if len(set(values)) == 1 else values
+
+
+ALIKE = AfterValidator(_merged)
+"""Makes a list of equal values the one value, so that two files of one machine compare as equal."""
+
+
+def one_or_each(depth: int = 0) -> Discriminator:
+    """Return what decides between `ONE` and `EACH`, for an annotation of both.
+
+    Parameters
+    ----------
+    depth : int
+        How many lists deep the one value is: 0 for a number, 1 for a pair of numbers.
+    """
+
+    def chosen(value: object) -> str:
+        for _ in range(depth):
+            value = value[0] if isinstance(value, list | tuple) and value else None
+        return (EACH if isinstance(value, list | tuple) else ONE).tag
+
+    return Discriminator(chosen)
+
 
 UNITS = {
     *("m", "cm", "mm", "um", "nm", "in", "inch", "deg", "rad", "mrad", "s", "ms", "us", "min", "hz", "khz", "kg"),
@@ -239,7 +281,8 @@ def validation_line(error: ValidationError, model: type[BaseModel]) -> str:
 
 
 def _line(detail: ErrorDetails, model: type[BaseModel]) -> str:
-    location, value, context = detail["loc"], detail["input"], detail.get("ctx", {})
+    location = tuple(step for step in detail["loc"] if not str(step).startswith(BRANCH))
+    value, context = detail["input"], detail.get("ctx", {})
     if detail["type"] == "extra_forbidden":
         expected = nearest_key(str(location[-1]), _keys_at(model, location[:-1]))
         return f"{format_location(location)}: unknown key (expected {expected})"

@@ -1,6 +1,7 @@
 """What readings can determine: sensitivities, rank and condition, redundant combinations in words."""
 
 from hexdbb.identifiability.indices import (
+    TRUSTED_CONDITION,
     Expectation,
     Observability,
     expected_covariance,
@@ -23,6 +24,7 @@ from hexdbb.identifiability.structure import Displacements
 
 __all__ = [
     "KNOWN_PART",
+    "TRUSTED_CONDITION",
     "Displacements",
     "Expectation",
     "Observability",

@@ -30,6 +30,10 @@ from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
 
+TRUSTED_CONDITION = 100.0
+"""Condition above which an identification is not trusted: the usual advice for the calibration of robots (Schroeer
+1993, as cited by Nahvi and Hollerbach). The least determined combination of errors then takes in a hundred times as
+much of what no model has (temperature, a wrong set-up) as the best determined."""
 RELATIVE_RANK = 1e-8
 """Singular values below this part of the largest are rounding: about the square root of double precision."""
 

@@ -56,8 +56,9 @@ class Displacements:
         """Compute the displacements in some of the samples, evenly chosen."""
         few = samples.part(np.unique(np.linspace(0, len(samples) - 1, MAX_ROWS).astype(np.intp)))
         guideways = np.arange(6) // 2
-        along = np.array([_core.guideway_direction(each) for each in guideways])
-        vertices = np.array([_core.guideway_vertex(engine_machine(model.machine), each) for each in guideways])
+        machine = engine_machine(model.machine)
+        along = np.array([_core.guideway_direction(machine, each) for each in guideways])
+        vertices = np.array([_core.guideway_vertex(machine, each) for each in guideways])
         pushes = effect_pushes(few, model.with_values(model.start))
         at_joints = pushes["slider_joint"] + along[None, :, :, None] * pushes["slider"][:, :, None, :]
         others = [pushes[port] for port in PUSH_SHAPES if port not in ("slider", "slider_joint", "cup")]

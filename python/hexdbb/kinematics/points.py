@@ -19,9 +19,11 @@ GUIDEWAYS = range(3)
 def guideway_ends(machine: MachineFile) -> Floats:
     """Return the places of the sliders' joints at both ends of travel on each guideway, shape (3, 2, 3), mm."""
     engine = engine_machine(machine)
-    travel_mm = np.array(machine.sliders.travel_mm)
     return np.array(
-        [_core.guideway_vertex(engine, i) + np.outer(travel_mm, _core.guideway_direction(i)) for i in GUIDEWAYS]
+        [
+            _core.guideway_vertex(engine, i) + np.outer(np.array(travel_mm), _core.guideway_direction(engine, i))
+            for i, travel_mm in enumerate(machine.sliders.guideway_travels_mm)
+        ]
     )
 
 
@@ -40,7 +42,7 @@ def slider_points(machine: MachineFile, sliders_mm: Floats) -> Floats:
     """
     engine = engine_machine(machine)
     vertices = np.repeat([_core.guideway_vertex(engine, i) for i in GUIDEWAYS], 2, axis=0)
-    directions = np.repeat([_core.guideway_direction(i) for i in GUIDEWAYS], 2, axis=0)
+    directions = np.repeat([_core.guideway_direction(engine, i) for i in GUIDEWAYS], 2, axis=0)
     points: Floats = vertices + sliders_mm[:, :, None] * directions
     return points
 

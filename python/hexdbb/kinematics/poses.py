@@ -22,12 +22,14 @@ def engine_machine(machine: MachineFile) -> _core.Machine:
         base_inradius_mm=machine.base.inradius_mm,
         platform_circumradius_mm=machine.platform.circumradius_mm,
         joint_plane_height_mm=machine.platform.joint_plane_height_mm,
-        leg_length_mm=machine.legs.length_mm,
-        travel_min_mm=machine.sliders.travel_mm[0],
-        travel_max_mm=machine.sliders.travel_mm[1],
+        leg_length_mm=machine.legs.lengths_mm,
+        travel_min_mm=[least for least, _ in machine.sliders.travels_mm],
+        travel_max_mm=[largest for _, largest in machine.sliders.travels_mm],
         min_gap_mm=machine.sliders.min_gap_mm,
         screw_lead_mm=machine.sliders.screw_lead_mm,
         moved_mass_kg=machine.platform.moved_mass_kg,
+        guideway_angle_rad=machine.base.guideway_angles_rad,
+        joint_angle_rad=machine.platform.joint_angles_rad,
     )
 
 

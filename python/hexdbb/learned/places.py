@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from hexdbb import _core
@@ -36,7 +37,7 @@ SHARED = ("slider", "leg")
 """Places whose elements may share one function."""
 GUIDEWAY_PORT = "slider_joint"
 AXIS = {"lateral": 0, "vertical": 2}
-"""Axis of a guideway's frame (`_core.guideway_axes`) along which a place pushes."""
+"""Axis of a guideway's frame (x outward from the base centre, z up) along which a place pushes."""
 
 Push = tuple[int, tuple[tuple[int, float], ...]]
 """Element of the variable, from 0, and the engine's port columns that are pushed, each with its weight."""
@@ -104,20 +105,36 @@ class Learned:
         """Number of functions: one for each axis where the direction is not known."""
         return 3 if self.place in ("platform_joint", "ball", "cup") else 1
 
-    def pushes(self, component: int) -> tuple[Push, ...]:
-        """Return by which element's variable one function goes, and what it pushes."""
+    @property
+    def elements(self) -> tuple[int, ...]:
+        """Elements, from 0, by whose variable the functions go."""
+        if self.place in SHARED and self.element == ALL:
+            return tuple(range(6))
+        if self.place in AXIS:
+            return (2 * self.element - 2, 2 * self.element - 1)
+        return (max(self.element - 1, 0),)
+
+    def pushes(self, component: int, guideway_angles_rad: Sequence[float]) -> tuple[Push, ...]:
+        """Return by which element's variable one function goes, and what it pushes.
+
+        Parameters
+        ----------
+        component : int
+            Of the functions, from 0.
+        guideway_angles_rad : sequence of float, length 3
+            Directions of the machine's guideways about z.
+        """
         first = _core.PORTS[self.port][0]
         if self.place in SHARED:
-            chosen = range(6) if self.element == ALL else (self.element - 1,)
-            return tuple((each, ((first + each, 1.0),)) for each in chosen)
+            return tuple((each, ((first + each, 1.0),)) for each in self.elements)
         if self.place in AXIS:
-            axis = _core.guideway_axes(self.element - 1)[:, AXIS[self.place]]
-            sliders = (2 * self.element - 2, 2 * self.element - 1)
+            angle = guideway_angles_rad[self.element - 1]
+            axis = ((math.cos(angle), math.sin(angle), 0.0), (), (0.0, 0.0, 1.0))[AXIS[self.place]]
             return tuple(
-                (each, tuple((first + 3 * each + k, float(axis[k])) for k in range(3) if axis[k] != 0.0))
-                for each in sliders
+                (each, tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
+                for each in self.elements
             )
-        element = max(self.element - 1, 0)
+        (element,) = self.elements
         return ((element, ((first + 3 * element + component, 1.0),)),)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -144,7 +145,7 @@ class Space:
             Where the variable is not measured or hardly varies.
         """
         variable, name = hypothesis.variable, hypothesis.name
-        elements = [element for element, _ in hypothesis.pushes(0)]
+        elements = hypothesis.elements
         period = screw_lead_mm if variable.period == SCREW_LEAD else variable.period
         low, high, width = 0.0, period or 1.0, 0.0
         if variable.column:
@@ -239,14 +240,14 @@ class Space:
         points, variable = self.points(), self.hypothesis.variable
         if len(points) < 2:
             return np.full(1, float(len(samples)))
-        values = np.concatenate([_of(samples, variable, element) for element, _ in self.hypothesis.pushes(0)])
+        values = np.concatenate([_of(samples, variable, element) for element in self.hypothesis.elements])
         values = values[np.isfinite(values) & (np.abs(values) < NEVER)]
         if self.period:
             values = np.mod(values, self.period)
         edges = 0.5 * (points[1:] + points[:-1])
         return np.bincount(np.searchsorted(edges, values), minlength=len(points)).astype(np.float64)
 
-    def tables(self, coefficients: Floats) -> tuple[Table, ...]:
+    def tables(self, coefficients: Floats, guideway_angles_rad: Sequence[float]) -> tuple[Table, ...]:
         """Return the functions of some coefficients (mm), shape (size,), as a compensation needs them."""
         found, points, variable = [], self.points(), self.hypothesis.variable
         basis = self.functions(points)
@@ -256,7 +257,7 @@ class Space:
                 column=variable.column,
                 times=variable.times,
                 period=self.period,
-                pushes=self.hypothesis.pushes(component),
+                pushes=self.hypothesis.pushes(component, guideway_angles_rad),
                 knots=tuple(map(float, points)),
                 values_mm=tuple(map(float, basis @ part)),
             )

@@ -1,14 +1,14 @@
 """The machine file: nominal dimensions of a HexGlider and the CAN set-up of its drives.
 
-Model: base triangle of inradius BR with a guideway along each side, two sliders per guideway, six legs of one length l,
-platform with three ball joints on a circle of radius UR, IH above its reference point.
-Assumption: the nominal machine is symmetric; every departure from it is an effect of the model, not of this file.
-Source: chapter 2 of the thesis. Base frame: origin at the centre of the base triangle, z up.
+Model: three guideways at distance BR from the base centre, two sliders per guideway, six legs of length l, platform
+with three ball joints on a circle of radius UR, IH above its reference point. In the machine of the thesis guideways
+and ball joints lie at thirds of a turn and all legs and travels are alike; a file may state them one by one.
+Assumption: the file has the drawing's dimensions; every departure from the drawing is an effect of the model.
+Source: chapter 2 of the thesis. Base frame: origin at the base centre, z up.
 """
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -16,55 +16,13 @@ from pydantic import Field, model_validator
 
 from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table
-from hexdbb.files.validation import BadValueError, FileModel, Number, Positive, StrictModel, load_toml
+from hexdbb.files.validation import BadValueError, FileModel, load_toml
 from hexdbb.machine.can_setup import CanSetup
+from hexdbb.machine.dimensions import Base, Legs, Platform, Sliders
+from hexdbb.machine.home import home_heights_mm, home_legs
+from hexdbb.machine.limits_of_use import Joints, Workspace
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 from hexdbb.machine.tolerance import Tolerance
-
-
-class Base(StrictModel):
-    """Base triangle of the guideways."""
-
-    inradius_mm: Positive
-    """BR: distance of each guideway from the base centre."""
-
-
-class Platform(StrictModel):
-    """Moving platform."""
-
-    circumradius_mm: Positive
-    """UR: distance of each ball joint from the platform's axis."""
-    joint_plane_height_mm: Number
-    """IH: height of the ball joints above the platform's reference point."""
-    moved_mass_kg: Positive
-    """Mass of platform and tool, which loads the legs."""
-
-
-class Legs(StrictModel):
-    """Six legs of one length."""
-
-    length_mm: Positive
-    """l: distance between the two joints of a leg; long enough for the platform to stand centred and level."""
-
-
-class Sliders(StrictModel):
-    """Six sliders, two on each guideway."""
-
-    travel_mm: Annotated[tuple[Number, Number], Field(strict=False)]
-    """Least and largest slider coordinate, the least first."""
-    min_gap_mm: Positive
-    """Least distance of two sliders on one guideway; less than the travel."""
-    screw_lead_mm: Positive
-    """Slider travel per turn of the screw."""
-
-    @model_validator(mode="after")
-    def _travel_holds_two_sliders(self) -> Sliders:
-        least, largest = self.travel_mm
-        if least >= largest:
-            raise BadValueError(("travel_mm",), [least, largest], "the least coordinate before the largest")
-        if self.min_gap_mm >= largest - least:
-            raise BadValueError(("min_gap_mm",), self.min_gap_mm, f"less than the travel, {largest - least:g}")
-        return self
 
 
 class MachineFile(FileModel):
@@ -83,24 +41,29 @@ class MachineFile(FileModel):
     serial_number: Annotated[str, Field(min_length=1)] | None = None
     """Serial number of the machine, for reports."""
     base: Base
-    """Base triangle of the guideways."""
+    """Guideways about the base centre."""
     platform: Platform
     """Moving platform."""
     legs: Legs
-    """Six legs of one length."""
+    """Six legs, two on each guideway."""
     sliders: Sliders
     """Six sliders, two on each guideway."""
+    joints: Joints | None = None
+    """How far the joints turn; absent means that they are not looked at."""
+    workspace: Workspace | None = None
+    """Where the platform is wanted, for `hexdbb machine check`; absent means one is chosen by the machine's size."""
     tolerance: Tolerance | None = None
     """Largest values of ISO 230-4 quantities that pass, for reports; absent means that nothing is judged."""
     can: CanSetup | None = None
     """Drives and gauge on the bus; absent means the defaults below. Fits use none of it."""
 
     def __repr__(self) -> str:
-        least, largest = self.sliders.travel_mm
+        legs, travels = dict.fromkeys(self.legs.lengths_mm), dict.fromkeys(self.sliders.travels_mm)
         return (
             f"<MachineFile {self.name}: base inradius {self.base.inradius_mm:g} mm,"
-            f" platform circumradius {self.platform.circumradius_mm:g} mm, legs {self.legs.length_mm:g} mm,"
-            f" travel {least:g} to {largest:g} mm>"
+            f" platform circumradius {self.platform.circumradius_mm:g} mm,"
+            f" legs {', '.join(f'{each:g}' for each in legs)} mm,"
+            f" travel {', '.join(f'{least:g} to {largest:g}' for least, largest in travels)} mm>"
         )
 
     def _repr_html_(self) -> str:
@@ -120,16 +83,28 @@ class MachineFile(FileModel):
 
     @model_validator(mode="after")
     def _stands(self) -> MachineFile:
-        reach = abs(self.base.inradius_mm - self.platform.circumradius_mm)
-        if self.legs.length_mm <= reach:
-            expected = f"more than {reach:g}, the distance between guideway and joint circle: the platform cannot stand"
-            raise BadValueError(("legs", "length_mm"), self.legs.length_mm, expected)
-        # Centred and level, the two sliders of a guideway stand symmetrically about its midpoint, at s = sqrt(3) BR.
-        middle, half_gap = math.sqrt(3.0) * self.base.inradius_mm, self.sliders.min_gap_mm / 2.0
-        least, largest = self.sliders.travel_mm
-        if least > middle - half_gap or largest < middle + half_gap:
-            expected = f"room for two sliders about the guideway's midpoint, {middle:.1f} +- {half_gap:g}"
-            raise BadValueError(("sliders", "travel_mm"), [least, largest], expected)
+        """Check that the machine reaches its home: the platform centred, level and untwisted at some height."""
+        legs = home_legs(self)
+        for k, (leg, travel_mm) in enumerate(zip(legs, self.sliders.travels_mm, strict=True)):
+            if leg.length_mm <= leg.aside_mm:
+                expected = f"more than {leg.aside_mm:.6g}, the distance between guideway and joint circle: the platform"
+                raise BadValueError(("legs", *self.legs.length_key(k)), leg.length_mm, f"{expected} cannot stand")
+            near, far = leg.span_range_mm(travel_mm)
+            if far < near:
+                ends = sorted((leg.foot_mm, leg.place_mm(leg.widest_mm)))
+                expected = f"some of {ends[0]:.1f} to {ends[1]:.1f}, where slider {k + 1} stands with the platform"
+                raise BadValueError(
+                    ("sliders", *self.sliders.travel_key(k)), list(travel_mm), f"{expected} centred and level"
+                )
+        least, largest = home_heights_mm(self)
+        if least > largest:
+            travels = [list(each) for each in self.sliders.travels_mm]
+            whole = self.sliders.travel_key(0) == ("travel_mm",)
+            expected = (
+                f"travels that leave a height at which the platform stands centred and level with gaps of"
+                f" {self.sliders.min_gap_mm:g}: the joints would be {least:.1f} high or more, and {largest:.1f} or less"
+            )
+            raise BadValueError(("sliders", "travel_mm"), travels[0] if whole else travels, expected)
         return self
 
 

@@ -6,6 +6,7 @@ deviation (mm), T of `hexdbb.learned.Space.prior_factor`. So they are fitted lik
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -95,7 +96,7 @@ class LearnedEffect:
         hypothesis, columns = self.space.hypothesis, self.space.hypothesis.variable.columns
         pushed: dict[int, Floats] = {}
         for component in range(hypothesis.components):
-            for element, pushes in hypothesis.pushes(component):
+            for element, pushes in hypothesis.pushes(component, samples.machine.base.guideway_angles_rad):
                 if element not in pushed:
                     pushed[element] = self.space.design(samples, element) @ self.factor
                 for port, weight in pushes:
@@ -108,9 +109,9 @@ class LearnedEffect:
         """Return the splines' coefficients (mm) of the effect's values, shape (size,)."""
         return np.concatenate([self.factor @ part for part in np.split(values, self.space.hypothesis.components)])
 
-    def tables(self, values: Floats) -> tuple[Table, ...]:
-        """Return the function as a compensation needs it, one table a component."""
-        return self.space.tables(self.coefficients(values))
+    def tables(self, values: Floats, guideway_angles_rad: Sequence[float]) -> tuple[Table, ...]:
+        """Return the function as a compensation of a machine with such guideways needs it, one table a component."""
+        return self.space.tables(self.coefficients(values), guideway_angles_rad)
 
     def curves(self, values: Floats) -> tuple[Curve, ...]:
         """Return the function over its variable, one a component: the effect's values, shape (size,), set it."""

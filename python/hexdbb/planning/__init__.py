@@ -1,7 +1,7 @@
 """Planning: which circles determine most of the machine, before any of them is driven."""
 
 from hexdbb.planning.candidates import GRIDS, Grid
-from hexdbb.planning.clearances import Clearances, RequiredClearances, circle_clearances
+from hexdbb.planning.clearances import Clearances, RequiredClearances, angle_of_row, circle_clearances
 from hexdbb.planning.criteria import CRITERIA
 from hexdbb.planning.detectable import Detectable, detectable_sizes
 from hexdbb.planning.information import planned_unknowns
@@ -16,6 +16,7 @@ __all__ = [
     "Grid",
     "PlanRequest",
     "RequiredClearances",
+    "angle_of_row",
     "circle_clearances",
     "detectable_sizes",
     "planned_unknowns",

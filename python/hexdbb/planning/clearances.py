@@ -4,9 +4,7 @@ Bar: a cup holds its ball from one side, so the bar may leave the plane across t
 220 degree arc of a common bar goes 20 degrees beyond that plane, and supports stand in the way soon after). Both ends
 count: at the tool cup against the base's xy plane, at the centre ball against the platform's.
 
-Singular poses: with u the unit vector of a leg from slider to platform joint, r = R Q the joint's lever arm and d the
-guideway, the leg's fixed length gives (d.u) ds = u.v + (r x u).w (thesis 2.6, differentiated). The condition of the six
-rows [u, (r x u)/LEVER] / (d.u) measures how unequally slider motion becomes platform motion.
+Singular poses: the condition of `hexdbb.kinematics.legs`. Joints: the limits of the machine file, where it has them.
 """
 
 from __future__ import annotations
@@ -16,9 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb import _core
 from hexdbb.identifiability.redundancy import LEVER_MM
-from hexdbb.kinematics import engine_machine, inverse, rotation_from_rpy
+from hexdbb.kinematics import inverse, rotation_from_rpy
+from hexdbb.kinematics.legs import Legs
+from hexdbb.kinematics.margins import NearestEnd, NearestSliders, nearest_end, nearest_sliders
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle
 from hexdbb.trajectory.extent import FEED_IN_MM
@@ -42,6 +41,12 @@ class Clearances:
     """Largest angle of the bar, at the cup or at the platform's ball."""
     condition: float
     """Largest condition of the machine's own Jacobian along the circle, a turn counted at `LEVER_MM`."""
+    to_joint_limit_deg: float = np.inf
+    """Least angle left to a limit of the joints; infinite where the machine file has none."""
+    nearest: NearestSliders | None = None
+    """Which two sliders come nearest, how near, and at which of the circle's angles."""
+    nearest_end: NearestEnd | None = None
+    """Which slider comes nearest to an end of its travel."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +70,7 @@ class RequiredClearances:
             and found.to_min_gap_mm >= self.to_min_gap_mm
             and found.bar_angle_deg <= self.bar_angle_deg
             and found.condition <= self.condition
+            and found.to_joint_limit_deg >= 0.0
         )
 
 
@@ -92,17 +98,26 @@ def circle_clearances(machine: MachineFile, circle: Circle, cup_mm: tuple[float,
     sliders_mm, status = inverse(machine, position_mm, circle.platform_rpy_rad)
     if status.any():
         return None
-    low_mm, high_mm = machine.sliders.travel_mm
     rotation = rotation_from_rpy(circle.platform_rpy_rad)
     bar = (circle.ball_mm(angle_rad, cup_mm) - np.asarray(cup_mm)) / circle.radius_mm
     out_of_plane = max(float(np.abs(bar[:, 2]).max()), float(np.abs(bar @ rotation[:, 2]).max()))
     few = slice(None, None, CONDITION_EVERY)
+    end, sliders = nearest_end(machine, sliders_mm), nearest_sliders(sliders_mm)
+    legs = Legs.at(machine, position_mm, rotation, sliders_mm)
     return Clearances(
-        to_end_of_travel_mm=float(min(sliders_mm.min() - low_mm, high_mm - sliders_mm.max())),
-        to_min_gap_mm=float((sliders_mm[:, 1::2] - sliders_mm[:, 0::2]).min() - machine.sliders.min_gap_mm),
+        to_end_of_travel_mm=end.left_mm,
+        to_min_gap_mm=sliders.distance_mm - machine.sliders.min_gap_mm,
         bar_angle_deg=float(np.degrees(np.arcsin(min(out_of_plane, 1.0)))),
         condition=pose_condition(machine, position_mm[few], rotation, sliders_mm[few]),
+        to_joint_limit_deg=float(np.degrees(legs.to_joint_limit_rad(machine).min())),
+        nearest=sliders,
+        nearest_end=end,
     )
+
+
+def angle_of_row(row: int) -> float:
+    """Return the angle of the circle, deg, of a row of what `circle_clearances` looks at."""
+    return 360.0 / ANGLES * (row % ANGLES)
 
 
 def pose_condition(machine: MachineFile, position_mm: Floats, rotation: Floats, sliders_mm: Floats) -> float:
@@ -118,13 +133,4 @@ def pose_condition(machine: MachineFile, position_mm: Floats, rotation: Floats, 
     sliders_mm : ndarray, shape (n, 6)
         Slider coordinates of these poses, mm.
     """
-    engine = engine_machine(machine)
-    rows = np.empty((len(position_mm), 6, 6))
-    for leg in range(6):
-        along = _core.guideway_direction(leg // 2)
-        lever_mm = rotation @ _core.platform_joint(engine, leg // 2)
-        slider_mm = _core.guideway_vertex(engine, leg // 2) + sliders_mm[:, leg, None] * along
-        unit = (position_mm + lever_mm - slider_mm) / machine.legs.length_mm
-        motion = np.hstack([unit, np.cross(lever_mm, unit) / LEVER_MM])
-        rows[:, leg] = motion / (unit @ along)[:, None]
-    return float(np.linalg.cond(rows).max())
+    return float(Legs.at(machine, position_mm, rotation, sliders_mm).condition(LEVER_MM).max())

@@ -35,9 +35,9 @@ class Detectable:
 
     size: float | None
     """Smallest detectable size of the element and parameter detected most easily, in `unit`; None where none is
-    detectable at any size."""
+    detectable at a size that a machine can have (the limit of its value)."""
     hardest: float | None
-    """The same of the one detected least easily, in `unit`; None where one is never detectable."""
+    """The same of the one detected least easily, in `unit`; None where one is not detectable."""
     unit: str
     """Unit of files and JSON."""
     kept: float
@@ -72,13 +72,22 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     signature = sensitivity.scaled(own)
     rest = _core.project_out(signature, sensitivity.scaled(sensitivity.free & ~own))
     whole, left = np.linalg.norm(signature, axis=0), np.linalg.norm(rest, axis=0)
-    visible = left > ROUNDING_SHARE * whole.max()
-    parameter = sensitivity.where(own)[0]
-    rms_mm = left[visible] / np.sqrt(sensitivity.readings) / sensitivity.prior_sigma[own][visible]
-    sizes = DETECTION_RATIO * noise_mm / rms_mm * shown_factor(parameter.unit)
+    parameters, prior = sensitivity.where(own), sensitivity.prior_sigma[own]
+    with np.errstate(divide="ignore"):
+        needed = DETECTION_RATIO * noise_mm / (left / np.sqrt(sensitivity.readings) / prior)
+    seen = left > ROUNDING_SHARE * whole.max()
+    # No machine has a value beyond its limit: an effect that would need it is not detectable with this plan.
+    visible = seen & (needed <= [each.limit for each in parameters])
+    kept = float((left[seen] / whole[seen]).max(initial=0.0))
+    if not visible.any():
+        return Detectable(None, None, shown_unit(parameters[0].unit), kept)
+    # Values of several units compare by what is expected of each; the size is that of the easiest, and of its like.
+    easiest = parameters[int(np.argmin(np.where(visible, needed / prior, np.inf)))]
+    alike = np.array([each.unit == easiest.unit for each in parameters])
+    sizes = needed * shown_factor(easiest.unit)
     return Detectable(
-        size=float(sizes.min()) if len(sizes) else None,
-        hardest=float(sizes.max()) if visible.all() else None,
-        unit=shown_unit(parameter.unit),
-        kept=float((left[visible] / whole[visible]).max(initial=0.0)),
+        size=float(sizes[alike & visible].min()),
+        hardest=float(sizes[alike].max()) if visible[alike].all() else None,
+        unit=shown_unit(easiest.unit),
+        kept=kept,
     )

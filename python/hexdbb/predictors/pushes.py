@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.kinematics import engine_machine
 from hexdbb.model import Model
 from hexdbb.samples import Samples, linearise, port_sensitivity
 
@@ -54,7 +55,8 @@ class Pushes:
         ports = port_sensitivity(samples, model)
         sizes = np.array([each.prior_sigma for each in model.parameters()])
         own = linearise(samples, model).jacobian * sizes
-        across = np.array([_core.guideway_axes(slider // 2) for slider in range(6)])
+        machine = engine_machine(model.machine)
+        across = np.array([_core.guideway_axes(machine, slider // 2) for slider in range(6)])
         local = np.einsum("nki,kij->nkj", ports["slider_joint"], across)
         return cls(
             slider=ports["slider"],

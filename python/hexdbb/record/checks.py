@@ -73,8 +73,7 @@ def _findings(record: Record) -> Iterator[Finding]:
 
 
 def _travel_findings(record: Record) -> Iterator[Finding]:
-    least, largest = record.machine.sliders.travel_mm
-    for name in SLIDER_COLUMNS:
+    for name, (least, largest) in zip(SLIDER_COLUMNS, record.machine.sliders.travels_mm, strict=True):
         value = record.columns[name]
         beyond = (value < least - TRAVEL_MARGIN_MM) | (value > largest + TRAVEL_MARGIN_MM)
         yield name, beyond, f"within the travel of the machine's sliders, {least:g} to {largest:g} mm"

@@ -124,6 +124,8 @@ def _resolved(schema: Schema, definitions: Schema) -> Schema:
 
 def _type_words(schema: Schema, definitions: Schema) -> str:
     schema = _resolved(schema, definitions)
+    if "oneOf" in schema:
+        return "; or ".join(_type_words(each, definitions) for each in schema["oneOf"])
     if "const" in schema:
         return f"`{json.dumps(schema['const'])}`"
     if "enum" in schema:

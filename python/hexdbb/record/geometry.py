@@ -61,4 +61,4 @@ def _reach_mm(machine: MachineFile) -> float:
     """Return a bound of the distance of any place of the platform from the base centre."""
     platform = machine.platform
     height_mm = abs(platform.joint_plane_height_mm)
-    return 2.0 * machine.base.inradius_mm + machine.legs.length_mm + platform.circumradius_mm + height_mm
+    return 2.0 * machine.base.inradius_mm + max(machine.legs.lengths_mm) + platform.circumradius_mm + height_mm

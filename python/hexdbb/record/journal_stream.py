@@ -108,7 +108,8 @@ def _verified(data: bytes, schema: bytes) -> Batches:
         try:
             reader.seek(at)
             batch, header = _batch(pa.ipc.read_message(reader), schema)
-        except (pa.ArrowException, OSError, EOFError, ValueError, KeyError):
+        except (pa.ArrowException, OSError, EOFError, ValueError, KeyError, StopIteration):
+            # StopIteration: torn where what is left of a message reads as the end of a stream.
             at = _next_message(data, at)
             continue
         bad = _damaged(batch, header, schema, read.rows)

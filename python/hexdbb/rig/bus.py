@@ -96,10 +96,13 @@ class Rig:
         self, machine: MachineFile, truth: TruthFile, start_mm: Array, stall_tolerance_s: float
     ) -> list[DriveNode]:
         can, drives = machine.can_setup, []
-        for node_id, name, slider_mm in zip(can.drive_nodes, can.drive_eds, start_mm, strict=True):
+        travels_mm = machine.sliders.travels_mm
+        for node_id, name, slider_mm, travel_mm in zip(
+            can.drive_nodes, can.drive_eds, start_mm, travels_mm, strict=True
+        ):
             setup = DriveSetup(
                 can.counts_per_mm,
-                machine.sliders.travel_mm,
+                travel_mm,
                 machine.sliders.screw_lead_mm,
                 float(slider_mm),
                 truth.drive.lag_s,
@@ -255,8 +258,7 @@ def start_sliders_mm(machine: MachineFile, position_mm: Array, rotation: Array) 
         sliders = true_geometry(machine).sliders_for(position_mm, rotation)
     except InputError as error:
         raise InputError(f"start {error}") from None
-    low, high = machine.sliders.travel_mm
-    if np.any(sliders < low) or np.any(sliders > high):
-        found = np.round(sliders, 3).tolist()
-        raise InputError(f"start pose: sliders {found} mm (expected within {low:g} to {high:g})")
+    for slider, (at_mm, (low, high)) in enumerate(zip(sliders, machine.sliders.travels_mm, strict=True), start=1):
+        if not low <= at_mm <= high:
+            raise InputError(f"start pose: slider {slider} at {at_mm:.3f} mm (expected within {low:g} to {high:g})")
     return sliders

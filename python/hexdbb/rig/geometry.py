@@ -141,22 +141,23 @@ def true_geometry(machine: MachineFile, errors: GeometryErrors | None = None) ->
     errors = errors if errors is not None else GeometryErrors()
     anchors, directions = np.empty((6, 3)), np.empty((6, 3))
     for i in range(3):
-        point, direction = _guideway(machine.base.inradius_mm, i, errors)
+        point, direction = _guideway(machine, i, errors)
         for k in (2 * i, 2 * i + 1):
             directions[k] = direction
             anchors[k] = point + errors.slider_offset_mm[k] * direction
     return TrueGeometry(
         anchors,
         directions,
-        machine.legs.length_mm + errors.leg_length_mm,
+        np.array(machine.legs.lengths_mm) + errors.leg_length_mm,
         np.repeat(_joint_triangle(machine, errors.platform_side_mm), 2, axis=0),
         machine.platform.moved_mass_kg * STANDARD_GRAVITY_M_S2,
     )
 
 
-def _guideway(inradius_mm: float, i: int, errors: GeometryErrors) -> tuple[Array, Array]:
+def _guideway(machine: MachineFile, i: int, errors: GeometryErrors) -> tuple[Array, Array]:
     """Return the point at slider coordinate 0 and the direction of guideway i (0 to 2), base frame."""
-    local_to_base = rotation_z(2.0 * math.pi / 3.0 * i)
+    inradius_mm = machine.base.inradius_mm
+    local_to_base = rotation_z(machine.base.guideway_angles_rad[i])
     turn = rotation_x(errors.guideway_rotation_yz_rad[i]) @ rotation_z(errors.guideway_rotation_xy_rad[i])
     swing = rotation_z(errors.guideway_rotation_centre_rad[i])
     point = np.array([inradius_mm, 0.0, 0.0]) + turn @ np.array([0.0, SQRT3 * inradius_mm, 0.0])
@@ -167,13 +168,15 @@ def _guideway(inradius_mm: float, i: int, errors: GeometryErrors) -> tuple[Array
 def _joint_triangle(machine: MachineFile, longer_mm: Array) -> Array:
     """Return the ball joints Q1, Q2, Q3 in the platform frame, mm, shape (3, 3)."""
     radius, height = machine.platform.circumradius_mm, machine.platform.joint_plane_height_mm
-    angles = 2.0 * math.pi / 3.0 * np.arange(3)
+    angles = np.array(machine.platform.joint_angles_rad)
     nominal = radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    side_12, side_23, side_31 = SQRT3 * radius + longer_mm
+    side_12, side_23, side_31 = np.linalg.norm(nominal - np.roll(nominal, -1, axis=0), axis=1) + longer_mm
     # Q1 at the origin, Q2 on the x axis; counter-clockwise as the nominal triangle is.
     x3 = (side_12**2 + side_31**2 - side_23**2) / (2.0 * side_12)
     triangle = np.array([[0.0, 0.0], [side_12, 0.0], [x3, math.sqrt(side_31**2 - x3**2)]])
     triangle -= triangle.mean(axis=0)
-    cross = float(np.sum(triangle[:, 0] * nominal[:, 1] - triangle[:, 1] * nominal[:, 0]))
-    turn = rotation_z(math.atan2(cross, float(np.sum(triangle * nominal))))[:2, :2]
-    return np.column_stack([triangle @ turn.T, np.full(3, height)])
+    centre = nominal.mean(axis=0)
+    about = nominal - centre
+    cross = float(np.sum(triangle[:, 0] * about[:, 1] - triangle[:, 1] * about[:, 0]))
+    turn = rotation_z(math.atan2(cross, float(np.sum(triangle * about))))[:2, :2]
+    return np.column_stack([centre + triangle @ turn.T, np.full(3, height)])

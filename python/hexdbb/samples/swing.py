@@ -52,8 +52,8 @@ def _swing(machine: MachineFile, sliders_mm: Floats) -> Floats:
     swing = np.empty(sliders_mm.shape)
     for leg in range(6):
         guideway = leg // 2
-        axes = _core.guideway_axes(guideway)
-        along = _core.guideway_direction(guideway)
+        axes = _core.guideway_axes(nominal, guideway)
+        along = _core.guideway_direction(nominal, guideway)
         foot = _core.guideway_vertex(nominal, guideway) + sliders_mm[:, [leg]] * along
         reach = position_mm + rotation @ _core.platform_joint(nominal, guideway) - foot
         swing[:, leg] = np.arctan2(reach @ axes[:, 2], reach @ axes[:, 0])

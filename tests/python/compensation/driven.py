@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.compensation import make_compensation, path_targets
 from hexdbb.kinematics import engine_machine, inverse
-from hexdbb.machine import shipped_machine
+from hexdbb.machine import MachineFile, shipped_machine
 from hexdbb.model import Model
 from hexdbb.samples.swing import derived_columns
 
@@ -26,8 +26,8 @@ WARMING_K = 3.0
 class Table:
     """Columns of samples by name, as effects take them."""
 
-    def __init__(self, columns: Mapping[str, NDArray[Any]]) -> None:
-        self.columns = columns
+    def __init__(self, columns: Mapping[str, NDArray[Any]], machine: MachineFile = MACHINE) -> None:
+        self.columns, self.machine = columns, machine
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         return self.columns[name]
@@ -41,13 +41,14 @@ class Table:
         return len(self.columns["sliders_mm"])
 
 
-def path() -> Floats:
-    """A lap and a half of 90 mm at 3000 mm/min; shape (n, 3)."""
+def path(machine: MachineFile = MACHINE) -> Floats:
+    """A lap and a half of 90 mm at 3000 mm/min in the middle of the machine's workspace; shape (n, 3)."""
+    z_mm = 285.0 if machine.workspace is None else machine.workspace.centre_mm[2]
     angle = np.arange(0.0, 3.0 * np.pi, 50.0 / 90.0 * STEP_S)
-    return np.column_stack([90.0 * np.cos(angle), 90.0 * np.sin(angle), np.full(len(angle), 285.0)])
+    return np.column_stack([90.0 * np.cos(angle), 90.0 * np.sin(angle), np.full(len(angle), z_mm)])
 
 
-def table_of(sliders_mm: Floats) -> tuple[Table, _core.Samples]:
+def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table, _core.Samples]:
     """Return samples of drives at these coordinates, with every column that follows from them."""
     count = len(sliders_mm)
     zeros = np.zeros(count, np.int32)
@@ -55,16 +56,18 @@ def table_of(sliders_mm: Floats) -> tuple[Table, _core.Samples]:
     state["angle_rad"] = state["time_s"]
     set_up = _core.SetUp(cup_mm=np.zeros(3), ball_offset_mm=np.zeros(3), bar_length_mm=100.0)
     block = _core.Samples(sliders_mm=sliders_mm, set_up=zeros, mount=zeros, set_ups=[set_up], state=state)
-    block.derive(engine_machine(MACHINE))
+    block.derive(engine_machine(machine))
     columns = {**block.state, "sliders_mm": sliders_mm}
-    columns |= derived_columns(MACHINE, columns)
+    columns |= derived_columns(machine, columns)
     columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
-    return Table(columns), block
+    return Table(columns, machine), block
 
 
-def nominal_table() -> Table:
+def nominal_table(machine: MachineFile = MACHINE) -> Table:
     """Return samples of the nominal machine on the path."""
-    return table_of(inverse(MACHINE, path(), RPY)[0])[0]
+    sliders_mm, status = inverse(machine, path(machine), RPY)
+    assert not status.any()
+    return table_of(sliders_mm, machine)[0]
 
 
 def errors_mm(model: Model, targets_mm: Floats, commanded: Table | None = None) -> tuple[Floats, Table]:
@@ -73,20 +76,21 @@ def errors_mm(model: Model, targets_mm: Floats, commanded: Table | None = None) 
     What the learned effect depends on is that of the drives, but for the sliders' positions that of `commanded` where
     it is given: a controller knows the commanded motion, without that of the correction itself.
     """
-    table, block = table_of(targets_mm)
+    table, block = table_of(targets_mm, model.machine)
     columns = {**(commanded or table).columns, "sliders_mm": targets_mm, "warming_k": np.full(len(table), WARMING_K)}
-    driven = Table(columns)
+    driven = Table(columns, model.machine)
     engine = model.engine(lambda own, _: own.tabulated(driven))
     poses, status = _core.forward_table(engine, block)
     assert not status.any()
     reach_mm = 100.0  # from the reference point to a ball joint
     wanted = _core.rotation_from_rpy(*RPY).ravel()
-    of_position = np.abs(poses[:, :3] - path()).max(axis=1)
+    of_position = np.abs(poses[:, :3] - path(model.machine)).max(axis=1)
     return np.maximum(of_position, reach_mm * np.abs(poses[:, 3:] - wanted).max(axis=1)), driven
 
 
 def targets_of(model: Model) -> Floats:
     data = make_compensation(model, max_correction_mm=2.0, reference_temperature_c=20.0)
     assert not data.left_out, data.left_out
-    times_s = STEP_S * np.arange(len(path()))
-    return path_targets(data, path(), RPY, time_s=times_s, temperature_c=20.0 + WARMING_K).sliders_mm
+    places_mm = path(model.machine)
+    times_s = STEP_S * np.arange(len(places_mm))
+    return path_targets(data, places_mm, RPY, time_s=times_s, temperature_c=20.0 + WARMING_K).sliders_mm

@@ -22,6 +22,7 @@ from hexdbb.cli.compensate import command
 from hexdbb.compensation import make_compensation, path_targets, read_compensation, write_compensation
 from hexdbb.compensation.tables import halved, learned_tables
 from hexdbb.learned import Learned, Space
+from hexdbb.machine import load_machine
 from hexdbb.model import LearnedEffect, Model, Term, new_model, new_term, save_model
 
 SIZE_MM = 0.01
@@ -37,18 +38,23 @@ def nominal() -> Table:
     return nominal_table()
 
 
+@pytest.fixture(scope="module")
+def unlike() -> Table:
+    return nominal_table(load_machine(Path(__file__).parents[2] / "data" / "machines" / "unlike.toml"))
+
+
 def model_of(name: str, nominal: Table, beside: tuple[str, ...] = ("leg_length",)) -> Model:
     """A model with a learned effect of some `SIZE_MM`, and effects of the catalogue beside it."""
     space = Space.of(Learned.parse(name), nominal, MACHINE.sliders.screw_lead_mm)
     effect = LearnedEffect(space, 1.0, SIZE_MM)
     draw = np.random.default_rng(sum(map(ord, name)))
     values = SIZE_MM * draw.standard_normal(effect.size)
-    known = new_model(MACHINE, list(beside))
+    known = new_model(nominal.machine, list(beside))
     sizes = 0.5 * np.array([each.prior_sigma for each in known.parameters()])
     known = known.with_values(sizes)
     term = new_term(name, effect.size)
     learned = Term(name, term.free, values, term.sigma, term.identifiable, effect)
-    return Model(MACHINE, (*known.terms, learned))
+    return Model(nominal.machine, (*known.terms, learned))
 
 
 @pytest.mark.parametrize(
@@ -75,6 +81,28 @@ def test_the_machine_as_learned_takes_the_commanded_poses(name: str, nominal: Ta
     model = model_of(name, nominal)
     uncorrected, _ = errors_mm(model, nominal["sliders_mm"])
     remaining, _ = errors_mm(model, targets_of(model), nominal)
+    assert uncorrected[ENDS].max() > 3e-3
+    assert remaining[ENDS].max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "learned:lateral:2:fine_position",
+        "learned:slider:4:screw_phase",
+        "learned:slider:6:leg_force",
+        "learned:leg:3:joint_angle",
+        "learned:leg:4:turning_rate",
+        "learned:leg:2:platform_turning_rate",
+        "learned:leg:5:platform_joint_angle",
+        "learned:leg:all:swing_rate",
+    ],
+)
+def test_so_does_a_machine_that_is_not_alike_on_all_sides(name: str, unlike: Table) -> None:
+    """Unequal legs, guideways in other directions: the controller's formulas of joints hold for them too."""
+    model = model_of(name, unlike, ("leg_length", "slider_offset", "guideway_translation"))
+    uncorrected, _ = errors_mm(model, unlike["sliders_mm"])
+    remaining, _ = errors_mm(model, targets_of(model), unlike)
     assert uncorrected[ENDS].max() > 3e-3
     assert remaining[ENDS].max() < 1e-4
 
@@ -180,7 +208,7 @@ def test_knots_are_halved_until_lines_are_close() -> None:
 
 def test_a_table_holds_the_whole_function(nominal: Table) -> None:
     model = model_of("learned:leg:5:turning_rate", nominal)
-    (table,) = learned_tables(model.terms[-1])
+    (table,) = learned_tables(model.terms[-1], MACHINE)
     effect = model.terms[-1].learned
     assert effect is not None
     at = np.linspace(table.knots[0], table.knots[-1], 1001)

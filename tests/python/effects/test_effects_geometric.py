@@ -110,7 +110,7 @@ def test_legs_and_sides_are_as_long_as_said(samples: _core.Samples) -> None:
     poses, status = _core.forward_table(model, samples)
     assert not status.any()
     vertices = np.array([_core.guideway_vertex(ENGINE, k // 2) for k in range(6)])
-    directions = np.array([_core.guideway_direction(k // 2) for k in range(6)])
+    directions = np.array([_core.guideway_direction(ENGINE, k // 2) for k in range(6)])
     legs = FILE.legs.length_mm + longer
     for pose, s in zip(poses, sliders_of(samples), strict=True):
         joints = vertices + s[:, None] * directions
@@ -149,8 +149,8 @@ def test_turned_guideway_is_a_rigid_turn(
         for k in range(6):
             i = k // 2
             centre = _core.guideway_midpoint(ENGINE, i) if about_midpoint else np.zeros(3)
-            turn = Rotation.from_rotvec(angles[i] * _core.guideway_axes(i)[:, local_axis])
-            slider = _core.guideway_vertex(ENGINE, i) + s[k] * _core.guideway_direction(i)
+            turn = Rotation.from_rotvec(angles[i] * _core.guideway_axes(ENGINE, i)[:, local_axis])
+            slider = _core.guideway_vertex(ENGINE, i) + s[k] * _core.guideway_direction(ENGINE, i)
             ball = pose[:3] + pose[3:].reshape(3, 3) @ _core.platform_joint(ENGINE, i)
             length = np.linalg.norm(ball - centre - turn.apply(slider - centre))
             assert length == pytest.approx(FILE.legs.length_mm, abs=1e-9)

@@ -9,6 +9,7 @@ import pytest
 
 from hexdbb import _core
 from hexdbb.evidence.readings import Linear, Readings, State
+from hexdbb.machine import shipped_machine
 from hexdbb.samples.prediction import PORT_COUNT
 
 
@@ -37,7 +38,7 @@ def readings() -> Readings:
         "lap": np.arange(rows) // 120 % 2,
         "sweep": circle,
     }
-    return Readings(State(columns, 5.0), groups, np.full(rows, 5e-4), _ports(turn))
+    return Readings(State(columns, shipped_machine()), groups, np.full(rows, 5e-4), _ports(turn))
 
 
 @pytest.fixture

@@ -21,7 +21,7 @@ ENGINE = engine_machine(FILE)
 HOME = np.array([0.0, 0.0, 280.0])
 JOINTS = np.array([_core.platform_joint(ENGINE, i) for i in (0, 0, 1, 1, 2, 2)])
 VERTICES = np.array([_core.guideway_vertex(ENGINE, i) for i in (0, 0, 1, 1, 2, 2)])
-DIRECTIONS = np.array([_core.guideway_direction(i) for i in (0, 0, 1, 1, 2, 2)])
+DIRECTIONS = np.array([_core.guideway_direction(ENGINE, i) for i in (0, 0, 1, 1, 2, 2)])
 
 
 def rotation(rpy: Vector) -> Vector:

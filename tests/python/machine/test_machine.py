@@ -56,11 +56,11 @@ def test_shipped_eds_files_are_there() -> None:
     ("old", "new", "message"),
     [
         ("inradius_mm", "inradius_m", "machine.toml: base.inradius_m: unknown key (expected inradius_mm: the unit"),
-        ("inradius_mm = 250.0", "inradius_mm = 0.25", "machine.toml: sliders.travel_mm: [20.0, 846.0] (expected room"),
+        ("inradius_mm = 250.0", "inradius_mm = 0.25", "machine.toml: sliders.travel_mm: [20.0, 846.0] (expected some"),
         ("inradius_mm = 250.0", "inradius_mm = -250", "machine.toml: base.inradius_mm: -250 (expected a number > 0)"),
         ("length_mm = 400.0", "length_mm = 130", "machine.toml: legs.length_mm: 130 (expected more than 130, the dis"),
         ("[20.0, 846.0]", "[846.0, 20.0]", "machine.toml: sliders.travel_mm: [846.0, 20.0] (expected the least coord"),
-        ("[20.0, 846.0]", "[20.0, 420.0]", "machine.toml: sliders.travel_mm: [20.0, 420.0] (expected room for two sl"),
+        ("[20.0, 846.0]", "[20.0, 420.0]", "machine.toml: sliders.travel_mm: [20.0, 420.0] (expected some of 433.0"),
         ("min_gap_mm = 60.0", "min_gap_mm = 0", "machine.toml: sliders.min_gap_mm: 0 (expected a number > 0)"),
         ("min_gap_mm = 60.0", "min_gap_mm = 900", "machine.toml: sliders.min_gap_mm: 900 (expected less than the"),
         ("moved_mass_kg = 12.0", "moved_mass_kg = 0", "machine.toml: platform.moved_mass_kg: 0 (expected a number >"),

@@ -40,9 +40,21 @@ def test_a_signature_of_that_size_leaves_three_times_the_noise() -> None:
 def test_sizes_grow_with_the_noise() -> None:
     fine, coarse = (detectable_sizes(TAKEN, noise_mm) for noise_mm in (NOISE_MM, 4 * NOISE_MM))
     for effect, each in fine.items():
-        if each.size is not None:
+        if coarse[effect].size is not None and coarse[effect].unit == each.unit:
             assert coarse[effect].size == pytest.approx(4 * each.size)
-    assert fine["leg_length"].size is not None
+    assert coarse["leg_length"].size is not None
+
+
+def test_what_no_machine_has_is_not_detectable() -> None:
+    """A size beyond the limit of its value is none: circles of the bar's own length show no error of its scale."""
+    limits = {
+        each.effect: each.limit for each in TAKEN.parameters if each.effect in ("bar_gain", "guideway_translation")
+    }
+    found = detectable_sizes(TAKEN, NOISE_MM)
+    assert found["bar_gain"].size is None
+    assert found["guideway_translation"].size is not None
+    assert found["guideway_translation"].size < 1e3 * limits["guideway_translation"]
+    assert detectable_sizes(TAKEN, 4 * NOISE_MM)["guideway_translation"].size is None
 
 
 def test_what_others_explain_wholly_is_never_detectable() -> None:

@@ -118,7 +118,7 @@ def test_2_6_to_2_8_sliders(poses: list[Reached]) -> None:
     for pose in poses:
         for i in range(3):
             vertex = _core.guideway_vertex(ENGINE, i)
-            other = vertex + SIDE_B * _core.guideway_direction(i)
+            other = vertex + SIDE_B * _core.guideway_direction(ENGINE, i)
             t, t_other = np.linalg.norm(pose.joints[:, i] - vertex), np.linalg.norm(pose.joints[:, i] - other)
             cosine = (t**2 - t_other**2 + SIDE_B**2) / (2 * t * SIDE_B)  # (2.6)
             root = np.sqrt(LEG**2 - t**2 * (1 - cosine**2))

@@ -69,8 +69,8 @@ class Straightness(GuidewayTable):
 
     def start(self, machine: MachineFile) -> Mechanism:
         """See `MechanismTable.start`."""
-        lateral = arc(self.lateral_um * 1e-3, machine.sliders.travel_mm)
-        vertical = arc(self.vertical_um * 1e-3, machine.sliders.travel_mm)
+        lateral = arc(self.lateral_um * 1e-3, machine.sliders.guideway_travels_mm[self.guideway - 1])
+        vertical = arc(self.vertical_um * 1e-3, machine.sliders.guideway_travels_mm[self.guideway - 1])
         return across(self.guideway, lambda _, at_mm: lateral(at_mm), lambda _, at_mm: vertical(at_mm))
 
 
@@ -84,7 +84,8 @@ class GuidewayBend(GuidewayTable):
 
     def start(self, machine: MachineFile) -> Mechanism:
         """See `MechanismTable.start`."""
-        height, tau_s = arc(self.vertical_um * 1e-3, machine.sliders.travel_mm), self.time_constant_s
+        travel_mm, tau_s = machine.sliders.guideway_travels_mm[self.guideway - 1], self.time_constant_s
+        height = arc(self.vertical_um * 1e-3, travel_mm)
 
         def grown(motion: Motion, at_mm: Array) -> Array:
             bow: Array = -np.expm1(-motion.time_s / tau_s) * height(at_mm)

@@ -59,7 +59,8 @@ class ScrewThermal(SliderTable):
 
     def start(self, machine: MachineFile) -> Mechanism:
         """See `MechanismTable.start`."""
-        slider, middle_mm = self.slider - 1, sum(machine.sliders.travel_mm) / 2.0
+        slider = self.slider - 1
+        middle_mm = sum(machine.sliders.travels_mm[slider]) / 2.0
         held_mm = middle_mm if self.held_at_mm is None else self.held_at_mm
 
         def action(motion: Motion, push: Push) -> None:

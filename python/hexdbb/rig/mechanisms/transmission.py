@@ -158,7 +158,8 @@ class LeadError(SliderTable):
 
     def start(self, machine: MachineFile) -> Mechanism:
         """See `MechanismTable.start`."""
-        slider, per_mm, middle_mm = self.slider - 1, self.error_um_m * 1e-6, sum(machine.sliders.travel_mm) / 2.0
+        slider, per_mm = self.slider - 1, self.error_um_m * 1e-6
+        middle_mm = sum(machine.sliders.travels_mm[slider]) / 2.0
 
         def action(motion: Motion, push: Push) -> None:
             from_middle_mm: Array = motion.drive_mm[:, slider] - middle_mm

@@ -106,8 +106,10 @@ class MachineScene:
             for start, end in guideway_ends(machine):
                 self._rod(start, end, 5.0, STEEL)
             self._sliders = [ui.scene.box(34.0, 34.0, 26.0).material(STEEL) for _ in range(6)]
-            length_mm = machine.legs.length_mm
-            self._legs = [ui.scene.cylinder(LEG_MM, LEG_MM, length_mm, 16).material("#B8BFC7") for _ in range(6)]
+            self._legs = [
+                ui.scene.cylinder(LEG_MM, LEG_MM, length_mm, 16).material("#B8BFC7")
+                for length_mm in machine.legs.lengths_mm
+            ]
             with ui.scene.group() as self._platform:
                 ui.scene.extrusion(outline, PLATFORM_MM).move(z=height_mm).material("#9FB3C8", 0.85)
             with ui.scene.group() as self._moved:
