@@ -11,6 +11,10 @@ if TYPE_CHECKING:
     from hexdbb.evidence.search import Node, Search
 
 
+SLOW_DRIFTS = 3
+"""Effects that can be made to cancel but for something else; two have not the freedom."""
+
+
 def needs_all(search: Search, node: Node) -> bool:
     """Check that no hypothesis of a set could be left out, and that known effects together are what they explain."""
     return all(needs(search, node, member) for member in node.members) and _are_of_size(search, node)
@@ -50,15 +54,15 @@ def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:
 
 
 def _are_of_size(search: Search, node: Node) -> bool:
-    """Check that what several known effects push is not mostly what geometry pushes too.
+    """Check that what several known effects push is neither mostly what geometry pushes too, nor undone by each other.
 
     Slow drifts that geometry stands in for can be made to cancel but for a step that none of them has.
     """
     sizes = _sizes(search, node)
-    if len(sizes) < max(len(node.members), 2):
+    if len(sizes) < max(len(node.members), SLOW_DRIFTS):
         return True
     explained = search.root.trial.left - node.trial.left + search.trials.explained_before
-    return sum(sizes.values()) >= search.criteria.of_size * explained
+    return search.criteria.of_size <= sum(sizes.values()) / max(explained, 1e-9) <= 1.0 / search.criteria.of_size
 
 
 def _sizes(search: Search, node: Node) -> dict[Known, float]:
