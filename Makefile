@@ -90,7 +90,8 @@ sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSan
 
 .PHONY: demo
 demo: setup  ## circular tests on the simulated rig: diagnosed, compared, a hidden fault found and added
-	@PATH="$(CURDIR)/$(BIN):$$PATH" .ci/scripts/demo.sh
+	@rm -rf demo
+	@$(BIN)/hexdbb demo demo --all --rate 20
 
 .PHONY: bench
 bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md, docs/real-time.md
