@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 
+from hexdbb.cli.consoles import say
 from hexdbb.cli.demo_story import CHAPTERS, HIDDEN, Fault
 from hexdbb.errors import InputError, RunError
 from hexdbb_start import INTERRUPTED
@@ -83,7 +84,7 @@ def _run(arguments: list[str]) -> None:
     """Run a command as a process of its own, as a user does: it prints for itself."""
     _print(f"\n$ {shlex.join(arguments)}")
     program = f"from hexdbb_start import {PROGRAMS[arguments[0]]} as run; run()"
-    process = subprocess.Popen([sys.executable, "-c", program, *arguments[1:]], stdin=subprocess.DEVNULL)
+    process = subprocess.Popen([sys.executable, "-P", "-c", program, *arguments[1:]], stdin=subprocess.DEVNULL)
     try:
         status = process.wait()
     except KeyboardInterrupt:
@@ -104,5 +105,5 @@ def _interrupted(process: subprocess.Popen[bytes]) -> int:
 
 def _print(text: str, nl: bool = True) -> None:
     """Print at once: the commands write to the same stream."""
-    click.echo(text, nl=nl)
+    say(text, nl=nl)
     sys.stdout.flush()
