@@ -130,6 +130,7 @@ wheel: | system  ## wheels with all of C++ inside, for WHEEL_PYTHONS, into dist/
 	@.ci/scripts/wheel.sh $(WHEEL_PYTHONS)
 
 .PHONY: deb
+deb: export HEXDBB_DEB = ON
 deb: | system  ## packages of Debian for the controller PC: the library, and LinuxCNC's module where its headers are
 	@.ci/scripts/deb.sh
 

