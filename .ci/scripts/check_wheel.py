@@ -38,7 +38,7 @@ def licences(root: Path) -> set[str]:
 def faults(wheel: Path, root: Path = ROOT) -> Iterator[str]:
     """Yield what is wrong with a wheel of the tree at root."""
     with zipfile.ZipFile(wheel) as archive:
-        names = set(archive.namelist())
+        names = {name for name in archive.namelist() if not name.endswith("/")}  # auditwheel enters folders too
         inside = {name for name in names if ".dist-info/" not in name}
         module = {name for name in inside if name.startswith("hexdbb/_core.") and name.endswith(".so")}
         files = expected_files(root)
