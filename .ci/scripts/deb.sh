@@ -13,13 +13,13 @@ for folder in /usr/include ${CMAKE_INCLUDE_PATH:-}; do
 done
 [ $linuxcnc = ON ] || echo "note: linuxcnc-uspace-dev is not installed: LinuxCNC's module is packaged as source alone"
 
-cmake_dir=build/packages/cmake  # of `make wheel` too: the engine is the same
-made=build/packages/deb
-rm -rf $made $cmake_dir/CMakeCache.txt
-$step "Configure the packages" cmake --preset deb -B $cmake_dir -D HEXDBB_LINUXCNC=$linuxcnc
+cmake_dir=build/deb
+made=build/packages
+rm -rf $made
+$step "Configure the packages" cmake --preset deb -D HEXDBB_LINUXCNC=$linuxcnc
 $step "Compile the packages" cmake --build $cmake_dir
 $step "Packages of Debian" cpack --config $cmake_dir/CPackConfig.cmake -B $made
-$step "Programs against the packages" .ci/scripts/check_deb.sh $made build/packages/check
+$step "Programs against the packages" .ci/scripts/check_deb.sh $made build/packages-check
 mkdir -p dist
 mv $made/*.deb dist/
 ls -l dist/*.deb

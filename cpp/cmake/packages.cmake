@@ -1,5 +1,6 @@
 # Packages of Debian for the controller PC, made by `make deb`: the library to compile against, and LinuxCNC's module where
 # it was built. Names of files and folders are those of Debian with the prefix /usr (preset `deb`).
+include(GNUInstallDirs)
 install(DIRECTORY firmware_interfaces/linuxcnc DESTINATION ${CMAKE_INSTALL_DATADIR}/hexdbb COMPONENT development)
 install(FILES firmware_interfaces/ballbar_gauge.eds firmware_interfaces/hexglider_drive.eds
   firmware_interfaces/ballbar_gauge_od.h firmware_interfaces/hexglider_drive_od.h
@@ -24,9 +25,9 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libceres-dev (>= 2.1), linuxcnc-uspace-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
   "Kinematics, compensation and diagnosis of a HexGlider
- Static libraries, C++ headers and the C interface, with CMake and pkg-config files;
- the source of LinuxCNC's kinematics module with a sample configuration;
- EDS files and object dictionaries of the CANopen nodes.")
+Static libraries, C++ headers and the C interface, with CMake and pkg-config files;
+the source of LinuxCNC's kinematics module with a sample configuration;
+EDS files and object dictionaries of the CANopen nodes.")
 
 if(TARGET hexdbb_kins)
   list(APPEND HEXDBB_PACKAGES linuxcnc)
@@ -38,7 +39,7 @@ if(TARGET hexdbb_kins)
   set(CPACK_DEBIAN_LINUXCNC_PACKAGE_DEPENDS "linuxcnc-uspace")
   set(CPACK_COMPONENT_LINUXCNC_DESCRIPTION
     "LinuxCNC's kinematics module of the HexGlider
- Forward and inverse kinematics with the compensation of a machine's measured errors.")
+Forward and inverse kinematics with the compensation of a machine's measured errors.")
 endif()
 set(CPACK_COMPONENTS_ALL ${HEXDBB_PACKAGES})
 include(CPack)

@@ -34,7 +34,7 @@ ENDS_WITHIN_S = 3.0
     help="Readings per second of machine time; fewer take less time.",
 )
 def command(folder: Path, every: bool, rate_hz: float) -> None:
-    """Find a fault hidden in a simulated machine, step by step: half a minute.
+    """Find a fault hidden in a simulated machine, step by step: some 20 s of processor time.
 
     Each command is printed before it runs, as it can be typed again. Records, models, pictures and the report stay in
     FOLDER, which must be empty or new.
