@@ -90,7 +90,8 @@ sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSan
 
 .PHONY: demo
 demo: setup  ## circular tests on the simulated rig: diagnosed, compared, a hidden fault found and added
-	@PATH="$(CURDIR)/$(BIN):$$PATH" .ci/scripts/demo.sh
+	@rm -rf demo
+	@$(BIN)/hexdbb demo demo --all --rate 20
 
 .PHONY: bench
 bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md, docs/real-time.md
@@ -120,10 +121,23 @@ soak: setup  ## 100 runs in real time while the engine compiles, half an hour; r
 fuzz: setup  ## 10000 damaged inputs over all formats; failing ones go to build/fuzz
 	@$(BIN)/python -m tests.fuzz --count 10000
 
+# --- packages -------------------------------------------------------------------------------------------------------
+
+WHEEL_PYTHONS ?= $(PYTHON)
+
+.PHONY: wheel
+wheel: | system  ## wheels with all of C++ inside, for WHEEL_PYTHONS, into dist/; each is tried in an empty environment
+	@.ci/scripts/wheel.sh $(WHEEL_PYTHONS)
+
+.PHONY: deb
+deb: export HEXDBB_DEB = ON
+deb: | system  ## packages of Debian for the controller PC: the library, and LinuxCNC's module where its headers are
+	@.ci/scripts/deb.sh
+
 # --- upkeep ---------------------------------------------------------------------------------------------------------
 
-.PHONY: lint lint-cpp lint-python lint-types lint-spelling
-lint: lint-cpp lint-python lint-types lint-spelling  ## format, style, types, spelling
+.PHONY: lint lint-cpp lint-python lint-types lint-spelling lint-ci
+lint: lint-cpp lint-python lint-types lint-spelling lint-ci  ## format, style, types, spelling, CI files
 
 lint-cpp: $(VENV)/.dependencies
 	$(BIN)/clang-format --dry-run -Werror $(CPP_FORMATTED)
@@ -137,6 +151,9 @@ lint-types: $(VENV)/.dependencies
 
 lint-spelling: $(VENV)/.dependencies
 	$(BIN)/codespell
+
+lint-ci: $(VENV)/.dependencies
+	$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
 
 .PHONY: format
 format: $(VENV)/.dependencies  ## rewrite sources in the house format
@@ -153,5 +170,5 @@ schemas: setup  ## published JSON schemas from the result types
 	@$(BIN)/python -m hexdbb.cli.schemas
 
 .PHONY: clean
-clean:  ## remove the builds, the virtual environment and the demo's results
-	rm -rf build demo $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis
+clean:  ## remove builds, packages, the virtual environment and the demo's results
+	rm -rf build demo dist $(VENV) .mypy_cache .pytest_cache .ruff_cache .hypothesis

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Check and install what pip cannot: a recent Python, the compiler and the C++ libraries of the engine. Missing packages
 # are installed with apt on Debian and Ubuntu; elsewhere the list of packages is printed and the build goes on.
-# HEXDBB_LINUXCNC=ON adds LinuxCNC, which Debian has from version 12.
+# HEXDBB_LINUXCNC=ON adds LinuxCNC, which Debian has from version 12; HEXDBB_DEB=ON what makes packages of Debian.
 set -euo pipefail
 
 python=${PYTHON:-python3}
@@ -26,6 +26,10 @@ fi
 
 if [ "${HEXDBB_LINUXCNC:-OFF}" = ON ]; then
   packages+=(linuxcnc-uspace linuxcnc-uspace-dev pkg-config)
+fi
+
+if [ "${HEXDBB_DEB:-OFF}" = ON ]; then
+  packages+=(dpkg-dev file pkg-config)
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

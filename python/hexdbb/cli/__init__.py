@@ -11,6 +11,7 @@ from hexdbb.cli.exits import Program, reports_errors
 from hexdbb_start import ends_at_once
 
 COMMANDS = {
+    "demo": "find a fault hidden in a simulated machine, step by step",
     "rig": "run the simulated rig as a process of its own",
     "eds": "check whether drives and gauges can run the test, by their EDS files",
     "machine": "describe a machine of one's own, draw it, check what it reaches",
@@ -56,7 +57,7 @@ def cli() -> None:
     """Find out why a HexGlider does not go where it is told, from double-ball-bar circular tests.
 
     \b
-    Measure with hexdbb-run, then for example:
+    See what it does: hexdbb demo. Measure with hexdbb-run, then for example:
       hexdbb diagnose demo.parquet -m model.toml
       hexdbb compare  demo.parquet -m model.toml
     """

@@ -34,7 +34,10 @@ NOT_RUN = {
     r"^hexdbb workbench": "serves until it is ended, at an address drawn anew; tests/python/workbench opens it",
     r"^(?:cmake|sudo|pip|git) ": "builds or installs; held by tests of their own",
 }
-PAGES_NOT_RUN = {"docs/closed-loop.md": "250 readings a second for minutes; `make closed-loop` does it, five machines"}
+PAGES_NOT_RUN = {
+    "docs/closed-loop.md": "250 readings a second for minutes; `make closed-loop` does it, five machines",
+    "docs/your-machine.md": "asks questions, then looks for circles for a minute; tests/python/machine does both, coarser",
+}
 """Of these commands only the options are checked."""
 SERVES = re.compile(r"^hexdbb rig .*--port ")
 """What serves until it is ended: it stays in the background while the page's other commands run."""
