@@ -64,6 +64,9 @@ class Loop:
         Targets sent last, counts, shape (6,).
     times : CycleTimes
         Histograms of the cycles since `restart_time`, for a display.
+    while_waiting : callable
+        Called in lockstep whenever the time for answers is over and some are missing: earlier SYNCs are settled by
+        then, and the wait may be long.
     """
 
     def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float, cycle_s: float) -> None:
@@ -77,6 +80,7 @@ class Loop:
         self.last_missed = 0
         self.counts: list[int] = [0] * 6
         self.times = CycleTimes()
+        self.while_waiting: Callable[[], None] = nothing
         self._incomplete = False
         self._owing, self._owed_cycles = 0, max(2, round(OWED_S / cycle_s))
         clock.start()
@@ -119,8 +123,10 @@ class Loop:
         self._exchange.send_sync()
         self.times.take(self._exchange.sync_s, self.last_missed)
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
-        if len(feedback.missing) == SLOTS and not self.clock.real_time:
-            self._wait_for_any(controlwords, counts)
+        if feedback.missing and not self.clock.real_time:
+            self.while_waiting()
+            if len(feedback.missing) == SLOTS:
+                self._wait_for_any(controlwords, counts)
         self._incomplete = bool(feedback.missing)
         return feedback
 
@@ -177,6 +183,7 @@ class Loop:
             self._send(controlwords, counts)
             if len(self._exchange.collect(self.clock.answer_timeout_s()).missing) < SLOTS:
                 return
+            self.while_waiting()
 
     def restart_time(self) -> None:
         """Restart the time of motion: the next SYNC has index 0."""
@@ -228,6 +235,10 @@ class Loop:
         if now_s >= self._heartbeat_due_s:
             self._link.bus.send(self._heartbeat)
             self._heartbeat_due_s = now_s + self._heartbeat_s
+
+
+def nothing() -> None:
+    """Do nothing."""
 
 
 def _run(work: Callable[[], T], future: Future[T]) -> None:

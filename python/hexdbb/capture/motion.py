@@ -24,7 +24,7 @@ from hexdbb.capture.cia402 import (
     state_of,
 )
 from hexdbb.capture.exchange import Feedback
-from hexdbb.capture.loop import Loop
+from hexdbb.capture.loop import Loop, nothing
 from hexdbb.capture.standstill import Standstill
 from hexdbb.capture.transport import one_line
 from hexdbb.capture.watch import Fault, Watch
@@ -46,6 +46,9 @@ STOPPED_STATES = (
 VERIFY_SYNCS = 25
 """SYNCs in lockstep between two looks for answers too many: 1 ms of silence each, a tenth of the time that so many
 cycles take. What is not verified is dropped if there is one: of a circle of 2,500 samples one in a hundred."""
+VERIFY_S = 0.1
+"""Longest time between two such looks, s, where the computer is so busy that 25 SYNCs take longer: samples that are not
+verified are not on disk, and would be lost if the controller were killed."""
 
 
 class Rows(Protocol):
@@ -175,11 +178,26 @@ class AxisGroup:
         can.CanError
             The bus is lost.
         """
-        enabled = [Command.ENABLE_OPERATION] * 6
         watch, loop = self._watch, self._loop
         # A heartbeat sent before the nodes were started may have arrived only now.
         watch.supervision.forget_stale_states()
-        rows = len(counts)
+        # A long wait for answers must not keep samples from the disk that are certain already.
+        loop.while_waiting = lambda: kept.settle(loop.confirm(), held=0)
+        try:
+            self._follow(counts, gauge_watched, kept, pauses)
+        finally:
+            loop.while_waiting = nothing
+        kept.settle(loop.confirm(), held=0)
+
+    def _follow(
+        self,
+        counts: NDArray[np.int32],
+        gauge_watched: NDArray[np.bool_],
+        kept: Rows,
+        pauses: Mapping[int, Callable[[], None]],
+    ) -> None:
+        watch, loop, enabled = self._watch, self._loop, [Command.ENABLE_OPERATION] * 6
+        rows, verified_s = len(counts), time.monotonic()
         for row in range(rows + 1):
             if row in pauses:
                 watch.expected = loop.counts
@@ -193,9 +211,9 @@ class AxisGroup:
                 kept.keep(row - 1, feedback)
             if loop.clock.real_time:
                 kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
-            elif row % VERIFY_SYNCS == 0:
+            elif row % VERIFY_SYNCS == 0 or time.monotonic() - verified_s > VERIFY_S:
                 kept.settle(loop.confirm(), held=0)
-        kept.settle(loop.confirm(), held=0)
+                verified_s = time.monotonic()
 
     def _check(self) -> None:
         """Check the answers to the last SYNC; raises `MotionFaultError` if a check finds a fault."""

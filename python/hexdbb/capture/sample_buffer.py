@@ -10,6 +10,7 @@ between target and position columns.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Sequence
 
 import numpy as np
@@ -20,8 +21,9 @@ from hexdbb.record import SLIDER_COLUMNS, TARGET_COLUMNS, Journal
 from hexdbb.trajectory import Programme
 
 BLOCK_S = 0.25
-"""Machine time of one block, s. At worst the block (0.25 s) and the journal's writing period (0.5 s) are lost when the
-controller is killed: less than the second that is allowed."""
+"""Machine time of one block, and longest time that its oldest sample waits by the clock, s: on a busy computer lockstep
+is slower than the machine. At worst a block and the journal's writing period (0.2 s) are lost when the controller is
+killed: half of the second that is allowed."""
 MISSED_BEFORE = 1 << 8
 """Bit of the status column: cycles were missed just before this sample. Bits 0-7 are the gauge's status 6150h."""
 
@@ -58,6 +60,7 @@ class SampleBuffer:
         self._held: list[tuple[float, ...]] = []
         self._block: list[tuple[float, ...]] = []
         self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
+        self._oldest_s = 0.0
         self.count = self.dropped = 0
         self.until_s = math.inf
 
@@ -75,6 +78,8 @@ class SampleBuffer:
         feedback : Feedback
             The answers.
         """
+        if not self._held and not self._block:
+            self._oldest_s = time.monotonic()
         status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
         self._held.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
 
@@ -97,7 +102,7 @@ class SampleBuffer:
         self._block += self._held[:end]
         del self._held[:end]
         self.count += end
-        if len(self._block) >= self._block_size:
+        if len(self._block) >= self._block_size or time.monotonic() - self._oldest_s >= BLOCK_S:
             self.flush()
 
     def drop(self) -> None:
@@ -116,6 +121,7 @@ class SampleBuffer:
         if self._block:
             block = np.array(self._block)
             self._block.clear()
+            self._oldest_s = time.monotonic()
             self._journal.append(self._columns(block))
 
     def _columns(self, block: NDArray[np.float64]) -> dict[str, NDArray[np.generic]]:

@@ -182,6 +182,7 @@ class _Run:
             metadata={**request.metadata, "notes": list(self.progress.notes)},
             overwrite=request.overwrite,
             written=self.progress.written,
+            may_wait=not self.loop.clock.real_time,
         )
         if journal.set_aside is not None:
             kept = f"recover it with: hexdbb recover {journal.set_aside} -o RECORD"

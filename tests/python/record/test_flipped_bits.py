@@ -102,7 +102,7 @@ def journal_of(record: Record, path: Path, rows: int = 100) -> bytes:
 @pytest.fixture
 def writes_when_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """The journal's own thread writes nothing before the end, so that batches are those of the test."""
-    monkeypatch.setattr("hexdbb.record.journal.SYNC_PERIOD_S", 1e3)
+    monkeypatch.setattr("hexdbb.record.journal.WRITE_PERIOD_S", 1e3)
 
 
 @pytest.mark.usefixtures("writes_when_told")
