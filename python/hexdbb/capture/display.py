@@ -41,17 +41,17 @@ class ProgressText:
     def place(self) -> str:
         """Return the present run and phase."""
         progress = self._progress
-        programme, row = progress.programme, progress.row
+        programme = progress.programme
         if programme is None or progress.stage != "moving":
             return progress.stage
-        phase = Phase(int(programme.table.phase[row])).name.lower().replace("_", " ")
-        index = int(programme.table.run[row])
+        number, index = progress.place
+        phase = Phase(number).name.lower().replace("_", " ")
         if index < 0:
             return phase
         run = programme.runs[index]
         sense = "counter-clockwise" if run.direction > 0 else "clockwise"
-        number = f"run {index + 1}/{len(programme.runs)}"
-        return f"{number}, circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min: {phase}"
+        motion = f"circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min"
+        return f"run {index + 1}/{len(programme.runs)}, {motion}: {phase}"
 
     def numbers(self) -> str:
         """Return reading, cycle time and missed cycles; empty before the first row."""

@@ -8,11 +8,9 @@ Source: CiA 402-2, state machine (controlword 6040h, statusword 6041h) and cycli
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import chain
 from typing import Protocol
-
-import numpy as np
-from numpy.typing import NDArray
 
 from hexdbb.capture.checks import find_fault
 from hexdbb.capture.cia402 import (
@@ -26,6 +24,7 @@ from hexdbb.capture.cia402 import (
 from hexdbb.capture.exchange import Feedback
 from hexdbb.capture.loop import Loop, nothing
 from hexdbb.capture.standstill import Standstill
+from hexdbb.capture.targets_ahead import Row
 from hexdbb.capture.transport import one_line
 from hexdbb.capture.watch import Fault, Watch
 from hexdbb.errors import RunError
@@ -54,7 +53,7 @@ verified are not on disk, and would be lost if the controller were killed."""
 class Rows(Protocol):
     """Receives the answers that belong to the rows of a table."""
 
-    def keep(self, row: int, feedback: Feedback) -> None:
+    def keep(self, row: Row, feedback: Feedback) -> None:
         """Take the answers of a row; they are not certain yet."""
 
     def settle(self, paired: bool, held: int) -> None:
@@ -151,21 +150,13 @@ class AxisGroup:
             self._until(command, self._all_in(state), state.label, follow=state is not DriveState.OPERATION_ENABLED)
         return list(self._loop.counts)
 
-    def follow(
-        self,
-        counts: NDArray[np.int32],
-        gauge_watched: NDArray[np.bool_],
-        kept: Rows,
-        pauses: Mapping[int, Callable[[], None]],
-    ) -> None:
-        """Send a table of targets, one row per cycle, and check every answer.
+    def follow(self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]]) -> None:
+        """Send targets, one row per cycle, and check every answer.
 
         Parameters
         ----------
-        counts : numpy.ndarray
-            Targets in counts, shape (n, 6).
-        gauge_watched : numpy.ndarray
-            Rows in which the reading must be valid and within range, shape (n,).
+        rows : iterable of Row
+            Targets in order; the reading must be valid and within range in those on a circle.
         kept : Rows
             Takes the answers that belong to each row.
         pauses : mapping of int to callable
@@ -178,40 +169,37 @@ class AxisGroup:
         can.CanError
             The bus is lost.
         """
-        watch, loop = self._watch, self._loop
+        loop = self._loop
         # A heartbeat sent before the nodes were started may have arrived only now.
-        watch.supervision.forget_stale_states()
+        self._watch.supervision.forget_stale_states()
         # A long wait for answers must not keep samples from the disk that are certain already.
         loop.while_waiting = lambda: kept.settle(loop.confirm(), held=0)
         try:
-            self._follow(counts, gauge_watched, kept, pauses)
+            self._follow(rows, kept, pauses)
         finally:
             loop.while_waiting = nothing
         kept.settle(loop.confirm(), held=0)
 
-    def _follow(
-        self,
-        counts: NDArray[np.int32],
-        gauge_watched: NDArray[np.bool_],
-        kept: Rows,
-        pauses: Mapping[int, Callable[[], None]],
-    ) -> None:
+    def _follow(self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]]) -> None:
         watch, loop, enabled = self._watch, self._loop, [Command.ENABLE_OPERATION] * 6
-        rows, verified_s = len(counts), time.monotonic()
-        for row in range(rows + 1):
-            if row in pauses:
+        sent: Row | None = None
+        verified_s = time.monotonic()
+        # The last row is sent twice: its answers are those to the SYNC after it.
+        for row in chain(rows, [None]):
+            if row is not None and row.index in pauses:
                 watch.expected = loop.counts
-                loop.hold_while(pauses[row], enabled, self._check)
+                loop.hold_while(pauses[row.index], enabled, self._check)
             # The answers to this SYNC belong to the targets sent before it.
             watch.expected = loop.counts
-            watch.gauge_watched = row > 0 and bool(gauge_watched[row - 1])
-            feedback = loop.cycle(enabled, counts[min(row, rows - 1)].tolist())
+            watch.gauge_watched = sent is not None and sent.on_circle
+            feedback = loop.cycle(enabled, loop.counts if row is None else row.counts)
             self._check()
-            if row and feedback.settled:
-                kept.keep(row - 1, feedback)
+            if sent is not None and feedback.settled:
+                kept.keep(sent, feedback)
+            sent = row
             if loop.clock.real_time:
                 kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
-            elif row % VERIFY_SYNCS == 0 or time.monotonic() - verified_s > VERIFY_S:
+            elif feedback.cycle % VERIFY_SYNCS == 0 or time.monotonic() - verified_s > VERIFY_S:
                 kept.settle(loop.confirm(), held=0)
                 verified_s = time.monotonic()
 

@@ -34,7 +34,7 @@ class SampleBuffer:
     Parameters
     ----------
     programme : Programme
-        The table that the rows belong to.
+        The runs that the rows belong to.
     journal : Journal
         Receives the blocks.
     counts_per_mm : float
@@ -64,13 +64,13 @@ class SampleBuffer:
         self.count = self.dropped = 0
         self.until_s = math.inf
 
-    def keep(self, row: int, cycle_index: int, missed: int, feedback: Feedback) -> None:
+    def keep(self, columns: Sequence[float], cycle_index: int, missed: int, feedback: Feedback) -> None:
         """Collect the answers of one captured row.
 
         Parameters
         ----------
-        row : int
-            Row of the table of targets.
+        columns : sequence of float
+            Run, lap, angle (deg) and the six targets (mm) of the row.
         cycle_index : int
             Time of motion of the sample, in cycles.
         missed : int
@@ -81,7 +81,7 @@ class SampleBuffer:
         if not self._held and not self._block:
             self._oldest_s = time.monotonic()
         status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
-        self._held.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
+        self._held.append((cycle_index, status, feedback.reading_um, *feedback.position, *columns))
 
     def confirm(self, held: int = 0) -> None:
         """Accept the samples collected, but for the last ones.
@@ -112,8 +112,8 @@ class SampleBuffer:
 
     def cut(self, cycle_index: int) -> None:
         """Drop samples from a cycle on; `until_s` says from when those on disk are to be dropped as well."""
-        self._held = [each for each in self._held if each[1] < cycle_index]
-        self._block = [each for each in self._block if each[1] < cycle_index]
+        self._held = [each for each in self._held if each[0] < cycle_index]
+        self._block = [each for each in self._block if each[0] < cycle_index]
         self.until_s = cycle_index * self._programme.cycle_s
 
     def flush(self) -> None:
@@ -125,21 +125,19 @@ class SampleBuffer:
             self._journal.append(self._columns(block))
 
     def _columns(self, block: NDArray[np.float64]) -> dict[str, NDArray[np.generic]]:
-        table = self._programme.table
-        row = block[:, 0].astype(np.intp)
-        run = table.run[row]
+        run = block[:, 9].astype(np.intp)
         return {
-            "t_s": block[:, 1] * self._programme.cycle_s,
+            "t_s": block[:, 0] * self._programme.cycle_s,
             "circle": self._circle[run],
             "sweep": self._sweep[run],
             "direction": self._direction[run],
-            "lap": table.lap[row],
-            "angle_deg": table.angle_deg[row],
+            "lap": block[:, 10].astype(np.int64),
+            "angle_deg": block[:, 11],
             "feed_mm_min": self._feed_mm_min[run],
-            **_named(SLIDER_COLUMNS, block[:, 4:10] / self._counts_per_mm),
-            "reading_um": block[:, 3],
-            **_named(TARGET_COLUMNS, table.sliders_mm[row]),
-            "status": block[:, 2].astype(np.int32),
+            **_named(SLIDER_COLUMNS, block[:, 3:9] / self._counts_per_mm),
+            "reading_um": block[:, 2],
+            **_named(TARGET_COLUMNS, block[:, 12:18]),
+            "status": block[:, 1].astype(np.int32),
         }
 
 

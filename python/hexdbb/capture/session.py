@@ -27,11 +27,12 @@ from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
 from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.targets_ahead import TargetsAhead
 from hexdbb.capture.transport import one_line
 from hexdbb.capture.watch import Fault, watch_over
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
-from hexdbb.trajectory import Phase, Programme, approach
+from hexdbb.trajectory import Programme, approach
 
 log = logging.getLogger(__name__)
 
@@ -151,12 +152,12 @@ class _Run:
         present_mm = np.array(self.axes.read_positions()) / self.counts_per_mm
         self.axes.check_homed()
         self.watch.interrupts.note_only()
-        programme, journal = self.loop.hold_while(
+        programme, targets, journal = self.loop.hold_while(
             lambda: self._with_approach(present_mm), [Command.DISABLE_VOLTAGE] * 6
         )
-        with journal:
+        with targets, journal:
             samples = SampleBuffer(programme, journal, self.counts_per_mm)
-            cause = self._move(programme, samples) or self._too_few(samples, programme)
+            cause = self._move(programme, samples, targets) or self._too_few(samples, programme)
             try:
                 samples.flush()
                 notes = [*self.progress.notes, *self.link.notes()]
@@ -169,10 +170,11 @@ class _Run:
             raise RunError(f"{cause}; {len(record)} samples kept in {record.path}, marked incomplete")
         return record
 
-    def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, Journal]:
-        """Compute the approach from the present positions, and open the journal."""
+    def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, TargetsAhead, Journal]:
+        """Compute the approach from the present positions, read the first targets, and open the journal."""
         request, plan = self.request, self.request.plan
-        way = approach(present_mm, self.programme, request.machine, request.origin)
+        programme = self.programme.after(approach(present_mm, self.programme, request.machine, request.origin))
+        targets = TargetsAhead(programme.part, len(programme), self.counts_per_mm)
         journal = Journal(
             request.record,
             machine=request.machine,
@@ -187,15 +189,16 @@ class _Run:
         if journal.set_aside is not None:
             kept = f"recover it with: hexdbb recover {journal.set_aside} -o RECORD"
             self.progress.notes.append(f"journal of an interrupted capture kept as {journal.set_aside}; {kept}")
-        return self.programme.after(way), journal
+        targets.begin()
+        return programme, targets, journal
 
-    def _move(self, programme: Programme, samples: SampleBuffer) -> str | None:
-        """Enable, follow the table, disable; return the cause if a fault stopped the run."""
+    def _move(self, programme: Programme, samples: SampleBuffer, targets: TargetsAhead) -> str | None:
+        """Enable, follow the targets, disable; return the cause if a fault stopped the run."""
         try:
             self.axes.check_interrupts()
             self.progress.stage = "enabling"
             self.axes.enable()
-            self._follow(programme, samples)
+            self._follow(programme, samples, targets)
             self.progress.stage = "disabling"
             self.axes.disable()
         except Exception as error:  # an error in this program must neither leave axes enabled nor lose the record
@@ -205,14 +208,13 @@ class _Run:
             raise
         return None
 
-    def _follow(self, programme: Programme, samples: SampleBuffer) -> None:
-        table, progress = programme.table, self.progress
-        progress.programme, progress.rows, progress.stage = programme, len(table), "moving"
+    def _follow(self, programme: Programme, samples: SampleBuffer, targets: TargetsAhead) -> None:
+        progress = self.progress
+        progress.programme, progress.rows, progress.stage = programme, len(programme), "moving"
         self.loop.restart_time()
         self.axes.follow(
-            np.rint(table.sliders_mm * self.counts_per_mm).astype(np.int32),
-            table.phase == Phase.ARC,
-            CapturedRows(samples, table.capture.tolist(), self.loop, progress),
+            targets,
+            CapturedRows(samples, self.loop, progress),
             pauses(setup_changes(programme), self.request.plan.gauge, self.devices.gauge, self.request.confirm),
         )
 
@@ -248,7 +250,7 @@ class _Run:
 
     def _too_few(self, samples: SampleBuffer, programme: Programme) -> str | None:
         """Return what is missing of a run that came to its end, if it is more than a record may lack."""
-        planned = int(programme.table.capture.sum())
+        planned = int(programme.captured.sum())
         lost = planned - samples.count
         if lost <= MAX_LOST * planned:
             return None

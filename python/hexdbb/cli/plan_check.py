@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +72,7 @@ def check(
         clearances = _clearances(plan, machine, plan_name)
     assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
     if as_json:
-        extent = {"rows": len(programme.table), "memory_bytes": int(programme.extent.memory_bytes)}
+        extent = {"rows": len(programme), "disk_bytes": int(programme.extent.disk_bytes)}
         motion = {"reachable": True, "duration_s": programme.duration_s, **extent, "bus_load": load, "runs": runs}
         circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
         say(json.dumps({**motion, "circles": circles, **assessment.to_json()}, indent=2))
@@ -121,21 +122,25 @@ def _run_json(programme: Programme, index: int) -> dict[str, float]:
         "circle": run.circle.id,
         "feed_mm_min": run.feed_mm_min,
         "direction": run.direction,
-        "samples": int((programme.table.capture & (programme.table.run == index)).sum()),
+        "samples": int(programme.captured[index]),
     }
 
 
 def _margins(programme: Programme, index: int, machine: MachineFile) -> dict[str, float]:
     """Return the largest slider rates of a run, and its margins to the ends of travel and to the smallest gap."""
-    sliders_mm = programme.table.sliders_mm[programme.table.run == index]
     low_mm, high_mm = machine.sliders.travel_mm
-    gaps_mm = sliders_mm[:, 1::2] - sliders_mm[:, 0::2] - machine.sliders.min_gap_mm
-    margins = {
-        "to_end_of_travel_mm": float(min(sliders_mm.min() - low_mm, high_mm - sliders_mm.max())),
-        "to_min_gap_mm": float(gaps_mm.min()),
-    }
-    rate = sliders_mm
-    for name, unit in LIMITED:
-        rate = np.diff(rate, axis=0) / programme.cycle_s
-        margins[f"{name}_{unit}"] = float(np.abs(rate).max())
-    return margins
+    margins, rates = {"to_end_of_travel_mm": math.inf, "to_min_gap_mm": math.inf}, [0.0] * len(LIMITED)
+    known_mm = np.empty((0, 6))
+    last = int(programme.begins[index + 1]) if index + 1 < len(programme.begins) else len(programme)
+    for block in programme.rows.blocks(int(programme.begins[index]), last):
+        sliders_mm = block.sliders_mm
+        gaps_mm = sliders_mm[:, 1::2] - sliders_mm[:, 0::2] - machine.sliders.min_gap_mm
+        to_end_mm = min(float(sliders_mm.min()) - low_mm, high_mm - float(sliders_mm.max()))
+        margins["to_end_of_travel_mm"] = min(margins["to_end_of_travel_mm"], to_end_mm)
+        margins["to_min_gap_mm"] = min(margins["to_min_gap_mm"], float(gaps_mm.min()))
+        rate = np.vstack([known_mm, sliders_mm])
+        known_mm = rate[-len(LIMITED) :]
+        for order in range(len(LIMITED)):
+            rate = np.diff(rate, axis=0) / programme.cycle_s
+            rates[order] = max(rates[order], float(np.abs(rate).max(initial=0.0)))
+    return margins | {f"{name}_{unit}": rate for (name, unit), rate in zip(LIMITED, rates, strict=True)}
