@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from hexdbb.capture.blame import blamed
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
     FOLLOWING_ERROR,
@@ -38,18 +39,19 @@ ENABLED_MASK, ENABLED_VALUE = DriveState.OPERATION_ENABLED.value
 
 @dataclass(frozen=True)
 class Check:
-    """One check: its name and the function that returns a fault, or None."""
+    """One check: its name, the function that returns a fault, or None, and whether a late computer can cause that."""
 
     name: str
     find: Callable[[Watch], Fault | None]
+    by_lateness: bool = False
 
 
 def find_fault(watch: Watch) -> Fault | None:
-    """Run all checks in order and return the first fault, or None."""
+    """Run all checks in order and return the first fault with its cause (`hexdbb.capture.blame`), or None."""
     for check in CHECKS:
         fault = check.find(watch)
         if fault is not None:
-            return fault
+            return fault if check.find is _interrupted else blamed(fault, watch, check.by_lateness)
     return None
 
 
@@ -254,10 +256,10 @@ def _heartbeats(watch: Watch) -> Fault | None:
 
 CHECKS: list[Check] = [
     Check("interrupted", _interrupted),
-    Check("loop stall", _stall),
+    Check("loop stall", _stall, by_lateness=True),
     Check("flood", _flood),
     Check("length of answers", _wrong_length),
-    Check("answers", _answers),
+    Check("answers", _answers, by_lateness=True),
     Check("SYNC of others", _foreign_sync),
     Check("lost reading", _lost_reading),
     Check("drive states", _drive_states),
@@ -265,7 +267,7 @@ CHECKS: list[Check] = [
     Check("emergencies", _emergencies),
     Check("malformed frames", _malformed),
     Check("NMT states", _nmt_states),
-    Check("heartbeats", _heartbeats),
+    Check("heartbeats", _heartbeats, by_lateness=True),
     Check("status bits", _status_bits),
     Check("lasting bits", _lasting_bits),
     Check("following error", _following),

@@ -123,6 +123,9 @@ class Loop:
         self._exchange.send_sync()
         self.times.take(self._exchange.sync_s, self.last_missed)
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
+        self.times.latency.late.take(self.clock.late_s)
+        if not feedback.missing:
+            self.times.latency.answered.take(time.monotonic() - self._exchange.sync_s)
         if feedback.missing and not self.clock.real_time:
             self.while_waiting()
             if len(feedback.missing) == SLOTS:

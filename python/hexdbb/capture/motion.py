@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import chain
 from typing import Protocol
 
+from hexdbb.capture.blame import said
 from hexdbb.capture.checks import find_fault
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
@@ -117,6 +118,11 @@ class AxisGroup:
                 f"(expected {CYCLIC_SYNCHRONOUS_POSITION}, as commanded in 6060:00)"
             )
         return list(feedback.position)
+
+    def wait(self, cycles: int) -> None:
+        """Run cycles with the drives disabled; nothing is checked."""
+        for _ in range(cycles):
+            self._loop.cycle([Command.DISABLE_VOLTAGE] * 6, list(self._loop.feedback.position))
 
     def check_homed(self) -> None:
         """Check that every drive reports a homed position (statusword bit 15); raises `RunError` otherwise."""
@@ -282,7 +288,10 @@ class AxisGroup:
             if not feedback.missing and reached(feedback):
                 return feedback
         reported = "".join(f"; {each}" for each in self._reported())
-        raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}")
+        computer = ""
+        if self._loop.clock.real_time:
+            computer = f"; {said(self._watch.computer.worst_within(STEP_TIMEOUT_S))}"
+        raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}{computer}")
 
     def _reported(self) -> list[str]:
         """Return what nodes have reported of themselves, or sent malformed: the cause may lie in another node."""

@@ -20,9 +20,12 @@ from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.interrupts import Interrupts
+from hexdbb.capture.latency import shown_ms
+from hexdbb.capture.lateness import Lateness
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
+from hexdbb.capture.real_time_check import advice, judged, words
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
@@ -39,6 +42,9 @@ log = logging.getLogger(__name__)
 MAX_LOST = 0.01
 """Largest share of the planned samples that a complete record may lack: four degrees of a circle; what is lost more
 leaves gaps in the fit, and has a cause that should be known."""
+LOOK_S = 2.0
+"""Time for which real time is tried before anything moves, s: 500 cycles at 250 Hz, in which a delay that happens once
+in a hundred cycles shows with certainty, and which no operator minds."""
 LOCKSTEP_TOLERANCE_S = 1.0
 """Added to the heartbeat limit in lockstep, s. Nothing else depends on time there, and a busy desktop may stall the
 process that sends the heartbeats."""
@@ -91,8 +97,9 @@ def measure(
         with interrupts.watched():
             with link.threaded():
                 progress.notes += boot(link, devices, request.machine, request.cycle_s, clock.real_time)
-            with link.looped():
-                return _Run(request, programme, link, devices, clock, progress, interrupts).record()
+            computer = Lateness()
+            with link.looped(), computer.measured():
+                return _Run(request, programme, link, devices, clock, progress, interrupts, computer).record()
     except (can.CanError, OSError) as error:
         raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing has moved") from error
     finally:
@@ -120,6 +127,7 @@ class _Run:
         clock: Clock,
         progress: RunProgress,
         interrupts: Interrupts,
+        computer: Lateness,
     ) -> None:
         machine, cycle_s = request.machine, request.cycle_s
         can_setup = machine.can_setup
@@ -142,6 +150,7 @@ class _Run:
             expected=self.loop.counts,
             real_time=clock.real_time,
             interrupts=interrupts,
+            computer=computer,
         )
         self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
         progress.watch, progress.times = self.watch, self.loop.times
@@ -151,6 +160,8 @@ class _Run:
         self.progress.stage = "reading axis positions"
         present_mm = np.array(self.axes.read_positions()) / self.counts_per_mm
         self.axes.check_homed()
+        if self.loop.clock.real_time:
+            self._look()
         self.watch.interrupts.note_only()
         programme, targets, journal = self.loop.hold_while(
             lambda: self._with_approach(present_mm), [Command.DISABLE_VOLTAGE] * 6
@@ -160,8 +171,10 @@ class _Run:
             cause = self._move(programme, samples, targets) or self._too_few(samples, programme)
             try:
                 samples.flush()
-                notes = [*self.progress.notes, *self.link.notes()]
-                record = journal.finish(cause is None, cause, samples.until_s, {"notes": notes})
+                known: dict[str, object] = {"notes": [*self.progress.notes, *self.link.notes()]}
+                if self.loop.clock.real_time:
+                    known["latency"] = self.loop.times.latency.metadata()
+                record = journal.finish(cause is None, cause, samples.until_s, known)
             except RunError as error:
                 if cause is not None and str(error) in cause:
                     raise RunError(cause) from None
@@ -169,6 +182,19 @@ class _Run:
         if cause is not None:
             raise RunError(f"{cause}; {len(record)} samples kept in {record.path}, marked incomplete")
         return record
+
+    def _look(self) -> None:
+        """Try real time with the drives disabled, and note whether the rate is safe and what to change."""
+        self.progress.stage = "measuring how late this computer is"
+        latency, cycle_s = self.loop.times.latency, self.request.cycle_s
+        latency.clear()
+        self.axes.wait(round(LOOK_S / cycle_s))
+        verdict = judged(latency, 1.0 / cycle_s, self.request.machine.can_setup.rpdo_timeout_ms / 1000.0)
+        note = words(latency, verdict)
+        if not verdict.safe:
+            refused = [each for each in self.progress.notes if "not granted" in each]
+            note += f". To change: {'; '.join(advice(refused))}. A longer look: hexdbb check-realtime"
+        self.progress.notes.append(note)
 
     def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, TargetsAhead, Journal]:
         """Compute the approach from the present positions, read the first targets, and open the journal."""
@@ -259,6 +285,8 @@ class _Run:
         causes += self.watch.supervision.late_answers(labels)
         if self.loop.missed:
             causes.append(f"SYNCs not sent because they were late or answers were waited for: {self.loop.missed}")
+        if self.loop.clock.real_time:
+            causes.append(f"this computer was at most {shown_ms(self.watch.computer.worst_s)} late")
         why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "

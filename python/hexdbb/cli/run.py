@@ -225,3 +225,5 @@ def _print_summary(record: Record, programme: Programme, progress: RunProgress) 
         click.echo(f"next: hexdbb compare {record.path} -m MODEL")
     else:
         click.echo(f"next: hexdbb diagnose {record.path} -m {name}-model.toml")
+    if progress.times is not None and "latency" in record.metadata:
+        click.echo(f"real time: {progress.times.latency.words()}")

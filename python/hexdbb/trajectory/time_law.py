@@ -54,7 +54,8 @@ class TimeLaw:
     @property
     def rows(self) -> int:
         """Cycles up to the first one at or after the end."""
-        return int(math.ceil(self.trajectory.duration / self.cycle_s)) + 1
+        duration_s: float = self.trajectory.duration
+        return math.ceil(duration_s / self.cycle_s) + 1
 
     def u_mm(self, first: int = 0, last: int | None = None) -> NDArray[np.float64]:
         """Return the path coordinate of rows `first` to `last`, the last one left out; by default of all, (n,) mm."""
