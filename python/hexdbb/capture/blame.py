@@ -7,6 +7,7 @@ its name, and the message states how late the computer was, so that the reader c
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from hexdbb.capture.clock import Deadlines
@@ -22,7 +23,22 @@ BEFORE_S = 0.1
 """Time looked back beyond the SYNCs of the fault, s: the time after which drives stop for lack of targets."""
 
 
-def blamed(fault: Fault, watch: Watch, by_lateness: bool) -> Fault:
+def never(watch: Watch) -> float:
+    """Return infinity: no lateness explains the fault."""
+    return math.inf
+
+
+def half_a_cycle(watch: Watch) -> float:
+    """Return the lateness (s) from which a SYNC is left out; in lockstep one that answers do not outlast."""
+    return Deadlines.LATEST * watch.cycle_s if watch.real_time else LOCKSTEP_LATE_S
+
+
+def drives_time_out(watch: Watch) -> float:
+    """Return the lateness (s) from which drives stop on their own for lack of targets, and say so by EMCY and state."""
+    return watch.max_stall * watch.cycle_s
+
+
+def blamed(fault: Fault, watch: Watch, explained_s: float) -> Fault:
     """Return a fault with its cause, this computer where it was late, and how late that was.
 
     Parameters
@@ -30,16 +46,15 @@ def blamed(fault: Fault, watch: Watch, by_lateness: bool) -> Fault:
     fault : Fault
         What a check has found.
     watch : Watch
-    by_lateness : bool
-        Whether a late computer can cause such a fault.
+    explained_s : float
+        Lateness of this computer from which it explains such a fault, s.
     """
     seconds = BEFORE_S + watch.cycle_s * (watch.supervision.silent_after + watch.stalled + 1)
-    worst = watch.computer.worst_within(seconds)
-    enough_s = Deadlines.LATEST * watch.cycle_s if watch.real_time else LOCKSTEP_LATE_S
-    late = worst.late_s >= enough_s
-    if by_lateness and late and not is_own(worst) and not _one_of_many(watch):
+    worst, noticed_s = watch.computer.worst_within(seconds), half_a_cycle(watch)
+    if worst.late_s >= explained_s and not is_own(worst) and not _one_of_many(watch):
         return replace(fault, where="this computer", what=f"was {shown_ms(worst.late_s)} late ({fault})")
-    if late or (by_lateness and watch.real_time):
+    late = worst.late_s >= noticed_s
+    if late or (watch.real_time and explained_s <= noticed_s):
         return replace(fault, what=f"{fault.what}; {said(worst, late)}")
     return fault
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hexdbb.capture.blame import blamed
+from hexdbb.capture.blame import blamed, drives_time_out, half_a_cycle, never
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
     FOLLOWING_ERROR,
@@ -39,11 +39,20 @@ ENABLED_MASK, ENABLED_VALUE = DriveState.OPERATION_ENABLED.value
 
 @dataclass(frozen=True)
 class Check:
-    """One check: its name, the function that returns a fault, or None, and whether a late computer can cause that."""
+    """One check.
+
+    Attributes
+    ----------
+    name : str
+    find : callable
+        Returns a fault, or None.
+    late_s : callable
+        Returns the lateness (s) of this computer from which it explains such a fault; infinite where it never does.
+    """
 
     name: str
     find: Callable[[Watch], Fault | None]
-    by_lateness: bool = False
+    late_s: Callable[[Watch], float] = never
 
 
 def find_fault(watch: Watch) -> Fault | None:
@@ -51,7 +60,7 @@ def find_fault(watch: Watch) -> Fault | None:
     for check in CHECKS:
         fault = check.find(watch)
         if fault is not None:
-            return fault if check.find is _interrupted else blamed(fault, watch, check.by_lateness)
+            return fault if check.find is _interrupted else blamed(fault, watch, check.late_s(watch))
     return None
 
 
@@ -256,18 +265,18 @@ def _heartbeats(watch: Watch) -> Fault | None:
 
 CHECKS: list[Check] = [
     Check("interrupted", _interrupted),
-    Check("loop stall", _stall, by_lateness=True),
+    Check("loop stall", _stall, half_a_cycle),
     Check("flood", _flood),
     Check("length of answers", _wrong_length),
-    Check("answers", _answers, by_lateness=True),
+    Check("answers", _answers, half_a_cycle),
     Check("SYNC of others", _foreign_sync),
     Check("lost reading", _lost_reading),
-    Check("drive states", _drive_states),
+    Check("drive states", _drive_states, drives_time_out),
     Check("modes", _modes),
-    Check("emergencies", _emergencies),
+    Check("emergencies", _emergencies, drives_time_out),
     Check("malformed frames", _malformed),
-    Check("NMT states", _nmt_states),
-    Check("heartbeats", _heartbeats, by_lateness=True),
+    Check("NMT states", _nmt_states, drives_time_out),
+    Check("heartbeats", _heartbeats, drives_time_out),
     Check("status bits", _status_bits),
     Check("lasting bits", _lasting_bits),
     Check("following error", _following),

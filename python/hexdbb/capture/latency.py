@@ -43,7 +43,7 @@ class Histogram:
         for index, count in enumerate(self._counts):
             rest -= count
             if count and rest <= 0.0:
-                return min(LEAST_S * 2.0 ** (index / PER_OCTAVE), self.longest_s)
+                return min(LEAST_S * math.exp2(index / PER_OCTAVE), self.longest_s)
         return self.longest_s
 
     def share_above(self, time_s: float) -> float:

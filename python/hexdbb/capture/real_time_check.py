@@ -103,8 +103,8 @@ def advice(refused: list[str], interface: str | None = None) -> list[str]:
     found = []
     if any("SCHED_FIFO" in each for each in refused):
         found.append(
-            f"permit real-time scheduling: in /etc/security/limits.conf '@realtime - rtprio {FIFO_PRIORITY}', your user in"
-            " the group realtime, then log in again"
+            f"permit real-time scheduling: in /etc/security/limits.conf '@realtime - rtprio {FIFO_PRIORITY}', your user"
+            " in the group realtime, then log in again"
         )
     if any("mlockall" in each for each in refused):
         limit = resource.getrlimit(resource.RLIMIT_MEMLOCK)[0]
