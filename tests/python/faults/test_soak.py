@@ -1,4 +1,4 @@
-"""A run of the soak is put down to this computer by what happened at the time of its fault, not elsewhere in the run."""
+"""A run of the soak is put down to this computer by what happened at the time of its fault, not elsewhere in it."""
 
 from __future__ import annotations
 
