@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from hexdbb.capture.clock import Deadlines
 from hexdbb.capture.latency import shown_ms
-from hexdbb.capture.lateness import WakeUp
+from hexdbb.capture.lateness import NOTED_S, WakeUp
 from hexdbb.capture.watch import Fault, Watch
 
 OWN_SHARE = 0.5
@@ -68,7 +68,10 @@ def said(worst: WakeUp, late: bool = True) -> str:
     """Return how late this computer was, as the tail of a message."""
     if late and is_own(worst):
         return f"this program computed for {shown_ms(worst.own_s)} meanwhile"
-    return f"this computer was {'' if late else 'at most '}{shown_ms(worst.late_s)} late meanwhile"
+    if late:
+        return f"this computer was {shown_ms(worst.late_s)} late meanwhile"
+    # What is below is not kept.
+    return f"this computer was at most {shown_ms(max(worst.late_s, NOTED_S))} late meanwhile"
 
 
 def _one_of_many(watch: Watch) -> bool:

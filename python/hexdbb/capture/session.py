@@ -21,7 +21,7 @@ from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.latency import shown_ms
-from hexdbb.capture.lateness import Lateness
+from hexdbb.capture.lateness import NOTED_S, Lateness
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
@@ -286,7 +286,7 @@ class _Run:
         if self.loop.missed:
             causes.append(f"SYNCs not sent because they were late or answers were waited for: {self.loop.missed}")
         if self.loop.clock.real_time:
-            causes.append(f"this computer was at most {shown_ms(self.watch.computer.worst_s)} late")
+            causes.append(f"this computer was at most {shown_ms(max(self.watch.computer.worst_s, NOTED_S))} late")
         why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "

@@ -14,7 +14,16 @@ import numpy as np
 import pytest
 from tests.faults.messages import Way
 from tests.faults.proxy import proxied
-from tests.faults.runs import RATE_HZ, RECORD, command_line, options, prepared, rig_in_process, rig_options
+from tests.faults.runs import (
+    RATE_HZ,
+    RECORD,
+    command_line,
+    never_waiting,
+    options,
+    prepared,
+    rig_in_process,
+    rig_options,
+)
 from tests.faults.transformations import FOREVER, Rule, drop
 from tests.programs import called
 from tests.python.capture.scripted_bus import DRIVES, GAUGE, ScriptedBus, at_rest, axes_on
@@ -114,7 +123,7 @@ ALL = (*DRIVES, GAUGE)
 @pytest.mark.parametrize(
     ("silent", "computer", "begins", "names"),
     [
-        (ALL, FakeComputer(), "bus: no node answered 3", "this computer was at most 0.00 ms late meanwhile"),
+        (ALL, FakeComputer(), "bus: no node answered 3", "this computer was at most 0.50 ms late meanwhile"),
         (ALL, FakeComputer(0.060), "this computer: was 60.0 ms late (bus: no node answered 3", "(expected TPDO1"),
         (
             ALL,
@@ -122,7 +131,7 @@ ALL = (*DRIVES, GAUGE)
             "bus: no node answered 3",
             "this program computed for 55.0 ms meanwhile",
         ),
-        ((3,), FakeComputer(), "node 3 (slider 3): TPDO1 missing", "this computer was at most 0.00 ms late meanwhile"),
+        ((3,), FakeComputer(), "node 3 (slider 3): TPDO1 missing", "this computer was at most 0.50 ms late meanwhile"),
         ((3,), FakeComputer(0.060), "node 3 (slider 3): TPDO1 missing", "this computer was 60.0 ms late meanwhile"),
     ],
 )
@@ -156,7 +165,8 @@ def message_of_run(disturb: Callable[[subprocess.Popen[str]], None], rules: list
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         truth = prepared(folder)
-        with rig_in_process(*rig_options(truth, (), 1)) as port, proxied(port, rules, 1 / RATE_HZ) as proxy:
+        pace, rig = never_waiting(), rig_in_process(*rig_options(truth, (), 1))
+        with pace, rig as port, proxied(port, rules, 1 / RATE_HZ) as proxy:
             words = command_line(options(folder, proxy.bus, False))
             process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
             while process.poll() is None and (proxy.log.since_enabled or 0) < RATE_HZ:
