@@ -19,6 +19,8 @@ OWN_SHARE = 0.5
 """Share of a delay that this program must have computed to be the cause of it itself."""
 LOCKSTEP_LATE_S = 0.1
 """Lateness that is named in lockstep, s: a tenth of a second of the quarter that answers have."""
+CONTROLLER_MISSED = {0x8130, 0x8250}
+"""EMCY codes of nodes that miss the controller: heartbeat, RPDO (CiA 301)."""
 BEFORE_S = 0.1
 """Time looked back beyond the SYNCs of the fault, s: the time after which drives stop for lack of targets."""
 
@@ -34,8 +36,14 @@ def half_a_cycle(watch: Watch) -> float:
 
 
 def drives_time_out(watch: Watch) -> float:
-    """Return the lateness (s) from which drives stop on their own for lack of targets, and say so by EMCY and state."""
+    """Return the lateness (s) from which drives stop on their own for lack of targets."""
     return watch.max_stall * watch.cycle_s
+
+
+def controller_missed(watch: Watch) -> float:
+    """Return that lateness where nodes have reported nothing but that they missed the controller, else infinity."""
+    codes = {emergency.code for emergency in watch.supervision.emergencies.values()}
+    return drives_time_out(watch) if codes and codes <= CONTROLLER_MISSED else math.inf
 
 
 def blamed(fault: Fault, watch: Watch, explained_s: float) -> Fault:

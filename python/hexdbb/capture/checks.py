@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hexdbb.capture.blame import blamed, drives_time_out, half_a_cycle, never
+from hexdbb.capture.blame import blamed, controller_missed, drives_time_out, half_a_cycle, never
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
     FOLLOWING_ERROR,
@@ -108,7 +108,10 @@ def _foreign_sync(watch: Watch) -> Fault | None:
     count = watch.supervision.foreign_syncs
     if not count:
         return None
-    return Fault("bus", f"{count} SYNC of another producer (expected SYNC 080h from this controller only)", count)
+    number = watch.supervision.foreign_number
+    numbered = "" if number is None else f", counter {number}"
+    what = f"{count} SYNC of another producer{numbered} (expected SYNC 080h from this controller only)"
+    return Fault("bus", what, count)
 
 
 def _repeated(watch: Watch) -> Fault | None:
@@ -271,11 +274,11 @@ CHECKS: list[Check] = [
     Check("answers", _answers, half_a_cycle),
     Check("SYNC of others", _foreign_sync),
     Check("lost reading", _lost_reading),
-    Check("drive states", _drive_states, drives_time_out),
+    Check("drive states", _drive_states, controller_missed),
     Check("modes", _modes),
-    Check("emergencies", _emergencies, drives_time_out),
+    Check("emergencies", _emergencies, controller_missed),
     Check("malformed frames", _malformed),
-    Check("NMT states", _nmt_states, drives_time_out),
+    Check("NMT states", _nmt_states, controller_missed),
     Check("heartbeats", _heartbeats, drives_time_out),
     Check("status bits", _status_bits),
     Check("lasting bits", _lasting_bits),

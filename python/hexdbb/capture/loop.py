@@ -157,6 +157,14 @@ class Loop:
             if exchange.owed == owed:
                 exchange.forget_owed()
 
+    @property
+    def cost_of_a_lost_answer(self) -> int:
+        """Samples that one lost answer costs in real time.
+
+        Its own, those of two SYNCs left out to look for it, those in between, and one for the cycle it is found in.
+        """
+        return self._owed_cycles + 3 if self.clock.real_time else 1
+
     def confirm(self) -> bool:
         """Look whether every answer belonged to its SYNC since this was last called.
 

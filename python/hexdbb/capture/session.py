@@ -96,10 +96,12 @@ def measure(
     try:
         with interrupts.watched():
             with link.threaded():
-                progress.notes += boot(link, devices, request.machine, request.cycle_s, clock.real_time)
+                notes, sync_overflow = boot(link, devices, request.machine, request.cycle_s, clock.real_time)
+                progress.notes += notes
             computer = Lateness()
             with link.looped(), computer.measured():
-                return _Run(request, programme, link, devices, clock, progress, interrupts, computer).record()
+                run = _Run(request, programme, link, devices, clock, progress, interrupts, computer, sync_overflow)
+                return run.record()
     except (can.CanError, OSError) as error:
         raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing has moved") from error
     finally:
@@ -128,6 +130,7 @@ class _Run:
         progress: RunProgress,
         interrupts: Interrupts,
         computer: Lateness,
+        sync_overflow: int,
     ) -> None:
         machine, cycle_s = request.machine, request.cycle_s
         can_setup = machine.can_setup
@@ -137,7 +140,7 @@ class _Run:
         labels = tuple(device.label for device in devices)
         limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
         supervision = Supervision([device.node_id for device in devices], link.notify, limit_s, request.silent_after)
-        exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
+        exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame, sync_overflow)
         self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0, cycle_s)
         self.watch = watch_over(
             exchange,
@@ -278,7 +281,9 @@ class _Run:
         """Return what is missing of a run that came to its end, if it is more than a record may lack."""
         planned = int(programme.captured.sum())
         lost = planned - samples.count
-        if lost <= MAX_LOST * planned:
+        # One lost answer is no reason to call a record incomplete, however short it is.
+        allowed = max(int(MAX_LOST * planned), self.loop.cost_of_a_lost_answer)
+        if lost <= allowed:
             return None
         (repeated, slot), labels = self.loop.repeated, self.watch.labels
         causes = [] if slot is None else [f"{labels[slot]}: {repeated} answers too many"]
@@ -290,5 +295,5 @@ class _Run:
         why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "
-            f"with their SYNC (expected at most {MAX_LOST:.0%})"
+            f"with their SYNC (expected at most {allowed})"
         )
