@@ -57,14 +57,29 @@ def blamed(fault: Fault, watch: Watch, explained_s: float) -> Fault:
     explained_s : float
         Lateness of this computer from which it explains such a fault, s.
     """
+    explained, tail = _judged(watch, explained_s)
+    if explained:
+        return replace(fault, where="this computer", what=f"{explained} ({fault})")
+    return replace(fault, what=f"{fault.what}; {tail}") if tail else fault
+
+
+def blamed_before_motion(message: str, watch: Watch) -> str:
+    """Return the message about drives that did not reach a state, with its cause and how late this computer was."""
+    silent = half_a_cycle(watch) if watch.supervision.silent() else math.inf
+    explained, tail = _judged(watch, silent)
+    if explained:
+        return f"this computer: {explained} ({message})"
+    return f"{message}; {tail}" if tail else message
+
+
+def _judged(watch: Watch, explained_s: float) -> tuple[str, str]:
+    """Return how late this computer was where that explains a fault, else what to add to its message."""
     seconds = BEFORE_S + watch.cycle_s * (watch.supervision.silent_after + watch.stalled + 1)
     worst, noticed_s = watch.computer.worst_within(seconds), half_a_cycle(watch)
     if worst.late_s >= explained_s and not is_own(worst) and not _one_of_many(watch):
-        return replace(fault, where="this computer", what=f"was {shown_ms(worst.late_s)} late ({fault})")
+        return f"was {shown_ms(worst.late_s)} late", ""
     late = worst.late_s >= noticed_s
-    if late or (watch.real_time and explained_s <= noticed_s):
-        return replace(fault, what=f"{fault.what}; {said(worst, late)}")
-    return fault
+    return "", said(worst, late) if late or (watch.real_time and explained_s <= noticed_s) else ""
 
 
 def is_own(worst: WakeUp) -> bool:

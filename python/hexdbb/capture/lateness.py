@@ -1,8 +1,9 @@
 """How late this computer is: a thread that sleeps and measures when it wakes.
 
 A node that does not answer and a computer that does not listen look the same from inside the loop. A thread that does
-nothing but sleep is late for one reason only: this computer let it wait. Processor time that this program used
-meanwhile is taken off: for that it is to blame itself.
+nothing but sleep is late for one reason only: this computer let it wait. Where this program itself used the processor
+meanwhile, it is to blame; in a virtual machine that cannot be told, since a stop by the host counts as processor time
+of whatever was running.
 Assumption users get wrong: a simulated rig is a process of the same computer, and is late with it; real nodes are not.
 """
 
@@ -13,6 +14,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import NamedTuple
 
 PERIOD_S = 0.004
@@ -41,8 +43,8 @@ class Lateness:
         Sleeps for a number of seconds.
     now_s : callable
         Returns the monotonic time, s.
-    used_s : callable
-        Returns the processor time that this program has used, s.
+    used_s : callable, optional
+        Returns the processor time that this program has used, s; default: the system's, 0 in a virtual machine.
 
     Attributes
     ----------
@@ -54,9 +56,10 @@ class Lateness:
         self,
         sleep: Callable[[float], None] = time.sleep,
         now_s: Callable[[], float] = time.monotonic,
-        used_s: Callable[[], float] = time.process_time,
+        used_s: Callable[[], float] | None = None,
     ) -> None:
-        self._sleep, self._now_s, self._used_s = sleep, now_s, used_s
+        self._sleep, self._now_s = sleep, now_s
+        self._used_s = used_s or ((lambda: 0.0) if is_virtual() else time.process_time)
         self._late: deque[WakeUp] = deque(maxlen=KEPT)
         self._due_s, self._used_at_s = float("inf"), 0.0
         self.worst_s = 0.0
@@ -98,3 +101,11 @@ class Lateness:
         """Return how late the thread is at the moment."""
         now_s = self._now_s()
         return WakeUp(now_s, max(now_s - self._due_s, 0.0), self._used_s() - self._used_at_s)
+
+
+def is_virtual() -> bool:
+    """Return whether the processor states a hypervisor."""
+    try:
+        return " hypervisor" in Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
+    except OSError:
+        return False

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import chain
 from typing import Protocol
 
-from hexdbb.capture.blame import said
+from hexdbb.capture.blame import blamed_before_motion
 from hexdbb.capture.checks import find_fault
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
@@ -288,10 +288,8 @@ class AxisGroup:
             if not feedback.missing and reached(feedback):
                 return feedback
         reported = "".join(f"; {each}" for each in self._reported())
-        computer = ""
-        if self._loop.clock.real_time:
-            computer = f"; {said(self._watch.computer.worst_within(STEP_TIMEOUT_S))}"
-        raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}{computer}")
+        message = f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}"
+        raise RunError(blamed_before_motion(message, self._watch))
 
     def _reported(self) -> list[str]:
         """Return what nodes have reported of themselves, or sent malformed: the cause may lie in another node."""

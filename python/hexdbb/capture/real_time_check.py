@@ -16,6 +16,7 @@ from pathlib import Path
 
 from hexdbb.capture.clock import Deadlines
 from hexdbb.capture.latency import Latency, shown_ms
+from hexdbb.capture.lateness import is_virtual
 from hexdbb.capture.realtime import FIFO_PRIORITY
 
 LEFT_OUT = 0.001
@@ -124,7 +125,7 @@ def advice(refused: list[str], interface: str | None = None) -> list[str]:
     queue = _text(f"class/net/{interface}/tx_queue_len") if interface else ""
     if queue.isdecimal() and int(queue) < SHORT_QUEUE:
         found.append(f"lengthen the send queue of {interface} (now {queue}): ip link set {interface} txqueuelen 1000")
-    if _is_virtual():
+    if is_virtual():
         found.append("use a computer of its own: this is a virtual machine, whose host may stop it at any moment")
     found.append("end other programs, browsers first; they compete for processor and disk")
     return found
@@ -136,14 +137,6 @@ def _text(path: str) -> str:
         return (SYSTEM / path).read_text(encoding="ascii", errors="replace").strip()
     except OSError:
         return ""
-
-
-def _is_virtual() -> bool:
-    """Return whether a hypervisor is stated by the processor."""
-    try:
-        return " hypervisor" in Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace")
-    except OSError:
-        return False
 
 
 def words(latency: Latency, verdict: Verdict) -> str:

@@ -35,6 +35,7 @@ from hexdbb.capture.motion import MotionFaultError
 from hexdbb.capture.real_time_check import RATES_HZ, judged
 from hexdbb.capture.round_trips import measured_latency
 from hexdbb.capture.transport import open_bus
+from hexdbb.errors import RunError
 from hexdbb.record import read_record
 
 STALL_S = 0.1
@@ -141,6 +142,27 @@ def test_the_message_blames_the_computer_or_the_node(
     message = message_of(silent, computer)
     assert message.startswith(begins), message
     assert names in message
+
+
+@pytest.mark.parametrize(
+    ("silent", "computer", "begins"),
+    [
+        (ALL, FakeComputer(0.060), "this computer: was 60.0 ms late (node 1 (slider 1): TPDO1 missing"),
+        (ALL, FakeComputer(), "node 1 (slider 1): TPDO1 missing"),
+        ((3,), FakeComputer(0.060), "node 3 (slider 3): TPDO1 missing"),
+    ],
+)
+def test_the_message_blames_the_right_one_before_motion_too(
+    silent: tuple[int, ...], computer: FakeComputer, begins: str
+) -> None:
+    bus = ScriptedBus()
+    axes = axes_on(bus)
+    axes.read_positions()
+    bus.silent = set(silent)
+    axes._watch.real_time, axes._watch.computer = True, computer.lateness()
+    with pytest.raises(RunError) as caught:
+        axes.enable()
+    assert str(caught.value).startswith(begins)
 
 
 def test_a_node_whose_answers_a_proxy_drops_is_blamed_in_a_run_in_real_time() -> None:
