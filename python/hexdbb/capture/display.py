@@ -15,6 +15,7 @@ from rich.console import Console, RenderableType
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 from rich.text import Text
 
+from hexdbb.capture.realtime import give_way
 from hexdbb.capture.request import RunProgress
 from hexdbb.trajectory import Phase
 
@@ -105,6 +106,7 @@ def display(progress: RunProgress, console: Console) -> Iterator[None]:
 
 
 def _live(progress: RunProgress, console: Console, finished: threading.Event) -> None:
+    give_way()
     with _Bar(ProgressText(progress), console) as bar:
         bar.live.transient = True
         task = bar.add_task("", total=None)
@@ -121,6 +123,7 @@ def _live(progress: RunProgress, console: Console, finished: threading.Event) ->
 
 
 def _plain(progress: RunProgress, console: Console, finished: threading.Event) -> None:
+    give_way()
     text = ProgressText(progress)
     last, printed, due_s = "", 0, 0.0
     while not finished.wait(LIVE_PERIOD_S):

@@ -19,6 +19,7 @@ from hexdbb.capture.cycle_times import CycleTimes
 from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
 from hexdbb.capture.frames import HEARTBEAT_BASE
 from hexdbb.capture.link import Link
+from hexdbb.capture.realtime import give_way
 from hexdbb.capture.settings import CONTROLLER_NODE
 from hexdbb.capture.supervision import NMT_OPERATIONAL
 
@@ -253,7 +254,8 @@ def nothing() -> None:
 
 
 def _run(work: Callable[[], T], future: Future[T]) -> None:
-    """Run the work of a pause and store its result or its exception."""
+    """Run the work of a pause and store its result or its exception; threads that it starts give way as it does."""
+    give_way()
     try:
         future.set_result(work())
     except BaseException as error:  # raised again in the loop, which would otherwise wait for ever

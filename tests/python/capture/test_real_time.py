@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import random
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -33,6 +35,7 @@ from hexdbb.capture.latency import SHARES, Histogram, Latency
 from hexdbb.capture.lateness import PERIOD_S, Lateness
 from hexdbb.capture.motion import MotionFaultError
 from hexdbb.capture.real_time_check import RATES_HZ, judged
+from hexdbb.capture.realtime import FIFO_PRIORITY, give_way, real_time_process
 from hexdbb.capture.round_trips import measured_latency
 from hexdbb.capture.transport import open_bus
 from hexdbb.errors import RunError
@@ -248,6 +251,22 @@ def test_nodes_are_asked_in_turn_and_silent_ones_are_counted() -> None:
     assert unanswered[99] > 0
     assert latency.answered.count + sum(unanswered.values()) == latency.late.count
     assert latency.answered.count > 0
+
+
+def test_helpers_give_way_to_the_loop() -> None:
+    found: list[int] = []
+
+    def helper() -> None:
+        give_way()
+        inherited = threading.Thread(target=lambda: found.append(os.sched_getparam(0).sched_priority))
+        inherited.start()
+        inherited.join()
+
+    with real_time_process() as refused:
+        thread = threading.Thread(target=helper)
+        thread.start()
+        thread.join()
+    assert found == [0 if any("SCHED_FIFO" in each for each in refused) else FIFO_PRIORITY - 1]
 
 
 def test_a_record_in_real_time_keeps_latencies_and_the_look_before_motion(tmp_path: Path) -> None:
