@@ -4,6 +4,7 @@ python -m tests.faults --table docs/fault-table.md --realtime --pairs 40 --seed 
 python -m tests.faults --only "answer twice"
 python -m tests.faults --kills 100 --seed 1
 python -m tests.faults --soak 50 --table docs/soak.md
+python -m tests.faults --cycles 1000000
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tests.faults.catalogue import FAULTS
+from tests.faults.memory import memory_of
 from tests.faults.page import page, summary
 from tests.faults.soak import report
 from tests.faults.tasks import Task, killed, made
@@ -26,6 +28,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _options(arguments)
     if options.soak:
         return 1 if report(options.soak, options.table) else 0
+    if options.cycles:
+        for cycles, megabytes in memory_of(options.cycles):
+            print(f"{cycles} cycles: {megabytes:.1f} MB", flush=True)
+        return 0
     if options.kills:
         kills = killed(options.kills, options.seed, options.jobs)
         failed = sum(bool(each.unmet) for each in kills)
@@ -51,6 +57,7 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--pairs", type=int, default=0, help="random pairs of faults, in lockstep")
     parser.add_argument("--kills", type=int, default=0, help="instead: runs killed at random moments")
     parser.add_argument("--soak", type=int, default=0, help="instead: runs in real time without a fault, under load")
+    parser.add_argument("--cycles", type=int, default=0, help="instead: memory of so many cycles in lockstep")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--realtime", action="store_true", help="in real time as well")
     parser.add_argument("--jobs", type=int, default=2, help="processes")

@@ -247,7 +247,7 @@ FAULTS: list[Fault] = [
         "flood of other frames, a node silent",
         CAPTURING,
         "20000 a second for 4 s",
-        r"node 3 ",
+        r"node 3 |bus: flooded",
         _silent_node_in_a_flood,
     ),
     _proxy("connection broken", tpdo(2), break_connection, r"bus: ", cuts_off=True),

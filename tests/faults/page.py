@@ -23,7 +23,8 @@ run without a fault and, where the fault moves the machine itself, with what all
   milliseconds (on {computer}, shared with other work). A dash: no quick stop was received, because none was needed or
   the connection was gone.
 - *Lost*: samples missing from a complete record, or captured before the fault and not in an incomplete one.
-- Real time: a run that this computer stalled is repeated, at most {attempts} times in all.
+- Real time: rig and proxy are scheduled as the controller is, since real nodes do not wait for other programs. A run
+  that this computer stalled is repeated, at most {attempts} times in all.
 """
 
 

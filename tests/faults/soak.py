@@ -1,7 +1,7 @@
 """Runs in real time without any fault, while this computer compiles: does the controller stop itself?
 
 Every run should end with a complete record. One that does not is put down to its cause: the controller's own message,
-beside how late this computer wakes a process that sleeps, measured meanwhile.
+beside how late this computer woke a thread that sleeps at that very time, measured by another process.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.faults.runs import DEADLINE_S, RECORD, command_line, prepared
+from tests.faults.runs import RECORD, command_line, prepared
 
 from hexdbb.capture.realtime import FIFO_PRIORITY
 from hexdbb.files.atomic_file import write_text
@@ -33,6 +33,22 @@ SLEEP_S = 0.004
 """Period of the sleeper that measures the lateness: a cycle at 250 Hz."""
 CONFIGURE = ("-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DHEXDBB_TESTS=ON")
 """The engine with its tests, as `make test` compiles it."""
+
+LONGEST_S = 120.0
+"""Longest time of a run, s: it takes 13 s, and its start, which nobody schedules in real time, many times as long where
+other programs wait too."""
+STOPS = "stopping all axes"
+"""Stage that `hexdbb-run` prints when a fault has been found."""
+SHOWN_S = 0.15
+"""Time after which a stage is printed at the latest, s: the display looks ten times a second."""
+LOOKED_BACK_S = 0.1
+"""Time before a fault in which a delay of this computer may be its cause, s, beside the SYNCs that it takes to be
+found: drives stop on their own after so long without targets."""
+SYNCS_TO_FIND = 4
+"""SYNCs from a cause to its fault: three unanswered ones, and the one before them."""
+COST_SYNCS = 3
+"""Samples that a delay costs beside its own cycles: the SYNC whose answers were incomplete, one left out to wait for
+them, one left out later for those still owed."""
 
 SUMMARY = re.compile(r"(\d+) of (\d+) samples, .*, (\d+) missed cycles")
 """What `hexdbb-run` prints at the end of a complete run."""
@@ -51,12 +67,29 @@ waits, that of others on this computer included.
   of a rate. It is what this computer does to any program. A cycle lasts 20 ms at 50 Hz and 4 ms at 250 Hz; a SYNC later
   than half a cycle is left out and counted as *missed*.
 - *Missing*: samples planned and not in a record said to be complete, at most 1 %.
+- *Put down to this computer*: of the runs that did not end complete, those in which the independent thread was late by
+  more than half a cycle **at the time of the fault** (the {looked_back:.0f} ms and {syncs} SYNCs before the controller
+  said that it stopped), or late so often while the axes moved that this explains every sample missing from a short
+  record (a delay of n cycles costs at most n + {cost}). Otherwise the run is *unexplained*.
 - *Short*: driven to its end, but more than 1 % of the samples are missing, and the record says so. *Stopped*: the
   controller stopped the axes.
 
-| rate | complete | short | stopped | missing: median, worst | missed: median, worst | lateness: median | 99 % | worst |
-|---|---|---|---|---|---|---|---|---|
 """
+
+
+COLUMNS = (
+    "rate",
+    "complete",
+    "short",
+    "stopped",
+    "put down to this computer",
+    "**unexplained**",
+    "missing: median, worst",
+    "missed: median, worst",
+    "lateness: median",
+    "99 %",
+    "worst",
+)
 
 
 @dataclass(frozen=True)
@@ -72,8 +105,10 @@ class Soaked:
         Error of a run that did not succeed, else samples and missed cycles.
     missing, missed : int
         Samples missing from a complete record, and SYNCs left out.
-    late_ms : ndarray
-        Lateness of a sleeping process during the run, ms.
+    woken : ndarray
+        When a sleeping thread of this process woke (monotonic, s) and how late (s) during the run, shape (n, 2).
+    lines : tuple of (float, str)
+        What the controller printed on stderr, each line with its time (monotonic, s).
     """
 
     rate_hz: int
@@ -81,7 +116,39 @@ class Soaked:
     message: str
     missing: int
     missed: int
-    late_ms: NDArray[np.float64]
+    woken: NDArray[np.float64]
+    lines: tuple[tuple[float, str], ...] = ()
+
+    @property
+    def late_ms(self) -> NDArray[np.float64]:
+        """Lateness during the run, ms."""
+        return 1e3 * self.woken[:, 1]
+
+    @property
+    def late_at_fault_ms(self) -> float:
+        """Largest lateness at the time of the fault, ms."""
+        said_s = next((at_s for at_s, line in self.lines if STOPS in line), None)
+        if said_s is None:
+            said_s = next((at_s for at_s, line in self.lines if line.startswith("error: ")), self.woken[-1, 0])
+        since_s = said_s - SHOWN_S - LOOKED_BACK_S - SYNCS_TO_FIND / self.rate_hz
+        # A thread that wakes late within the window was kept waiting until then.
+        return 1e3 * float(self._late_between(since_s, said_s).max(initial=0.0))
+
+    @property
+    def is_explained(self) -> bool:
+        """Whether lateness of this computer explains that the run did not end complete."""
+        if not self.is_short:
+            return self.late_at_fault_ms >= 500.0 / self.rate_hz
+        moving = [at_s for at_s, line in self.lines if " ms/cycle, " in line]
+        late_s = self._late_between(moving[0], self.lines[-1][0]) if moving else np.empty(0)
+        delays = np.ceil(late_s[late_s >= 0.5 / self.rate_hz] * self.rate_hz)
+        lost = re.search(r"(\d+) of \d+ planned samples are missing", self.message)
+        return lost is not None and int(lost[1]) <= float((delays + COST_SYNCS).sum())
+
+    def _late_between(self, since_s: float, until_s: float) -> NDArray[np.float64]:
+        at_s, late_s = self.woken.T
+        late: NDArray[np.float64] = late_s[(at_s >= since_s) & (at_s - late_s <= until_s)]
+        return late
 
     @property
     def is_short(self) -> bool:
@@ -136,19 +203,40 @@ def _one(folder: Path, rate_hz: int, seed: int) -> Soaked:
     with _rig_that_never_waits(truth, seed) as bus, _lateness() as late_s:
         words = ["--plan", str(folder / "plan.toml"), "--bus", bus, "--yes", "--rate", str(rate_hz)]
         words += ["--realtime", "--overwrite", "-o", str(record)]
-        try:
-            done = subprocess.run(command_line(words), capture_output=True, text=True, timeout=DEADLINE_S)
-        except subprocess.TimeoutExpired:
-            return Soaked(rate_hz, None, f"not ended after {DEADLINE_S:g} s", 0, 0, 1e3 * np.array(late_s))
-    late_ms = 1e3 * np.array(late_s)
-    if done.returncode:
-        message = (done.stderr.strip().splitlines() or [""])[-1].replace(f"{folder}/", "").removeprefix("error: ")
-        return Soaked(rate_hz, done.returncode, message, 0, 0, late_ms)
-    said = SUMMARY.search(done.stdout)
+        status, out, lines = _run_and_listen(command_line(words))
+    woken = np.array(late_s).reshape(-1, 2)
+    if status is None:
+        last = f", last heard: {lines[-1][1]}" if lines else ", before its first line"
+        return Soaked(rate_hz, None, f"not ended after {LONGEST_S:g} s{last}", 0, 0, woken, lines)
+    if status:
+        message = (lines[-1][1] if lines else "").replace(f"{folder}/", "").removeprefix("error: ")
+        return Soaked(rate_hz, status, message, 0, 0, woken, lines)
+    said = SUMMARY.search(out)
     if said is None:
-        raise RuntimeError(f"hexdbb-run printed: {done.stdout}")
+        raise RuntimeError(f"hexdbb-run printed: {out}")
     kept, planned, missed = map(int, said.groups())
-    return Soaked(rate_hz, 0, said[0], planned - kept, missed, late_ms)
+    return Soaked(rate_hz, 0, said[0], planned - kept, missed, woken, lines)
+
+
+def _run_and_listen(words: Sequence[str]) -> tuple[int | None, str, tuple[tuple[float, str], ...]]:
+    """Run the command; return its exit status, what it printed, and every line of stderr with its time (s)."""
+    lines: list[tuple[float, str]] = []
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        stderr = process.stderr
+        listening = threading.Thread(
+            target=lambda: lines.extend((time.monotonic(), line.rstrip()) for line in stderr), daemon=True
+        )
+        listening.start()
+        timer = threading.Timer(LONGEST_S, process.kill)
+        timer.start()
+        out = process.stdout.read()
+        status = process.wait()
+        ended = timer.is_alive()
+        timer.cancel()
+        listening.join()
+    return status if ended else None, out, tuple(lines)
 
 
 @contextmanager
@@ -174,9 +262,9 @@ def _real_time(pid: int) -> None:
 
 
 @contextmanager
-def _lateness() -> Iterator[list[float]]:
-    """Measure in a thread how late it wakes, s, for the length of the context."""
-    end, late_s = threading.Event(), list[float]()
+def _lateness() -> Iterator[list[tuple[float, float]]]:
+    """Measure in a thread when it wakes and how late, s, for the length of the context."""
+    end, late_s = threading.Event(), list[tuple[float, float]]()
 
     def measure() -> None:
         with suppress(PermissionError):
@@ -184,7 +272,8 @@ def _lateness() -> Iterator[list[float]]:
         while not end.is_set():
             due_s = time.monotonic() + SLEEP_S
             time.sleep(SLEEP_S)
-            late_s.append(time.monotonic() - due_s)
+            now_s = time.monotonic()
+            late_s.append((now_s, now_s - due_s))
 
     thread = threading.Thread(target=measure, daemon=True)
     thread.start()
@@ -219,8 +308,10 @@ def page(found: Sequence[Soaked], runs: int, load_before: float, load_after: flo
         granted = "granted"
     except PermissionError:
         granted = "not granted on this computer"
-    head = {"runs": runs, "computer": computer, "cores": cores(), "granted": granted}
+    rule = {"looked_back": 1e3 * LOOKED_BACK_S, "syncs": SYNCS_TO_FIND, "cost": COST_SYNCS}
+    head = {**rule, "runs": runs, "computer": computer, "cores": cores(), "granted": granted}
     lines = [HEAD.format(before=load_before, after=load_after, **head)]
+    lines.append(f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}\n")
     for rate_hz in RATES_HZ:
         of_rate = [each for each in found if each.rate_hz == rate_hz]
         complete = [each for each in of_rate if each.exit_status == 0]
@@ -230,6 +321,8 @@ def page(found: Sequence[Soaked], runs: int, load_before: float, load_after: flo
             f"{len(complete)} of {len(of_rate)}",
             str(sum(each.is_short for each in of_rate)),
             str(sum(each.exit_status != 0 and not each.is_short for each in of_rate)),
+            str(sum(each.exit_status != 0 and each.is_explained for each in of_rate)),
+            f"**{sum(each.exit_status != 0 and not each.is_explained for each in of_rate)}**",
             _middle_and_worst([each.missing for each in complete]),
             _middle_and_worst([each.missed for each in complete]),
             f"{median:.2f} ms",
@@ -240,11 +333,15 @@ def page(found: Sequence[Soaked], runs: int, load_before: float, load_after: flo
     stopped = [each for each in found if each.exit_status != 0]
     if stopped:
         lines.append(
-            "\n## Runs that did not end complete\n\n| rate | largest lateness in this run | message |\n|---|---|---|\n"
+            "\n## Runs that did not end complete\n\nLateness in the run: 99 %, worst; at the time of the fault: worst."
+            "\n\n| rate | lateness in this run | at the fault | put down to | message |\n|---|---|---|---|---|\n"
         )
         for each in stopped:
             most, worst = np.percentile(each.late_ms, [99.0, 100.0])
-            lines.append(f"| {each.rate_hz} Hz | {most:.0f}, {worst:.0f} ms | {each.message} |\n")
+            at_fault = "–" if each.is_short else f"{each.late_at_fault_ms:.0f} ms"
+            cause = "this computer" if each.is_explained else "**unexplained**"
+            message = each.message.replace("|", "\\|")
+            lines.append(f"| {each.rate_hz} Hz | {most:.1f}, {worst:.0f} ms | {at_fault} | {cause} | {message} |\n")
     return "".join(lines)
 
 

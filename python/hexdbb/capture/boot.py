@@ -16,6 +16,7 @@ from hexdbb.capture.configuration import configure_drive, configure_gauge
 from hexdbb.capture.fitness import DRIVE_PROFILE, GAUGE_PROFILE, Level, findings
 from hexdbb.capture.link import Link
 from hexdbb.capture.sdo import RemoteDevice, name
+from hexdbb.capture.sync_counter import configure_sync_counter
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
 
@@ -87,7 +88,9 @@ def refuse_unfit(devices: Devices, machine: MachineFile, cycle_s: float) -> None
                 raise InputError(f"{device.label}: {device.eds.path}{line}: object {found.place} {found}")
 
 
-def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float, timed: bool) -> list[str]:
+def boot(
+    network: canopen.Network, devices: Devices, machine: MachineFile, cycle_s: float, timed: bool
+) -> tuple[list[str], int]:
     """Identify, configure and start every node.
 
     Parameters
@@ -105,8 +108,10 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
 
     Returns
     -------
-    list of str
+    notes : list of str
         One line for each object a device lacks, with the consequence.
+    sync_overflow : int
+        Largest number that SYNCs carry; 0 where they carry none.
 
     Raises
     ------
@@ -116,13 +121,13 @@ def boot(network: canopen.Network, devices: Devices, machine: MachineFile, cycle
     for device in devices:
         identify(device, DRIVE_PROFILE if device in devices.drives else GAUGE_PROFILE)
     network.nmt.send_command(NMT_PRE_OPERATIONAL)
-    notes: list[str] = []
+    sync_overflow, notes = configure_sync_counter(tuple(devices))
     for slider, drive in enumerate(devices.drives, start=1):
         check_mode_offered(drive)
         notes += configure_drive(drive, machine, cycle_s, timed, slider)
     notes += configure_gauge(devices.gauge, machine, cycle_s, timed)
     network.nmt.send_command(NMT_START)
-    return notes
+    return notes, sync_overflow
 
 
 def identify(device: RemoteDevice, profile: int) -> None:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from hexdbb.capture.exchange import Feedback
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.request import RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
+from hexdbb.capture.targets_ahead import Row
 
 
 class CapturedRows:
@@ -16,24 +15,23 @@ class CapturedRows:
     Parameters
     ----------
     samples : SampleBuffer
-    capture : sequence of bool
-        Whether a row is captured.
     loop : Loop
         Tells the time of motion.
     progress : RunProgress
         Updated with every row.
     """
 
-    def __init__(self, samples: SampleBuffer, capture: Sequence[bool], loop: Loop, progress: RunProgress) -> None:
-        self._samples, self._capture, self._loop, self._progress = samples, capture, loop, progress
+    def __init__(self, samples: SampleBuffer, loop: Loop, progress: RunProgress) -> None:
+        self._samples, self._loop, self._progress = samples, loop, progress
 
-    def keep(self, row: int, feedback: Feedback) -> None:
+    def keep(self, row: Row, feedback: Feedback) -> None:
         """Take the answers of a row, to be confirmed or dropped later."""
         progress, loop = self._progress, self._loop
-        progress.row, progress.cycle_index, progress.reading_um = row, loop.cycle_index, feedback.reading_um
+        progress.row, progress.place = row.index, (row.phase, row.run)
+        progress.cycle_index, progress.reading_um = loop.cycle_index, feedback.reading_um
         progress.missed = loop.missed
-        if self._capture[row]:
-            self._samples.keep(row, loop.cycle_index, loop.last_missed, feedback)
+        if row.captured:
+            self._samples.keep(row.columns, loop.cycle_index, loop.last_missed, feedback)
 
     def settle(self, paired: bool, held: int) -> None:
         """Accept all but the last `held` rows taken, or drop all not accepted yet if not `paired`."""

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from hexdbb.capture.blame import blamed, controller_missed, drives_time_out, half_a_cycle, never
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
     FOLLOWING_ERROR,
@@ -38,18 +39,28 @@ ENABLED_MASK, ENABLED_VALUE = DriveState.OPERATION_ENABLED.value
 
 @dataclass(frozen=True)
 class Check:
-    """One check: its name and the function that returns a fault, or None."""
+    """One check.
+
+    Attributes
+    ----------
+    name : str
+    find : callable
+        Returns a fault, or None.
+    late_s : callable
+        Returns the lateness (s) of this computer from which it explains such a fault; infinite where it never does.
+    """
 
     name: str
     find: Callable[[Watch], Fault | None]
+    late_s: Callable[[Watch], float] = never
 
 
 def find_fault(watch: Watch) -> Fault | None:
-    """Run all checks in order and return the first fault, or None."""
+    """Run all checks in order and return the first fault with its cause (`hexdbb.capture.blame`), or None."""
     for check in CHECKS:
         fault = check.find(watch)
         if fault is not None:
-            return fault
+            return fault if check.find is _interrupted else blamed(fault, watch, check.late_s(watch))
     return None
 
 
@@ -97,7 +108,10 @@ def _foreign_sync(watch: Watch) -> Fault | None:
     count = watch.supervision.foreign_syncs
     if not count:
         return None
-    return Fault("bus", f"{count} SYNC of another producer (expected SYNC 080h from this controller only)", count)
+    number = watch.supervision.foreign_number
+    numbered = "" if number is None else f", counter {number}"
+    what = f"{count} SYNC of another producer{numbered} (expected SYNC 080h from this controller only)"
+    return Fault("bus", what, count)
 
 
 def _repeated(watch: Watch) -> Fault | None:
@@ -254,18 +268,18 @@ def _heartbeats(watch: Watch) -> Fault | None:
 
 CHECKS: list[Check] = [
     Check("interrupted", _interrupted),
-    Check("loop stall", _stall),
+    Check("loop stall", _stall, half_a_cycle),
     Check("flood", _flood),
     Check("length of answers", _wrong_length),
-    Check("answers", _answers),
+    Check("answers", _answers, half_a_cycle),
     Check("SYNC of others", _foreign_sync),
     Check("lost reading", _lost_reading),
-    Check("drive states", _drive_states),
+    Check("drive states", _drive_states, controller_missed),
     Check("modes", _modes),
-    Check("emergencies", _emergencies),
+    Check("emergencies", _emergencies, controller_missed),
     Check("malformed frames", _malformed),
-    Check("NMT states", _nmt_states),
-    Check("heartbeats", _heartbeats),
+    Check("NMT states", _nmt_states, controller_missed),
+    Check("heartbeats", _heartbeats, drives_time_out),
     Check("status bits", _status_bits),
     Check("lasting bits", _lasting_bits),
     Check("following error", _following),

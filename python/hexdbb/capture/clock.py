@@ -20,9 +20,12 @@ class Clock(Protocol):
     ----------
     real_time : bool
         Whether SYNCs are sent at fixed times.
+    late_s : float
+        Time from the moment at which the last SYNC was due to the one at which it could be sent, s.
     """
 
     real_time: bool
+    late_s: float
 
     def start(self) -> None:
         """Start counting; the first SYNC is due immediately."""
@@ -59,6 +62,7 @@ class Lockstep:
     """
 
     real_time = False
+    late_s = 0.0
 
     def __init__(self, patience_s: float = 0.25) -> None:
         self._patience_s = patience_s
@@ -99,7 +103,7 @@ class Deadlines:
 
     def __init__(self, cycle_s: float) -> None:
         self._cycle_s = cycle_s
-        self._due_s = 0.0
+        self._due_s = self.late_s = 0.0
 
     def start(self) -> None:
         """Set the first deadline to now."""
@@ -111,8 +115,11 @@ class Deadlines:
         late_cycles = (now_s - self._due_s) / self._cycle_s
         missed = math.ceil(late_cycles) if late_cycles > self.LATEST else 0
         self._due_s += missed * self._cycle_s
+        late_s = late_cycles * self._cycle_s
         if now_s < self._due_s:
             time.sleep(self._due_s - now_s)
+            late_s = max(late_s, time.monotonic() - self._due_s)
+        self.late_s = late_s
         self._due_s += self._cycle_s
         return missed
 

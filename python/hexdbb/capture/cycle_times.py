@@ -6,6 +6,8 @@ counts from another thread.
 
 from __future__ import annotations
 
+from hexdbb.capture.latency import Latency
+
 BIN_S = 0.0001
 """Width of a bin, s: a fortieth of a cycle at 250 Hz, and what a desktop kernel's wake-ups scatter by."""
 BINS = 1001
@@ -25,12 +27,15 @@ class CycleTimes:
         SYNCs by the number missed immediately before, shape (`GAPS`,); what missed none is not counted.
     longest_s : float
         Longest time between two SYNCs, s.
+    latency : Latency
+        How late SYNCs were, and how soon answers came.
     """
 
     def __init__(self) -> None:
         self.times = [0] * BINS
         self.gaps = [0] * GAPS
         self.longest_s = 0.0
+        self.latency = Latency()
         self._last_s: float | None = None
 
     def take(self, sync_s: float, missed: int) -> None:
@@ -53,3 +58,4 @@ class CycleTimes:
         self.times[:] = [0] * BINS
         self.gaps[:] = [0] * GAPS
         self.longest_s, self._last_s = 0.0, None
+        self.latency.clear()

@@ -15,6 +15,7 @@ from rich.console import Console, RenderableType
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TimeRemainingColumn
 from rich.text import Text
 
+from hexdbb.capture.realtime import give_way
 from hexdbb.capture.request import RunProgress
 from hexdbb.trajectory import Phase
 
@@ -41,17 +42,17 @@ class ProgressText:
     def place(self) -> str:
         """Return the present run and phase."""
         progress = self._progress
-        programme, row = progress.programme, progress.row
+        programme = progress.programme
         if programme is None or progress.stage != "moving":
             return progress.stage
-        phase = Phase(int(programme.table.phase[row])).name.lower().replace("_", " ")
-        index = int(programme.table.run[row])
+        number, index = progress.place
+        phase = Phase(number).name.lower().replace("_", " ")
         if index < 0:
             return phase
         run = programme.runs[index]
         sense = "counter-clockwise" if run.direction > 0 else "clockwise"
-        number = f"run {index + 1}/{len(programme.runs)}"
-        return f"{number}, circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min: {phase}"
+        motion = f"circle {run.circle.id}, {sense}, {run.feed_mm_min:g} mm/min"
+        return f"run {index + 1}/{len(programme.runs)}, {motion}: {phase}"
 
     def numbers(self) -> str:
         """Return reading, cycle time and missed cycles; empty before the first row."""
@@ -105,6 +106,7 @@ def display(progress: RunProgress, console: Console) -> Iterator[None]:
 
 
 def _live(progress: RunProgress, console: Console, finished: threading.Event) -> None:
+    give_way()
     with _Bar(ProgressText(progress), console) as bar:
         bar.live.transient = True
         task = bar.add_task("", total=None)
@@ -121,6 +123,7 @@ def _live(progress: RunProgress, console: Console, finished: threading.Event) ->
 
 
 def _plain(progress: RunProgress, console: Console, finished: threading.Event) -> None:
+    give_way()
     text = ProgressText(progress)
     last, printed, due_s = "", 0, 0.0
     while not finished.wait(LIVE_PERIOD_S):

@@ -93,6 +93,8 @@ class Exchange:
         Node id of the gauge.
     other : callable
         Called with identifier, data and timestamp of every frame that is not process data.
+    sync_overflow : int
+        Largest number that SYNCs carry, after which they count from 1 again (1019h); 0 for SYNCs without data.
 
     Attributes
     ----------
@@ -115,10 +117,12 @@ class Exchange:
         drive_nodes: Sequence[int],
         gauge_node: int,
         other: Callable[[int, bytearray, float], None],
+        sync_overflow: int = 0,
     ) -> None:
         self._bus, self._other = bus, other
+        self._sync_overflow = sync_overflow
         self._targets = [_message(DRIVE_RPDO.cob_id(node), DRIVE_RPDO.bytes) for node in drive_nodes]
-        self._sync = _message(SYNC_ID, 0)
+        self._sync = _message(SYNC_ID, 1 if sync_overflow else 0)
         self._slots = {DRIVE_TPDO.cob_id(node): slot for slot, node in enumerate(drive_nodes)}
         self._slots[GAUGE_TPDO.cob_id(gauge_node)] = GAUGE_SLOT
         self._rpdo, self._drive, self._gauge = DRIVE_RPDO.struct, DRIVE_TPDO.struct, GAUGE_TPDO.struct
@@ -154,6 +158,8 @@ class Exchange:
 
     def send_sync(self) -> None:
         """Send the SYNC; raises `can.CanError` if the bus cannot send."""
+        if self._sync_overflow:
+            self._sync.data[0] = self._sync.data[0] % self._sync_overflow + 1
         self.feedback.settled = not any(self._owed)
         self._bus.send(self._sync)
         self.sync_s = time.monotonic()

@@ -19,6 +19,7 @@ from hexdbb.capture.cycle_times import CycleTimes
 from hexdbb.capture.exchange import SLOTS, Exchange, Feedback
 from hexdbb.capture.frames import HEARTBEAT_BASE
 from hexdbb.capture.link import Link
+from hexdbb.capture.realtime import give_way
 from hexdbb.capture.settings import CONTROLLER_NODE
 from hexdbb.capture.supervision import NMT_OPERATIONAL
 
@@ -64,6 +65,9 @@ class Loop:
         Targets sent last, counts, shape (6,).
     times : CycleTimes
         Histograms of the cycles since `restart_time`, for a display.
+    while_waiting : callable
+        Called in lockstep whenever the time for answers is over and some are missing: earlier SYNCs are settled by
+        then, and the wait may be long.
     """
 
     def __init__(self, link: Link, exchange: Exchange, clock: Clock, heartbeat_s: float, cycle_s: float) -> None:
@@ -77,6 +81,7 @@ class Loop:
         self.last_missed = 0
         self.counts: list[int] = [0] * 6
         self.times = CycleTimes()
+        self.while_waiting: Callable[[], None] = nothing
         self._incomplete = False
         self._owing, self._owed_cycles = 0, max(2, round(OWED_S / cycle_s))
         clock.start()
@@ -119,8 +124,13 @@ class Loop:
         self._exchange.send_sync()
         self.times.take(self._exchange.sync_s, self.last_missed)
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
-        if len(feedback.missing) == SLOTS and not self.clock.real_time:
-            self._wait_for_any(controlwords, counts)
+        self.times.latency.late.take(self.clock.late_s)
+        if not feedback.missing:
+            self.times.latency.answered.take(time.monotonic() - self._exchange.sync_s)
+        if feedback.missing and not self.clock.real_time:
+            self.while_waiting()
+            if len(feedback.missing) == SLOTS:
+                self._wait_for_any(controlwords, counts)
         self._incomplete = bool(feedback.missing)
         return feedback
 
@@ -147,6 +157,14 @@ class Loop:
             self._owing = 0
             if exchange.owed == owed:
                 exchange.forget_owed()
+
+    @property
+    def cost_of_a_lost_answer(self) -> int:
+        """Samples that one lost answer costs in real time.
+
+        Its own, those of two SYNCs left out to look for it, those in between, and one for the cycle it is found in.
+        """
+        return self._owed_cycles + 3 if self.clock.real_time else 1
 
     def confirm(self) -> bool:
         """Look whether every answer belonged to its SYNC since this was last called.
@@ -177,6 +195,7 @@ class Loop:
             self._send(controlwords, counts)
             if len(self._exchange.collect(self.clock.answer_timeout_s()).missing) < SLOTS:
                 return
+            self.while_waiting()
 
     def restart_time(self) -> None:
         """Restart the time of motion: the next SYNC has index 0."""
@@ -230,8 +249,13 @@ class Loop:
             self._heartbeat_due_s = now_s + self._heartbeat_s
 
 
+def nothing() -> None:
+    """Do nothing."""
+
+
 def _run(work: Callable[[], T], future: Future[T]) -> None:
-    """Run the work of a pause and store its result or its exception."""
+    """Run the work of a pause and store its result or its exception; threads that it starts give way as it does."""
+    give_way()
     try:
         future.set_result(work())
     except BaseException as error:  # raised again in the loop, which would otherwise wait for ever

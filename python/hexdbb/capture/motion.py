@@ -8,12 +8,11 @@ Source: CiA 402-2, state machine (controlword 6040h, statusword 6041h) and cycli
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import chain
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from hexdbb.capture.blame import blamed_before_motion
 from hexdbb.capture.checks import find_fault
 from hexdbb.capture.cia402 import (
     CYCLIC_SYNCHRONOUS_POSITION,
@@ -24,8 +23,9 @@ from hexdbb.capture.cia402 import (
     state_of,
 )
 from hexdbb.capture.exchange import Feedback
-from hexdbb.capture.loop import Loop
+from hexdbb.capture.loop import Loop, nothing
 from hexdbb.capture.standstill import Standstill
+from hexdbb.capture.targets_ahead import Row
 from hexdbb.capture.transport import one_line
 from hexdbb.capture.watch import Fault, Watch
 from hexdbb.errors import RunError
@@ -46,12 +46,15 @@ STOPPED_STATES = (
 VERIFY_SYNCS = 25
 """SYNCs in lockstep between two looks for answers too many: 1 ms of silence each, a tenth of the time that so many
 cycles take. What is not verified is dropped if there is one: of a circle of 2,500 samples one in a hundred."""
+VERIFY_S = 0.1
+"""Longest time between two such looks, s, where the computer is so busy that 25 SYNCs take longer: samples that are not
+verified are not on disk, and would be lost if the controller were killed."""
 
 
 class Rows(Protocol):
     """Receives the answers that belong to the rows of a table."""
 
-    def keep(self, row: int, feedback: Feedback) -> None:
+    def keep(self, row: Row, feedback: Feedback) -> None:
         """Take the answers of a row; they are not certain yet."""
 
     def settle(self, paired: bool, held: int) -> None:
@@ -116,6 +119,11 @@ class AxisGroup:
             )
         return list(feedback.position)
 
+    def wait(self, cycles: int) -> None:
+        """Run cycles with the drives disabled; nothing is checked."""
+        for _ in range(cycles):
+            self._loop.cycle([Command.DISABLE_VOLTAGE] * 6, list(self._loop.feedback.position))
+
     def check_homed(self) -> None:
         """Check that every drive reports a homed position (statusword bit 15); raises `RunError` otherwise."""
         for label, word in zip(self._labels, self._loop.feedback.statusword, strict=False):
@@ -148,21 +156,13 @@ class AxisGroup:
             self._until(command, self._all_in(state), state.label, follow=state is not DriveState.OPERATION_ENABLED)
         return list(self._loop.counts)
 
-    def follow(
-        self,
-        counts: NDArray[np.int32],
-        gauge_watched: NDArray[np.bool_],
-        kept: Rows,
-        pauses: Mapping[int, Callable[[], None]],
-    ) -> None:
-        """Send a table of targets, one row per cycle, and check every answer.
+    def follow(self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]]) -> None:
+        """Send targets, one row per cycle, and check every answer.
 
         Parameters
         ----------
-        counts : numpy.ndarray
-            Targets in counts, shape (n, 6).
-        gauge_watched : numpy.ndarray
-            Rows in which the reading must be valid and within range, shape (n,).
+        rows : iterable of Row
+            Targets in order; the reading must be valid and within range in those on a circle.
         kept : Rows
             Takes the answers that belong to each row.
         pauses : mapping of int to callable
@@ -175,27 +175,39 @@ class AxisGroup:
         can.CanError
             The bus is lost.
         """
-        enabled = [Command.ENABLE_OPERATION] * 6
-        watch, loop = self._watch, self._loop
+        loop = self._loop
         # A heartbeat sent before the nodes were started may have arrived only now.
-        watch.supervision.forget_stale_states()
-        rows = len(counts)
-        for row in range(rows + 1):
-            if row in pauses:
+        self._watch.supervision.forget_stale_states()
+        # A long wait for answers must not keep samples from the disk that are certain already.
+        loop.while_waiting = lambda: kept.settle(loop.confirm(), held=0)
+        try:
+            self._follow(rows, kept, pauses)
+        finally:
+            loop.while_waiting = nothing
+        kept.settle(loop.confirm(), held=0)
+
+    def _follow(self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]]) -> None:
+        watch, loop, enabled = self._watch, self._loop, [Command.ENABLE_OPERATION] * 6
+        sent: Row | None = None
+        verified_s = time.monotonic()
+        # The last row is sent twice: its answers are those to the SYNC after it.
+        for row in chain(rows, [None]):
+            if row is not None and row.index in pauses:
                 watch.expected = loop.counts
-                loop.hold_while(pauses[row], enabled, self._check)
+                loop.hold_while(pauses[row.index], enabled, self._check)
             # The answers to this SYNC belong to the targets sent before it.
             watch.expected = loop.counts
-            watch.gauge_watched = row > 0 and bool(gauge_watched[row - 1])
-            feedback = loop.cycle(enabled, counts[min(row, rows - 1)].tolist())
+            watch.gauge_watched = sent is not None and sent.on_circle
+            feedback = loop.cycle(enabled, loop.counts if row is None else row.counts)
             self._check()
-            if row and feedback.settled:
-                kept.keep(row - 1, feedback)
+            if sent is not None and feedback.settled:
+                kept.keep(sent, feedback)
+            sent = row
             if loop.clock.real_time:
                 kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
-            elif row % VERIFY_SYNCS == 0:
+            elif feedback.cycle % VERIFY_SYNCS == 0 or time.monotonic() - verified_s > VERIFY_S:
                 kept.settle(loop.confirm(), held=0)
-        kept.settle(loop.confirm(), held=0)
+                verified_s = time.monotonic()
 
     def _check(self) -> None:
         """Check the answers to the last SYNC; raises `MotionFaultError` if a check finds a fault."""
@@ -276,7 +288,8 @@ class AxisGroup:
             if not feedback.missing and reached(feedback):
                 return feedback
         reported = "".join(f"; {each}" for each in self._reported())
-        raise RunError(f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}")
+        message = f"{self._culprit(reached)} (expected {what} within {STEP_TIMEOUT_S:g} s){reported}"
+        raise RunError(blamed_before_motion(message, self._watch))
 
     def _reported(self) -> list[str]:
         """Return what nodes have reported of themselves, or sent malformed: the cause may lie in another node."""

@@ -61,6 +61,16 @@ def _small_steps() -> Iterator[None]:
         sys.setswitchinterval(switch_s)
 
 
+def give_way() -> None:
+    """Let this thread, and those it starts, give way to the loop: a thread of equal priority would keep its core.
+
+    One step below only: at ordinary priority other programs could keep the thread waiting that holds the interpreter's
+    lock, and with it the loop.
+    """
+    if os.sched_getscheduler(0) == os.SCHED_FIFO:
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(FIFO_PRIORITY - 1))
+
+
 @contextmanager
 def real_time_process() -> Iterator[list[str]]:
     """Request real-time scheduling and locked memory and switch garbage collection off, for the length of the context.

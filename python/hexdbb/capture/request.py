@@ -15,7 +15,7 @@ from hexdbb.capture.watch import Watch
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Plan
 from hexdbb.record.columns import Columns
-from hexdbb.trajectory import Programme, Targets, plan_programme
+from hexdbb.trajectory import Phase, Programme, Targets, plan_programme
 
 
 @dataclass
@@ -27,7 +27,9 @@ class RunProgress:
     stage : str
         Present phase of the run: ``reading axis positions``, ``enabling``, ``moving`` ...
     row, rows : int
-        Present row and number of rows of the table of targets.
+        Present row and number of rows of the targets.
+    place : tuple of int
+        Phase (`hexdbb.trajectory.Phase`) of the present row, and index of its run, -1 for none.
     cycle_index : int
         Time of motion in cycles.
     paused : bool
@@ -39,7 +41,7 @@ class RunProgress:
     reading_um : float
         Last reading, µm; nan before the first one.
     programme : Programme or None
-        The table that is being followed, approach included.
+        The targets that are being followed, approach included.
     notes : list of str
         Objects that devices lack and requests that the system refused, with the consequences.
     watch : Watch or None
@@ -54,6 +56,7 @@ class RunProgress:
     stage: str = "starting"
     row: int = 0
     rows: int = 0
+    place: tuple[int, int] = (int(Phase.APPROACH), -1)
     cycle_index: int = 0
     paused: bool = False
     samples: int = 0
@@ -107,7 +110,7 @@ class Request:
 
 
 def prepare(request: Request) -> Programme:
-    """Compute the table of targets and check everything that needs no bus: reach, limits, bus load, cycle time.
+    """Compute all targets and check everything that needs no bus: reach, limits, bus load, cycle time.
 
     Parameters
     ----------

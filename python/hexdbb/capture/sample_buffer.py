@@ -10,6 +10,7 @@ between target and position columns.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Sequence
 
 import numpy as np
@@ -20,8 +21,9 @@ from hexdbb.record import SLIDER_COLUMNS, TARGET_COLUMNS, Journal
 from hexdbb.trajectory import Programme
 
 BLOCK_S = 0.25
-"""Machine time of one block, s. At worst the block (0.25 s) and the journal's writing period (0.5 s) are lost when the
-controller is killed: less than the second that is allowed."""
+"""Machine time of one block, and longest time that its oldest sample waits by the clock, s: on a busy computer lockstep
+is slower than the machine. At worst a block and the journal's writing period (0.2 s) are lost when the controller is
+killed: half of the second that is allowed."""
 MISSED_BEFORE = 1 << 8
 """Bit of the status column: cycles were missed just before this sample. Bits 0-7 are the gauge's status 6150h."""
 
@@ -32,7 +34,7 @@ class SampleBuffer:
     Parameters
     ----------
     programme : Programme
-        The table that the rows belong to.
+        The runs that the rows belong to.
     journal : Journal
         Receives the blocks.
     counts_per_mm : float
@@ -58,16 +60,17 @@ class SampleBuffer:
         self._held: list[tuple[float, ...]] = []
         self._block: list[tuple[float, ...]] = []
         self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
+        self._oldest_s = 0.0
         self.count = self.dropped = 0
         self.until_s = math.inf
 
-    def keep(self, row: int, cycle_index: int, missed: int, feedback: Feedback) -> None:
+    def keep(self, columns: Sequence[float], cycle_index: int, missed: int, feedback: Feedback) -> None:
         """Collect the answers of one captured row.
 
         Parameters
         ----------
-        row : int
-            Row of the table of targets.
+        columns : sequence of float
+            Run, lap, angle (deg) and the six targets (mm) of the row.
         cycle_index : int
             Time of motion of the sample, in cycles.
         missed : int
@@ -75,8 +78,10 @@ class SampleBuffer:
         feedback : Feedback
             The answers.
         """
+        if not self._held and not self._block:
+            self._oldest_s = time.monotonic()
         status = feedback.gauge_status | (MISSED_BEFORE if missed else 0)
-        self._held.append((row, cycle_index, status, feedback.reading_um, *feedback.position))
+        self._held.append((cycle_index, status, feedback.reading_um, *feedback.position, *columns))
 
     def confirm(self, held: int = 0) -> None:
         """Accept the samples collected, but for the last ones.
@@ -97,7 +102,7 @@ class SampleBuffer:
         self._block += self._held[:end]
         del self._held[:end]
         self.count += end
-        if len(self._block) >= self._block_size:
+        if len(self._block) >= self._block_size or time.monotonic() - self._oldest_s >= BLOCK_S:
             self.flush()
 
     def drop(self) -> None:
@@ -107,8 +112,8 @@ class SampleBuffer:
 
     def cut(self, cycle_index: int) -> None:
         """Drop samples from a cycle on; `until_s` says from when those on disk are to be dropped as well."""
-        self._held = [each for each in self._held if each[1] < cycle_index]
-        self._block = [each for each in self._block if each[1] < cycle_index]
+        self._held = [each for each in self._held if each[0] < cycle_index]
+        self._block = [each for each in self._block if each[0] < cycle_index]
         self.until_s = cycle_index * self._programme.cycle_s
 
     def flush(self) -> None:
@@ -116,24 +121,23 @@ class SampleBuffer:
         if self._block:
             block = np.array(self._block)
             self._block.clear()
+            self._oldest_s = time.monotonic()
             self._journal.append(self._columns(block))
 
     def _columns(self, block: NDArray[np.float64]) -> dict[str, NDArray[np.generic]]:
-        table = self._programme.table
-        row = block[:, 0].astype(np.intp)
-        run = table.run[row]
+        run = block[:, 9].astype(np.intp)
         return {
-            "t_s": block[:, 1] * self._programme.cycle_s,
+            "t_s": block[:, 0] * self._programme.cycle_s,
             "circle": self._circle[run],
             "sweep": self._sweep[run],
             "direction": self._direction[run],
-            "lap": table.lap[row],
-            "angle_deg": table.angle_deg[row],
+            "lap": block[:, 10].astype(np.int64),
+            "angle_deg": block[:, 11],
             "feed_mm_min": self._feed_mm_min[run],
-            **_named(SLIDER_COLUMNS, block[:, 4:10] / self._counts_per_mm),
-            "reading_um": block[:, 3],
-            **_named(TARGET_COLUMNS, table.sliders_mm[row]),
-            "status": block[:, 2].astype(np.int32),
+            **_named(SLIDER_COLUMNS, block[:, 3:9] / self._counts_per_mm),
+            "reading_um": block[:, 2],
+            **_named(TARGET_COLUMNS, block[:, 12:18]),
+            "status": block[:, 1].astype(np.int32),
         }
 
 

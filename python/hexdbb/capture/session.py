@@ -20,24 +20,31 @@ from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.interrupts import Interrupts
+from hexdbb.capture.latency import shown_ms
+from hexdbb.capture.lateness import NOTED_S, Lateness
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
+from hexdbb.capture.real_time_check import advice, judged, words
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
 from hexdbb.capture.setup import pauses, setup_changes
 from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.targets_ahead import TargetsAhead
 from hexdbb.capture.transport import one_line
 from hexdbb.capture.watch import Fault, watch_over
 from hexdbb.errors import HexdbbError, RunError
 from hexdbb.record import Journal, Record
-from hexdbb.trajectory import Phase, Programme, approach
+from hexdbb.trajectory import Programme, approach
 
 log = logging.getLogger(__name__)
 
 MAX_LOST = 0.01
 """Largest share of the planned samples that a complete record may lack: four degrees of a circle; what is lost more
 leaves gaps in the fit, and has a cause that should be known."""
+LOOK_S = 2.0
+"""Time for which real time is tried before anything moves, s: 500 cycles at 250 Hz, in which a delay that happens once
+in a hundred cycles shows with certainty, and which no operator minds."""
 LOCKSTEP_TOLERANCE_S = 1.0
 """Added to the heartbeat limit in lockstep, s. Nothing else depends on time there, and a busy desktop may stall the
 process that sends the heartbeats."""
@@ -89,9 +96,12 @@ def measure(
     try:
         with interrupts.watched():
             with link.threaded():
-                progress.notes += boot(link, devices, request.machine, request.cycle_s, clock.real_time)
-            with link.looped():
-                return _Run(request, programme, link, devices, clock, progress, interrupts).record()
+                notes, sync_overflow = boot(link, devices, request.machine, request.cycle_s, clock.real_time)
+                progress.notes += notes
+            computer = Lateness()
+            with link.looped(), computer.measured():
+                run = _Run(request, programme, link, devices, clock, progress, interrupts, computer, sync_overflow)
+                return run.record()
     except (can.CanError, OSError) as error:
         raise RunError(f"bus: {one_line(error)} (expected a working bus); nothing has moved") from error
     finally:
@@ -119,6 +129,8 @@ class _Run:
         clock: Clock,
         progress: RunProgress,
         interrupts: Interrupts,
+        computer: Lateness,
+        sync_overflow: int,
     ) -> None:
         machine, cycle_s = request.machine, request.cycle_s
         can_setup = machine.can_setup
@@ -128,7 +140,7 @@ class _Run:
         labels = tuple(device.label for device in devices)
         limit_s = can_setup.heartbeat_consumer_ms / 1000.0 + (0.0 if clock.real_time else LOCKSTEP_TOLERANCE_S)
         supervision = Supervision([device.node_id for device in devices], link.notify, limit_s, request.silent_after)
-        exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame)
+        exchange = Exchange(link.bus, can_setup.drive_nodes, can_setup.gauge_node, supervision.on_frame, sync_overflow)
         self.loop = Loop(link, exchange, clock, can_setup.heartbeat_producer_ms / 1000.0, cycle_s)
         self.watch = watch_over(
             exchange,
@@ -141,6 +153,7 @@ class _Run:
             expected=self.loop.counts,
             real_time=clock.real_time,
             interrupts=interrupts,
+            computer=computer,
         )
         self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
         progress.watch, progress.times = self.watch, self.loop.times
@@ -150,17 +163,21 @@ class _Run:
         self.progress.stage = "reading axis positions"
         present_mm = np.array(self.axes.read_positions()) / self.counts_per_mm
         self.axes.check_homed()
+        if self.loop.clock.real_time:
+            self._look()
         self.watch.interrupts.note_only()
-        programme, journal = self.loop.hold_while(
+        programme, targets, journal = self.loop.hold_while(
             lambda: self._with_approach(present_mm), [Command.DISABLE_VOLTAGE] * 6
         )
-        with journal:
+        with targets, journal:
             samples = SampleBuffer(programme, journal, self.counts_per_mm)
-            cause = self._move(programme, samples) or self._too_few(samples, programme)
+            cause = self._move(programme, samples, targets) or self._too_few(samples, programme)
             try:
                 samples.flush()
-                notes = [*self.progress.notes, *self.link.notes()]
-                record = journal.finish(cause is None, cause, samples.until_s, {"notes": notes})
+                known: dict[str, object] = {"notes": [*self.progress.notes, *self.link.notes()]}
+                if self.loop.clock.real_time:
+                    known["latency"] = self.loop.times.latency.metadata()
+                record = journal.finish(cause is None, cause, samples.until_s, known)
             except RunError as error:
                 if cause is not None and str(error) in cause:
                     raise RunError(cause) from None
@@ -169,10 +186,24 @@ class _Run:
             raise RunError(f"{cause}; {len(record)} samples kept in {record.path}, marked incomplete")
         return record
 
-    def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, Journal]:
-        """Compute the approach from the present positions, and open the journal."""
+    def _look(self) -> None:
+        """Try real time with the drives disabled, and note whether the rate is safe and what to change."""
+        self.progress.stage = "measuring how late this computer is"
+        latency, cycle_s = self.loop.times.latency, self.request.cycle_s
+        latency.clear()
+        self.axes.wait(round(LOOK_S / cycle_s))
+        verdict = judged(latency, 1.0 / cycle_s, self.request.machine.can_setup.rpdo_timeout_ms / 1000.0)
+        note = words(latency, verdict)
+        if not verdict.safe:
+            refused = [each for each in self.progress.notes if "not granted" in each]
+            note += f". To change: {'; '.join(advice(refused))}. A longer look: hexdbb check-realtime"
+        self.progress.notes.append(note)
+
+    def _with_approach(self, present_mm: NDArray[np.float64]) -> tuple[Programme, TargetsAhead, Journal]:
+        """Compute the approach from the present positions, read the first targets, and open the journal."""
         request, plan = self.request, self.request.plan
-        way = approach(present_mm, self.programme, request.machine, request.origin)
+        programme = self.programme.after(approach(present_mm, self.programme, request.machine, request.origin))
+        targets = TargetsAhead(programme.part, len(programme), self.counts_per_mm)
         journal = Journal(
             request.record,
             machine=request.machine,
@@ -182,19 +213,21 @@ class _Run:
             metadata={**request.metadata, "notes": list(self.progress.notes)},
             overwrite=request.overwrite,
             written=self.progress.written,
+            may_wait=not self.loop.clock.real_time,
         )
         if journal.set_aside is not None:
             kept = f"recover it with: hexdbb recover {journal.set_aside} -o RECORD"
             self.progress.notes.append(f"journal of an interrupted capture kept as {journal.set_aside}; {kept}")
-        return self.programme.after(way), journal
+        targets.begin()
+        return programme, targets, journal
 
-    def _move(self, programme: Programme, samples: SampleBuffer) -> str | None:
-        """Enable, follow the table, disable; return the cause if a fault stopped the run."""
+    def _move(self, programme: Programme, samples: SampleBuffer, targets: TargetsAhead) -> str | None:
+        """Enable, follow the targets, disable; return the cause if a fault stopped the run."""
         try:
             self.axes.check_interrupts()
             self.progress.stage = "enabling"
             self.axes.enable()
-            self._follow(programme, samples)
+            self._follow(programme, samples, targets)
             self.progress.stage = "disabling"
             self.axes.disable()
         except Exception as error:  # an error in this program must neither leave axes enabled nor lose the record
@@ -204,14 +237,13 @@ class _Run:
             raise
         return None
 
-    def _follow(self, programme: Programme, samples: SampleBuffer) -> None:
-        table, progress = programme.table, self.progress
-        progress.programme, progress.rows, progress.stage = programme, len(table), "moving"
+    def _follow(self, programme: Programme, samples: SampleBuffer, targets: TargetsAhead) -> None:
+        progress = self.progress
+        progress.programme, progress.rows, progress.stage = programme, len(programme), "moving"
         self.loop.restart_time()
         self.axes.follow(
-            np.rint(table.sliders_mm * self.counts_per_mm).astype(np.int32),
-            table.phase == Phase.ARC,
-            CapturedRows(samples, table.capture.tolist(), self.loop, progress),
+            targets,
+            CapturedRows(samples, self.loop, progress),
             pauses(setup_changes(programme), self.request.plan.gauge, self.devices.gauge, self.request.confirm),
         )
 
@@ -247,17 +279,21 @@ class _Run:
 
     def _too_few(self, samples: SampleBuffer, programme: Programme) -> str | None:
         """Return what is missing of a run that came to its end, if it is more than a record may lack."""
-        planned = int(programme.table.capture.sum())
+        planned = int(programme.captured.sum())
         lost = planned - samples.count
-        if lost <= MAX_LOST * planned:
+        # One lost answer is no reason to call a record incomplete, however short it is.
+        allowed = max(int(MAX_LOST * planned), self.loop.cost_of_a_lost_answer)
+        if lost <= allowed:
             return None
         (repeated, slot), labels = self.loop.repeated, self.watch.labels
         causes = [] if slot is None else [f"{labels[slot]}: {repeated} answers too many"]
         causes += self.watch.supervision.late_answers(labels)
         if self.loop.missed:
             causes.append(f"SYNCs not sent because they were late or answers were waited for: {self.loop.missed}")
+        if self.loop.clock.real_time:
+            causes.append(f"this computer was at most {shown_ms(max(self.watch.computer.worst_s, NOTED_S))} late")
         why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "
-            f"with their SYNC (expected at most {MAX_LOST:.0%})"
+            f"with their SYNC (expected at most {allowed})"
         )

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 
 from hexdbb.capture.sdo import RemoteDevice
 from hexdbb.plan import CircleRun, Gauge
-from hexdbb.trajectory import Phase, Programme
+from hexdbb.trajectory import Programme
 
 SETUP = 0x2100
 FIRST_VALUE, NUMBER = 2, 1
@@ -29,13 +29,11 @@ def setup_changes(programme: Programme) -> dict[int, CircleRun]:
     """
     changes: dict[int, CircleRun] = {}
     known = None
-    table = programme.table
-    for index, run in enumerate(programme.runs):
+    for run, row in zip(programme.runs, programme.feeds_in, strict=True):
         needed = (run.mount, run.circle.radius_mm, run.circle.ball_offset_mm)
         if needed != known:
             known = needed
-            rows = (table.run == index) & (table.phase == Phase.FEED_IN)
-            changes[int(rows.argmax())] = run
+            changes[programme.before + int(row)] = run
     return changes
 
 

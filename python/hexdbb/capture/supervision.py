@@ -86,6 +86,8 @@ class Supervision:
         All SYNCs without an answer in time, by slot.
     foreign_syncs : int
         SYNCs received: of another producer, since no bus returns this controller's own.
+    foreign_number : int or None
+        Counter of the last one (1019h); None where it carried none.
     """
 
     nodes: Sequence[int]
@@ -99,11 +101,13 @@ class Supervision:
     missing_in_a_row: list[int] = field(default_factory=lambda: [0] * SLOTS)
     unanswered: list[int] = field(default_factory=lambda: [0] * SLOTS)
     foreign_syncs: int = 0
+    foreign_number: int | None = None
 
     def on_frame(self, can_id: int, data: bytearray, timestamp: float) -> None:
         """Process a frame that is not process data."""
         if can_id == SYNC_ID:
             self.foreign_syncs += 1
+            self.foreign_number = data[0] if len(data) == 1 else None
         service, node = service_of(can_id)
         if node in self.nodes or can_id == NMT:
             wrong = malformed(can_id, data)

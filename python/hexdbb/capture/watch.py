@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from hexdbb.capture.exchange import Exchange, Feedback
 from hexdbb.capture.interrupts import Interrupts
+from hexdbb.capture.lateness import Lateness
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import Supervision
 from hexdbb.machine import MachineFile
@@ -78,6 +79,8 @@ class Watch:
         Cycles missed immediately before the last SYNC.
     missed : int
         Cycles missed so far.
+    computer : Lateness
+        How late this computer is.
     late_s : mapping of int to float
         Time from a SYNC to the last late answer of a slot, s.
     interrupts : Interrupts
@@ -100,8 +103,14 @@ class Watch:
     gauge_watched: bool = False
     stalled: int = 0
     missed: int = 0
+    computer: Lateness = field(default_factory=Lateness)
     late_s: Mapping[int, float] = field(default_factory=dict)
     interrupts: Interrupts = field(default_factory=Interrupts)
+
+    @property
+    def cycle_s(self) -> float:
+        """Communication cycle, s."""
+        return self.plausibility.cycle_s
 
     def lateness(self, slot: int) -> str:
         """Return how late a slot's answers come as part of a message, or an empty text."""
@@ -121,6 +130,7 @@ def watch_over(
     expected: list[int],
     real_time: bool = False,
     interrupts: Interrupts | None = None,
+    computer: Lateness | None = None,
 ) -> Watch:
     """Return what the checks examine on a machine, with the limits of its file and of the plan's gauge.
 
@@ -144,6 +154,8 @@ def watch_over(
         Whether SYNCs are sent at fixed times.
     interrupts : Interrupts, optional
         Whether a signal has asked the program to end.
+    computer : Lateness, optional
+        How late this computer is.
     """
     can_setup = machine.can_setup
     limits = can_setup.limits
@@ -169,4 +181,5 @@ def watch_over(
         real_time=real_time,
         late_s=exchange.late_s,
         interrupts=Interrupts() if interrupts is None else interrupts,
+        computer=Lateness() if computer is None else computer,
     )

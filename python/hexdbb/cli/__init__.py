@@ -15,6 +15,7 @@ COMMANDS = {
     "rig": "run the simulated rig as a process of its own",
     "eds": "check whether drives and gauges can run the test, by their EDS files",
     "machine": "describe a machine of one's own, draw it, check what it reaches",
+    "check-realtime": "measure whether this computer can send a SYNC at every deadline",
     "model": "create model files",
     "diagnose": "fit the model's effects to records",
     "effects": "list the effects a model can have; write their handbook",
@@ -43,7 +44,7 @@ class _LazyGroup(Program, click.Group):
         if cmd_name not in COMMANDS:
             return None
         with ends_at_once():
-            command: click.Command = importlib.import_module(f"hexdbb.cli.{cmd_name}").command
+            command: click.Command = importlib.import_module(f"hexdbb.cli.{cmd_name.replace('-', '_')}").command
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +74,7 @@ def check(
         clearances = _clearances(plan, machine, plan_name)
     assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
     if as_json:
-        extent = {"rows": len(programme.table), "memory_bytes": int(programme.extent.memory_bytes)}
+        extent = {"rows": len(programme), "disk_bytes": int(programme.extent.disk_bytes)}
         motion = {"reachable": True, "duration_s": programme.duration_s, **extent, "bus_load": load, "runs": runs}
         motion["nearest"] = _nearest(programme, machine)
         circles = [_clearance_json(identity, each) for identity, each in clearances.items()]
@@ -110,8 +112,13 @@ def _clearances(plan: Plan, machine: MachineFile, plan_name: str) -> dict[int, C
 
 def _nearest(programme: Programme, machine: MachineFile) -> dict[str, dict[str, Any]]:
     """Return which sliders come nearest to each other and to an end of travel in the whole motion, and where."""
-    sliders_mm = programme.table.sliders_mm
-    pair, end = nearest_sliders(sliders_mm), nearest_end(machine, sliders_mm)
+    pairs, ends, first = [], [], 0
+    for block in programme.rows.blocks():
+        pair, end = nearest_sliders(block.sliders_mm), nearest_end(machine, block.sliders_mm)
+        pairs.append(replace(pair, row=first + pair.row))
+        ends.append(replace(end, row=first + end.row))
+        first += len(block)
+    pair, end = min(pairs, key=lambda each: each.distance_mm), min(ends, key=lambda each: each.left_mm)
     return {
         "sliders": {
             "sliders": [pair.first, pair.second],
@@ -130,7 +137,8 @@ def _nearest(programme: Programme, machine: MachineFile) -> dict[str, dict[str, 
 
 def _place(programme: Programme, row: int) -> dict[str, Any]:
     """Return where in the motion a row of the programme is; null off the circles."""
-    run, angle_deg = int(programme.table.run[row]), float(programme.table.angle_deg[row])
+    there = programme.rows.part(row, row + 1)
+    run, angle_deg = int(there.run[0]), float(there.angle_deg[0])
     return {
         "circle": programme.runs[run].circle.id if run >= 0 else None,
         "direction": programme.runs[run].direction if run >= 0 else None,
@@ -160,19 +168,23 @@ def _run_json(programme: Programme, index: int) -> dict[str, float]:
         "circle": run.circle.id,
         "feed_mm_min": run.feed_mm_min,
         "direction": run.direction,
-        "samples": int((programme.table.capture & (programme.table.run == index)).sum()),
+        "samples": int(programme.captured[index]),
     }
 
 
 def _margins(programme: Programme, index: int, machine: MachineFile) -> dict[str, float]:
     """Return the largest slider rates of a run, and its margins to the ends of travel and to the smallest gap."""
-    sliders_mm = programme.table.sliders_mm[programme.table.run == index]
-    margins = {
-        "to_end_of_travel_mm": nearest_end(machine, sliders_mm).left_mm,
-        "to_min_gap_mm": nearest_sliders(sliders_mm).distance_mm - machine.sliders.min_gap_mm,
-    }
-    rate = sliders_mm
-    for name, unit in LIMITED:
-        rate = np.diff(rate, axis=0) / programme.cycle_s
-        margins[f"{name}_{unit}"] = float(np.abs(rate).max())
-    return margins
+    margins, rates = {"to_end_of_travel_mm": math.inf, "to_min_gap_mm": math.inf}, [0.0] * len(LIMITED)
+    known_mm = np.empty((0, 6))
+    last = int(programme.begins[index + 1]) if index + 1 < len(programme.begins) else len(programme)
+    for block in programme.rows.blocks(int(programme.begins[index]), last):
+        sliders_mm = block.sliders_mm
+        gap_mm = nearest_sliders(sliders_mm).distance_mm - machine.sliders.min_gap_mm
+        margins["to_end_of_travel_mm"] = min(margins["to_end_of_travel_mm"], nearest_end(machine, sliders_mm).left_mm)
+        margins["to_min_gap_mm"] = min(margins["to_min_gap_mm"], gap_mm)
+        rate = np.vstack([known_mm, sliders_mm])
+        known_mm = rate[-len(LIMITED) :]
+        for order in range(len(LIMITED)):
+            rate = np.diff(rate, axis=0) / programme.cycle_s
+            rates[order] = max(rates[order], float(np.abs(rate).max(initial=0.0)))
+    return margins | {f"{name}_{unit}": rate for (name, unit), rate in zip(LIMITED, rates, strict=True)}

@@ -203,7 +203,7 @@ def _ask(console: Console, progress: RunProgress) -> Confirm:
 
 
 def _announcement(programme: Programme, lockstep: bool, request: Request) -> str:
-    captured = int(programme.table.capture.sum())
+    captured = int(programme.captured.sum())
     pace = "in lockstep" if lockstep else "in real time"
     driven = request.metadata.get("compensation")
     pace += f", compensated by {driven['file']}" if isinstance(driven, dict) else ""
@@ -215,7 +215,7 @@ def _announcement(programme: Programme, lockstep: bool, request: Request) -> str
 
 def _print_summary(record: Record, programme: Programme, progress: RunProgress) -> None:
     """Print the summary of the record and the next command."""
-    reading, planned = record.columns["reading_um"], programme.table.capture.sum()
+    reading, planned = record.columns["reading_um"], programme.captured.sum()
     click.echo(
         f"recorded {record.path}: {len(record)} of {planned} samples, {len(record.sweeps())} sweeps, "
         f"readings {reading.min():+.1f} to {reading.max():+.1f} µm, {progress.missed} missed cycles"
@@ -225,3 +225,5 @@ def _print_summary(record: Record, programme: Programme, progress: RunProgress) 
         click.echo(f"next: hexdbb compare {record.path} -m MODEL")
     else:
         click.echo(f"next: hexdbb diagnose {record.path} -m {name}-model.toml")
+    if progress.times is not None and "latency" in record.metadata:
+        click.echo(f"real time: {progress.times.latency.words()}")

@@ -1,11 +1,15 @@
 """Directions of travel of sliders along a known motion, and how a change of direction is spread over time.
 
+A motion of millions of rows is taken in block by block; what is kept of it is where each slider moved which way.
+
 A slider that rests has the direction of the nearer motion, so that it changes over in the middle of its rest. The
 change, a step from -1 to +1 or back, is smoothed by three moving averages of n cycles each: the second difference of a
 step of height D is then at most D / n^2, the third at most 2 D / n^3.
 """
 
 from __future__ import annotations
+
+from array import array
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +19,47 @@ Floats = NDArray[np.float64]
 
 REST_MM = 1e-9
 """Largest slider motion from row to row that counts as rest, mm: the rounding of inverse kinematics stays below it."""
+
+
+class Travel:
+    """Where each slider moved which way; made of a motion that is taken in from its first row to its last.
+
+    Parameters
+    ----------
+    before, after : ndarray, shape (6,), optional
+        Directions of travel before the first and after the last row; by default those of the first and last motion.
+    """
+
+    def __init__(self, before: Floats | None = None, after: Floats | None = None) -> None:
+        self._after = after
+        self._rows = 0
+        self._last_mm: Floats | None = None
+        self._moves = [_Moves() for _ in range(6)]
+        if before is not None:
+            for moves, value in zip(self._moves, before, strict=True):
+                moves.add(-1, -1, value)
+
+    def take(self, sliders_mm: Floats) -> None:
+        """Take in the next rows: slider coordinates (n, 6) in order of motion, mm."""
+        leading = self._last_mm is None
+        known = sliders_mm if self._last_mm is None else np.vstack([self._last_mm, sliders_mm])
+        steps = np.diff(known, axis=0)
+        moved = np.where(np.abs(steps) > REST_MM, np.sign(steps), 0.0)
+        if leading:
+            # A row belongs to the motion that leads to it; the first row to the motion that leaves it.
+            moved = np.vstack([moved[:1] if len(moved) else np.zeros((1, 6)), moved])
+        for moves, column in zip(self._moves, moved.T, strict=True):
+            moves.take(self._rows, column)
+        self._rows += len(sliders_mm)
+        self._last_mm = sliders_mm[-1:].copy()
+
+    def directions(self, first: int, last: int) -> Floats:
+        """Return directions of travel of rows `first` to `last`, shape (n, 6), as `travel_directions` does."""
+        rows = np.arange(first, last)
+        after = [None] * 6 if self._after is None else list(self._after)
+        return np.column_stack(
+            [moves.nearest(rows, self._rows, value) for moves, value in zip(self._moves, after, strict=True)]
+        )
 
 
 def travel_directions(sliders_mm: Floats, before: Floats | None = None, after: Floats | None = None) -> Floats:
@@ -33,16 +78,9 @@ def travel_directions(sliders_mm: Floats, before: Floats | None = None, after: F
         A resting slider has the direction of the nearer motion, `before` and `after` included; 0 where a slider never
         moves.
     """
-    steps = np.diff(sliders_mm, axis=0)
-    moved = np.where(np.abs(steps) > REST_MM, np.sign(steps), 0.0)
-    # A row belongs to the motion that leads to it; the first row to the motion that leaves it.
-    direction = np.vstack([moved[:1] if len(moved) else np.zeros((1, 6)), moved])
-    rows = np.arange(len(direction))
-    columns = [
-        _nearest(direction[:, k], rows, None if before is None else before[k], None if after is None else after[k])
-        for k in range(direction.shape[1])
-    ]
-    return np.column_stack(columns)
+    travel = Travel(before, after)
+    travel.take(sliders_mm)
+    return travel.directions(0, len(sliders_mm))
 
 
 def smooth_changes(direction: Floats, cycles: int) -> Floats:
@@ -52,16 +90,38 @@ def smooth_changes(direction: Floats, cycles: int) -> Floats:
     return np.clip(direction, -1.0, 1.0)
 
 
-def _nearest(direction: Floats, rows: NDArray[np.intp], before: float | None, after: float | None) -> Floats:
-    known, value = np.flatnonzero(direction), direction[direction != 0.0]
-    if before is not None:
-        known, value = np.append(-1, known), np.append(before, value)
-    if after is not None:
-        known, value = np.append(known, len(direction)), np.append(value, after)
-    if not len(known):
-        return np.zeros(len(direction))
-    right = np.clip(np.searchsorted(known, rows), 0, len(known) - 1)
-    left = np.clip(right - 1, 0, None)
-    nearer_left = np.abs(rows - known[left]) < np.abs(known[right] - rows)
-    found: Floats = np.where(nearer_left, value[left], value[right])
-    return found
+class _Moves:
+    """Rows between which one slider moved one way: first and last row, and direction."""
+
+    def __init__(self) -> None:
+        self._begins, self._ends, self._values = array("q"), array("q"), array("d")
+
+    def add(self, begin: int, end: int, value: float) -> None:
+        """Add one move after those known, or prolong the last one."""
+        if self._ends and self._ends[-1] == begin - 1 and self._values[-1] == value and begin > 0:
+            self._ends[-1] = end
+            return
+        self._begins.append(begin)
+        self._ends.append(end)
+        self._values.append(value)
+
+    def take(self, first: int, direction: Floats) -> None:
+        """Take in the directions (n,) of rows from `first` on; 0 where the slider rests."""
+        starts = np.flatnonzero(np.r_[True, direction[1:] != direction[:-1]])
+        for start, end in zip(starts, [*starts[1:], len(direction)], strict=True):
+            if direction[start]:
+                self.add(first + int(start), first + int(end) - 1, float(direction[start]))
+
+    def nearest(self, rows: NDArray[np.intp], count: int, after: float | None) -> Floats:
+        """Return the direction of the move nearest to each row, of `count` in all; of two as near, of the later."""
+        begins, ends, values = (np.array(each) for each in (self._begins, self._ends, self._values))
+        if after is not None:
+            begins, ends, values = np.append(begins, count), np.append(ends, count), np.append(values, after)
+        if not len(values):
+            return np.zeros(len(rows))
+        right = np.clip(np.searchsorted(ends, rows), 0, len(ends) - 1)
+        left = np.clip(right - 1, 0, None)
+        to_right = np.where(rows > ends[right], rows - ends[right], np.maximum(begins[right] - rows, 0))
+        nearer_left = np.abs(rows - ends[left]) < to_right
+        found: Floats = np.where(nearer_left, values[left], values[right])
+        return found

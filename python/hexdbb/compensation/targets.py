@@ -19,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.compensation.reversals import smooth_changes, travel_directions
+from hexdbb.compensation.reversals import Travel, smooth_changes
 from hexdbb.kinematics import rpy_from_rotation, status_name
 from hexdbb.machine import Limits
-from hexdbb.trajectory import TargetRows
+from hexdbb.trajectory import PoseRows, TargetParts, Targets
 from hexdbb.trajectory.poses import Poses
+from hexdbb.trajectory.targets import Refused
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -34,11 +35,13 @@ path itself, which `hexdbb.trajectory` checks together with the correction."""
 PROBE_EVERY = 16
 """Rows from one probe of the direction-dependent part to the next: it varies with the pose, hence slowly from cycle to
 cycle (64 ms at 250 Hz)."""
+LOOK_ROWS = 256 * PROBE_EVERY
+"""Rows looked ahead at a time: as many as are computed at a time (`hexdbb.trajectory.table.BLOCK_ROWS`)."""
 
 
 @dataclass(frozen=True)
-class CompensatedTargets:
-    """Slider targets under a compensation file; a `hexdbb.trajectory.Targets`.
+class CompensatedTargets(Targets):
+    """Slider targets under a compensation file.
 
     Attributes
     ----------
@@ -56,26 +59,49 @@ class CompensatedTargets:
     name: str
     temperature_c: float = math.nan
 
-    def sliders(
-        self,
-        position_mm: Floats,
-        rpy_rad: Floats,
-        cycle_s: float,
-        before: Floats | None = None,
-        after: Floats | None = None,
-    ) -> TargetRows:
-        """See `hexdbb.trajectory.Targets.sliders`."""
-        position, rpy = np.ascontiguousarray(position_mm), np.ascontiguousarray(rpy_rad)
-        nominal_mm = _core.inverse_table(self.data.machine, position, rpy)[0]
-        directions = travel_directions(nominal_mm, before, after)
-        smooth = np.column_stack(
-            [
-                smooth_changes(column, self._cycles(change_mm, cycle_s))
-                for column, change_mm in zip(directions.T, self._change_mm(position, rpy, cycle_s), strict=True)
-            ]
-        )
-        sliders_mm, correction_mm, status, slider = self._along(position, rpy, cycle_s, smooth)
-        return TargetRows(sliders_mm, self._refused(status, slider, correction_mm), directions[0])
+    def along(
+        self, poses: PoseRows, cycle_s: float, before: Floats | None = None, after: Floats | None = None
+    ) -> TargetParts:
+        """See `hexdbb.trajectory.Targets.along`; reads all poses once."""
+        travel, change_mm = self._looked_ahead(poses, cycle_s, before, after)
+        cycles = [self._cycles(each, cycle_s) for each in change_mm]
+        # Three moving averages, and the neighbours of a row, from which its velocity is known.
+        reach = 3 * (max(cycles) // 2) + 1
+
+        def part(first: int, last: int) -> tuple[Floats, Refused]:
+            low, high = max(first - 1, 0), min(last + 1, poses.rows)
+            begin, end = max(low - reach, 0), min(high + reach, poses.rows)
+            directions = travel.directions(begin, end)
+            smooth = np.column_stack([smooth_changes(*each) for each in zip(directions.T, cycles, strict=True)])
+            position, rpy = poses.poses(low, high)
+            found = self._along(position, rpy, _times_s(cycle_s, low, high), smooth[low - begin : high - begin])
+            own = slice(first - low, last - low)
+            sliders_mm, correction_mm, status, slider = found
+            refused = self._refused(status[own], slider[own], correction_mm[own])
+            return sliders_mm[own], None if refused is None else (first + refused[0], refused[1])
+
+        return TargetParts(travel.directions(0, 1)[0], part)
+
+    def _looked_ahead(
+        self, poses: PoseRows, cycle_s: float, before: Floats | None, after: Floats | None
+    ) -> tuple[Travel, Floats]:
+        """Return where each slider moves which way, and the largest change of each target at a reversal, (6,) mm."""
+        travel, change_mm = Travel(before, after), np.zeros(6)
+        for first in range(0, poses.rows, LOOK_ROWS):
+            last = min(first + LOOK_ROWS, poses.rows)
+            position, rpy = poses.poses(first, last)
+            travel.take(_core.inverse_table(self.data.machine, np.array(position), np.array(rpy))[0])
+            # With the probes before and after, which tell the velocity of the first and last one.
+            low, high = max(first - PROBE_EVERY, 0), min(last + PROBE_EVERY, poses.rows)
+            probed = slice(
+                (first - low) // PROBE_EVERY, (first - low) // PROBE_EVERY + -(-(last - first) // PROBE_EVERY)
+            )
+            position, rpy = (each[::PROBE_EVERY] for each in poses.poses(low, high))
+            times_s = _times_s(cycle_s, low, high)[::PROBE_EVERY]
+            ones = np.ones((len(times_s), 6))
+            up, down = (self._along(position, rpy, times_s, each)[1][probed] for each in (ones, -ones))
+            change_mm = np.maximum(change_mm, np.abs(up - down).max(axis=0))
+        return travel, change_mm
 
     def pose(self, sliders_mm: Floats) -> tuple[Poses, str | None]:
         """See `hexdbb.trajectory.Targets.pose`; the sliders have no direction of travel."""
@@ -87,21 +113,14 @@ class CompensatedTargets:
         return _core.Compensator(self.data, self.name)
 
     def _along(
-        self, position: Floats, rpy: Floats, cycle_s: float, direction: Floats
+        self, position: Floats, rpy: Floats, times_s: Floats, direction: Floats
     ) -> tuple[Floats, Floats, Ints, Ints]:
-        times_s, temperature_c = cycle_s * np.arange(len(position)), np.full(len(position), self.temperature_c)
+        temperature_c = np.full(len(position), self.temperature_c)
+        contiguous = [np.ascontiguousarray(each) for each in (position, rpy, direction)]
         found: tuple[Floats, Floats, Ints, Ints] = self._compensator().sliders_along(
-            position, rpy, times_s, temperature_c, np.ascontiguousarray(direction)
+            contiguous[0], contiguous[1], times_s, temperature_c, contiguous[2]
         )
         return found
-
-    def _change_mm(self, position: Floats, rpy: Floats, cycle_s: float) -> Floats:
-        """Return the largest change of each target at a reversal, shape (6,)."""
-        some, held = np.ascontiguousarray(position[::PROBE_EVERY]), np.ascontiguousarray(rpy[::PROBE_EVERY])
-        ones = np.ones((len(some), 6))
-        up, down = (self._along(some, held, PROBE_EVERY * cycle_s, direction)[1] for direction in (ones, -ones))
-        change_mm: Floats = np.abs(up - down).max(axis=0)
-        return change_mm
 
     def _cycles(self, change_mm: float, cycle_s: float) -> int:
         """Return the cycles of one moving average: an odd number, so that the middle of the change stays in place."""
@@ -124,3 +143,8 @@ class CompensatedTargets:
                 f" (expected at most {limit_um:g} µm, the limit in {self.name})"
             )
         return row, f"{of}{name}, compensated (expected every pose within reach and travel)"
+
+
+def _times_s(cycle_s: float, first: int, last: int) -> Floats:
+    """Return the times of rows `first` to `last`, s."""
+    return np.asarray(cycle_s * np.arange(first, last), dtype=np.float64)

@@ -1,8 +1,9 @@
 """Journal of a running capture: an append-only Arrow IPC stream beside the record it becomes.
 
-Samples are queued in memory and written by a thread of the journal, because a disk write may take longer than a cycle
-of the capture; they are on disk (fsync) at most `SYNC_PERIOD_S` plus one write later. A crash of any kind loses no
-more than that: whole batches are read back, and a torn tail is dropped.
+Samples are queued in memory and written by a thread of the journal, because a write may take longer than a cycle of
+the capture. A second thread makes what is written durable (fsync), which on a busy disk takes up to a second and must
+not hold up the next write: what is written survives the death of this program, what is durable survives that of the
+computer. Whole batches are read back, and a torn tail is dropped.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ import fcntl
 import math
 import os
 import threading
+import time
+from collections import deque
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
@@ -31,10 +34,12 @@ from hexdbb.record.record import Record
 from hexdbb.record.recovery import read_journal
 from hexdbb.record.tables import to_table
 
-SYNC_PERIOD_S = 0.5
-"""Limits how long samples wait in memory. A crash may cost at most one second of samples; half of it leaves the other
-half for the write itself."""
-
+WRITE_PERIOD_S = 0.2
+"""Time between two writes, s. A crash may cost at most one second of samples, which wait in the capture for a quarter
+of it; the rest is left for a thread that the system lets wait."""
+LATE_S = 0.4
+"""Age of the oldest queued sample from which `append` writes by itself where it may, s: two periods, so that the thread
+has missed one, and well within the second."""
 
 REHEARSED_ROWS = 250
 """Rows of the batch that is written to memory beforehand: a second at 250 Hz, more than a batch holds."""
@@ -57,8 +62,10 @@ class Journal:
     overwrite : bool
         Whether an existing record may be replaced, and a journal set aside.
     written : callable, optional
-        Takes the columns of every batch when it is on disk, in the journal's thread; returns at once and does not
+        Takes the columns of every batch when it is on disk, in a thread of the journal; returns at once and does not
         raise.
+    may_wait : bool
+        Whether `append` may write samples itself where the thread is late: in lockstep, not in real time.
 
     Attributes
     ----------
@@ -82,8 +89,9 @@ class Journal:
         metadata: Mapping[str, Any] | None = None,
         overwrite: bool = False,
         written: Callable[[Columns], None] | None = None,
+        may_wait: bool = False,
     ) -> None:
-        self.path, self.journal_path = Path(path), journal_path(path)
+        self.path, self.journal_path, self._may_wait = Path(path), journal_path(path), may_wait
         self._overwrite, self._written = overwrite, written
         if self.path.suffix != SUFFIX:
             raise InputError(f"{path}: suffix {self.path.suffix!r} (expected {SUFFIX})")
@@ -99,10 +107,17 @@ class Journal:
         self._names: tuple[str, ...] | None = None
         self._rows_written = 0
         self._queued: list[Columns] = []
-        self._lock, self._stop = threading.Lock(), threading.Event()
+        self._queued_since_s = math.inf
+        self._not_durable: deque[Columns] = deque()
+        self._lock, self._writing = threading.Lock(), threading.Lock()
+        self._stop, self._unsynced, self._written_all = threading.Event(), threading.Event(), threading.Event()
         self._failure: Exception | None = None
-        self._thread = threading.Thread(target=self._write_until_stopped, name="hexdbb-journal", daemon=True)
-        self._thread.start()
+        self._threads = [
+            threading.Thread(target=work, name="hexdbb-journal", daemon=True)
+            for work in (self._write_until_stopped, self._sync_until_stopped)
+        ]
+        for thread in self._threads:
+            thread.start()
 
     def __enter__(self) -> Self:
         return self
@@ -111,7 +126,7 @@ class Journal:
         self.close()
 
     def append(self, rows: Mapping[str, Any]) -> None:
-        """Queue samples for writing and return at once.
+        """Queue samples for writing and return at once, or once they are written where the thread is late.
 
         Parameters
         ----------
@@ -133,15 +148,21 @@ class Journal:
             self._names = tuple(columns)
         if tuple(columns) != self._names:
             raise InputError(f"{self.journal_path}: columns {', '.join(columns)} (expected {', '.join(self._names)})")
+        now_s = time.monotonic()
         with self._lock:
             self._queued.append(columns)
+            self._queued_since_s = min(self._queued_since_s, now_s)
+            late = now_s - self._queued_since_s > LATE_S
+        if late and self._may_wait:
+            self._write_guarded()
 
     def close(self) -> None:
         """Write the queued samples and close the journal, to be recovered; a journal without samples is removed."""
         if self._file.closed:
             return
         self._stop.set()
-        self._thread.join()
+        for thread in self._threads:
+            thread.join()
         try:
             self._file.close()
         except OSError as error:
@@ -212,20 +233,33 @@ class Journal:
                 write_batch(stream, batch, 0)
 
     def _write_until_stopped(self) -> None:
-        try:
-            while not self._stop.wait(SYNC_PERIOD_S):
+        due_s = time.monotonic()
+        while not self._stop.is_set() and self._failure is None:
+            # By the clock, not after the last write: a slow one must not delay the next.
+            due_s = max(due_s + WRITE_PERIOD_S, time.monotonic())
+            self._stop.wait(due_s - time.monotonic())
+            self._write_guarded()
+        self._write_guarded(last=True)
+        self._written_all.set()
+        self._unsynced.set()
+
+    def _write_guarded(self, last: bool = False) -> None:
+        """Write what is queued, and the end of the stream if `last`; keep an error, which the next `append` raises."""
+        with self._writing:
+            if self._failure is not None:
+                return
+            try:
                 self._write_queued()
-            self._write_queued()
-            if self._stream is not None:
-                self._stream.close()
-                self._sync()
-        except (OSError, pa.ArrowException) as error:
-            self._failure = error
+                if last and self._stream is not None:
+                    self._stream.close()
+                    self._file.flush()
+            except (OSError, pa.ArrowException) as error:
+                self._failure = error
 
     def _write_queued(self) -> None:
-        """Write the queued samples as one batch and wait for the disk."""
+        """Write the queued samples as one batch."""
         with self._lock:
-            queued, self._queued = self._queued, []
+            queued, self._queued, self._queued_since_s = self._queued, [], math.inf
         if not queued:
             return
         columns = {name: np.concatenate([rows[name] for rows in queued]) for name in queued[0]}
@@ -235,13 +269,30 @@ class Journal:
         for batch in table.to_batches():
             write_batch(self._stream, batch, self._rows_written)
             self._rows_written += batch.num_rows
+        self._file.flush()
+        self._not_durable.append(columns)
+        self._unsynced.set()
+
+    def _sync_until_stopped(self) -> None:
+        """Make what is written durable, again and again, until all is written."""
+        while not self._written_all.is_set() and self._failure is None:
+            self._unsynced.wait()
+            self._unsynced.clear()
+            self._sync()
         self._sync()
-        if self._written is not None:
-            self._written(columns)
 
     def _sync(self) -> None:
-        self._file.flush()
-        os.fsync(self._file.fileno())
+        """Wait until all that is written is on disk, and pass it on."""
+        written = len(self._not_durable)
+        try:
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            self._failure = self._failure or error
+            return
+        for _ in range(written):
+            columns = self._not_durable.popleft()
+            if self._written is not None:
+                self._written(columns)
 
 
 def _open_alone(path: Path) -> BinaryIO:

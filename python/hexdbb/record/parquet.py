@@ -2,7 +2,8 @@
 
 A file proves itself twice: each page has the checksum of the Parquet format (CRC-32), and the metadata hold a digest of
 every column of every row group and of every other metadata entry (`digests`), which covers what page checksums do not:
-the file's index, types and names. Files of versions before digests, and of other programs, are read without.
+the file's index, types and names. A copy of the index lies at the beginning of the file (`footer_copy`). Files of
+versions before digests, and of other programs, are read without.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from hexdbb.files.atomic_file import refuse_existing, replacing
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import RowSource
 from hexdbb.record.digests import DIGESTS_KEY, digests_of, stated_digests, text_keys
+from hexdbb.record.footer_copy import rebuilt, write_with_copy
 from hexdbb.record.record import Record
 from hexdbb.record.tables import KEY, from_table, read_header, to_table
 
@@ -89,7 +91,8 @@ def _damage(path: Path, error: BaseException) -> InputError:
     except DAMAGE:
         pass
     reason = next(iter(str(error).splitlines()), "damaged")
-    return InputError(f"{path}: not a whole Parquet file: {reason} (expected a record of hexdbb)")
+    saved = f"; save what is whole with: hexdbb recover {path} -o NEW{SUFFIX}" if rebuilt(path) is not None else ""
+    return InputError(f"{path}: not a whole Parquet file: {reason} (expected a record of hexdbb{saved})")
 
 
 def write_parquet(record: Record, path: Path, overwrite: bool) -> None:
@@ -108,11 +111,11 @@ def write_parquet(record: Record, path: Path, overwrite: bool) -> None:
     digests = digests_of(record.columns, metadata, ROWS_PER_GROUP)
     table = table.replace_schema_metadata(metadata | {DIGESTS_KEY: digests.model_dump_json().encode()})
     with replacing(path) as temporary:
-        pq.write_table(
+        write_with_copy(
             table,
             temporary,
+            ROWS_PER_GROUP,
             compression="zstd",
-            row_group_size=ROWS_PER_GROUP,
             write_page_checksum=True,
             # Measured values hardly repeat: a dictionary of them would make the file a sixth larger.
             use_dictionary=[name for name, values in record.columns.items() if values.dtype.kind != "f"],

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -119,7 +119,7 @@ class Rig:
     def receive(self, cob_id: int, data: bytes) -> None:
         """Process one frame from the bus."""
         if cob_id == SYNC:
-            self._on_sync()
+            self._on_sync(data)
         elif (node := self._rpdo_nodes.get(cob_id)) is not None:
             node.handle_rpdo(data, time.monotonic())
         elif cob_id == NMT:
@@ -153,22 +153,26 @@ class Rig:
             if addressed in (0, node.node_id):
                 node.handle_nmt(command)
 
-    def _on_sync(self) -> None:
+    def _on_sync(self, data: bytes) -> None:
+        accepting = [node for node in self.nodes.values() if node.accepts_sync(data)]
+        if not accepting:  # a repeated SYNC, or one of the wrong length: no time passes
+            self.flush()
+            return
         self._last_sync_s = time.monotonic()
         self._read_gauge()
-        for node in self.nodes.values():
+        for node in accepting:
             node.sample()
         self.flush()
-        self._advance()
+        self._advance(accepting)
 
     @property
     def running_s(self) -> float | None:
         """SYNC time since all six drives were first enabled, s; None before."""
         return None if self.enabled_s is None else self.plant.time_s - self.enabled_s
 
-    def _advance(self) -> None:
+    def _advance(self, accepting: Sequence[Node]) -> None:
         self.dt_s = self._period_s()
-        for node in self.nodes.values():
+        for node in accepting:
             node.apply(self.dt_s)
         self._step_plant(self.dt_s)
         if self.enabled_s is None and all(drive.enabled for drive in self.drives):

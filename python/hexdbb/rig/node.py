@@ -20,6 +20,7 @@ from hexdbb.errors import InputError
 from hexdbb.rig.dictionary import DEVICE_NAME, Dictionary, Key
 from hexdbb.rig.frame import EMCY_BASE, HEARTBEAT_BASE, SDO_REQUEST_BASE, SDO_RESPONSE_BASE
 from hexdbb.rig.pdo import MAX_SYNC_TYPE, Pdo
+from hexdbb.rig.sync_counter import SyncCounter
 
 log = logging.getLogger(__name__)
 
@@ -108,6 +109,7 @@ class Node:
         (0x1008, 0): 0,
         (0x1016, 1): 0,
         (0x1017, 0): 0,
+        (0x1019, 0): 0,
         (0x1018, 4): 0,
         (0x1029, 1): 0,
         **{(0x1003, subindex): 0 for subindex in range(5)},
@@ -130,6 +132,7 @@ class Node:
             self.dictionary.entry(*DEVICE_NAME).value = self.device_name
         self.dictionary.entry(0x1018, 4).value = self.node_id
         self.dictionary.hooks[0x1016, 1] = self._restart_heartbeat_consumer
+        self._sync_counter = SyncCounter(self.dictionary, lambda code: self.emergency(code, COMMUNICATION))
         self.nmt_state = NmtState.PRE_OPERATIONAL
         self._sdo = SdoServer(
             SDO_REQUEST_BASE + self.node_id, SDO_RESPONSE_BASE + self.node_id, _SdoOwner(self.dictionary)
@@ -184,6 +187,7 @@ class Node:
         left_operational = self.nmt_state is NmtState.OPERATIONAL and state is not NmtState.OPERATIONAL
         self.nmt_state = state
         self._rpdo_seen_s = None
+        self._sync_counter.restart()
         if left_operational:
             self.on_connection_lost(f"NMT state {state.name.lower().replace('_', '-')}")
 
@@ -205,6 +209,10 @@ class Node:
             self._latched = data
         else:
             self.rpdo.unpack(data)
+
+    def accepts_sync(self, data: bytes) -> bool:
+        """Return whether the node acts on a SYNC with these data; a node that is not operational checks nothing."""
+        return self.nmt_state is not NmtState.OPERATIONAL or not self.present or self._sync_counter.accepts(data)
 
     def sample(self) -> None:
         """Run the first half of a SYNC: send the synchronous TPDO with the present values."""

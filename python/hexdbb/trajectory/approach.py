@@ -15,8 +15,10 @@ from hexdbb.machine import MachineFile
 from hexdbb.trajectory.extent import SETTLE_S
 from hexdbb.trajectory.limits import LIMIT_FRACTIONS, fastest_within_limits, path_limits
 from hexdbb.trajectory.poses import Array, Poses, straight_path
-from hexdbb.trajectory.programme import Phase, Programme, Segment, Table, Tabulator
+from hexdbb.trajectory.programme import Programme, Tabulator
 from hexdbb.trajectory.runs import SAME_POSE_MM
+from hexdbb.trajectory.segments import Phase, Segment
+from hexdbb.trajectory.table import Table
 from hexdbb.trajectory.time_law import rest_to_rest
 
 START_TOLERANCE_MM = 1e-3
@@ -61,22 +63,23 @@ def approach(sliders_mm: Array, programme: Programme, machine: MachineFile, plan
     tabulator = Tabulator(programme.runs, machine, programme.cycle_s, plan_name, programme.targets)
 
     def approach_at(limit_fraction: float) -> Table:
-        poses = here
+        move = Segment.at_rest(Phase.APPROACH, -1, 1, here)
         if path.length_mm > SAME_POSE_MM:
             where = f"{plan_name}: approach"
             limits = path_limits(path, machine, limit_fraction, lambda _: where)
-            poses = path.poses(rest_to_rest(path.length_mm, limits, programme.cycle_s, where))
-        move = Segment.uncaptured(Phase.APPROACH, -1, poses)
+            law = rest_to_rest(path.length_mm, limits, programme.cycle_s, where)
+            move = Segment.uncaptured(
+                Phase.APPROACH, -1, law.rows, lambda first, last: path.poses(law.u_mm(first, last))
+            )
         segments = [_rest(here, programme.cycle_s), move, _rest(move.end, programme.cycle_s)]
-        return tabulator.tabulate(segments, before=UNKNOWN_TRAVEL, after=programme.first_travel)[0]
+        rows, _ = tabulator.tabulate(segments, before=UNKNOWN_TRAVEL, after=programme.first_travel)
+        return rows.part(0, len(rows))
 
     return fastest_within_limits([each for each in LIMIT_FRACTIONS if each <= programme.limit_fraction], approach_at)
 
 
 def _rest(pose: Poses, cycle_s: float) -> Segment:
-    position_mm, rpy_rad = pose
-    rows = max(1, round(SETTLE_S / cycle_s))
-    return Segment.uncaptured(Phase.SETTLE, -1, (np.tile(position_mm, (rows, 1)), np.tile(rpy_rad, (rows, 1))))
+    return Segment.at_rest(Phase.SETTLE, -1, max(1, round(SETTLE_S / cycle_s)), pose)
 
 
 def _positions(sliders_mm: Array) -> str:

@@ -1,6 +1,6 @@
-"""Extent of a plan: machine time, rows and memory, estimated from its numbers before anything is computed.
+"""Extent of a plan: machine time, rows and disk space, estimated from its numbers before anything is computed.
 
-Model: the whole table of targets is in memory before motion starts, because every row must be checked first. A run
+Model: all targets are in a temporary file before motion starts, because every row must be checked first. A run
 takes its captured and overshot arc at the feed, two ramps to the feed, feed-in and retract, and three rests; ramps and
 moves at the sliders' own acceleration and jerk. Transfers are not counted: the estimate is a little low, and the rows
 are counted once more while the table is made.
@@ -15,12 +15,11 @@ from dataclasses import dataclass
 from hexdbb.errors import InputError
 from hexdbb.machine import Limits
 from hexdbb.plan import CircleRun
+from hexdbb.trajectory.table import ROW
 
 ROWS_MAX = 4_000_000
 """Limits the rows of a table of targets: 4.4 h at 250 Hz, eight times the plan `standard` (34 min), longer than a
-machine keeps its temperature; its computation takes 1.2 GB and 15 s, which a small computer beside a machine has."""
-BYTES_PER_ROW = 300
-"""Memory per row while the table is computed, measured as growth of the process on the shipped plans (290 to 370)."""
+machine keeps its temperature; its computation takes half a minute and 264 MB of disk. Memory does not grow with it."""
 FEED_IN_MM = 0.5
 """Radial distance between the point where the bar is mounted and the circle: half the range of a usual gauge (±1 mm),
 so that the bar can be mounted with a margin of 0.5 mm to either side."""
@@ -35,7 +34,7 @@ TINY = 1e-300
 
 @dataclass(frozen=True)
 class Extent:
-    """Machine time and rows of a table of targets; infinite where numbers overflow."""
+    """Machine time and rows of targets; infinite where numbers overflow."""
 
     duration_s: float
     cycle_s: float
@@ -46,18 +45,18 @@ class Extent:
         return self.duration_s / self.cycle_s
 
     @property
-    def memory_bytes(self) -> float:
-        """Memory that computing the table takes."""
-        return self.rows * BYTES_PER_ROW
+    def disk_bytes(self) -> float:
+        """Size of the temporary file that holds the targets."""
+        return self.rows * ROW.itemsize
 
     def words(self) -> str:
-        """Return machine time, rows and memory for people."""
+        """Return machine time, rows and disk space for people."""
         hours = self.duration_s >= 3600.0
         time = f"{self.duration_s / 3600.0:.3g} h" if hours else f"{self.duration_s:.0f} s"
         rows = f"{self.rows:,.0f}" if self.rows < 1e12 else f"{self.rows:.3g}"
-        megabytes = self.memory_bytes / 1e6
-        memory = f"{megabytes:.0f} MB" if megabytes < 1000.0 else f"{megabytes / 1000.0:.3g} GB"
-        return f"{time} of machine time, {rows} rows, {memory}"
+        megabytes = self.disk_bytes / 1e6
+        disk = f"{megabytes:.1f} MB" if megabytes < 1000.0 else f"{megabytes / 1000.0:.3g} GB"
+        return f"{time} of machine time, {rows} rows, {disk} of targets"
 
 
 def estimated_extent(runs: Sequence[CircleRun], overshoot_deg: float, limits: Limits, cycle_s: float) -> Extent:

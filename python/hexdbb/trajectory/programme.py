@@ -1,15 +1,14 @@
-"""The cyclic target table: one row per SYNC, computed before anything moves.
+"""The cyclic targets of a plan: one row per SYNC, computed and checked before anything moves.
 
-Model: a programme is a sequence of segments (approach, feed-in, arc, ...); the poses of all of them become slider
-targets in one call (`Targets`: inverse kinematics, nominal or compensated), and every row is checked for reach,
-velocity, acceleration and jerk of each slider.
+Model: a programme is a sequence of segments (approach, feed-in, arc, ...); their poses become slider targets block by
+block (`Targets`: inverse kinematics, nominal or compensated), and every row is checked for reach, velocity,
+acceleration and jerk of each slider before it is kept.
 """
 
 from __future__ import annotations
 
-import enum
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,127 +19,76 @@ from hexdbb.plan import CircleRun
 from hexdbb.trajectory.extent import Extent
 from hexdbb.trajectory.limits import TooFastError, check_motion
 from hexdbb.trajectory.poses import Array, Poses
-from hexdbb.trajectory.targets import TargetRows, Targets
+from hexdbb.trajectory.segments import Motion, Phase, Segment
+from hexdbb.trajectory.table import BLOCK_ROWS, Table, TableFile
+from hexdbb.trajectory.targets import Targets
 
-
-class Phase(enum.IntEnum):
-    """Phase of the motion that a row of the table belongs to."""
-
-    APPROACH = 0
-    TRANSFER = 1
-    FEED_IN = 2
-    ARC = 3
-    RETRACT = 4
-    SETTLE = 5
-
-
-@dataclass(frozen=True)
-class Segment:
-    """Poses of one segment of the motion, one per cycle.
-
-    Attributes
-    ----------
-    phase : phase of the motion
-    run : index of the run it belongs to, -1 for none
-    position_mm, rpy_rad : (n, 3) poses
-    angle_deg : (n,) commanded polar angle, 0 <= angle < 360; NaN off the circle
-    lap : (n,) turns completed inside the capture, -1 outside it
-    capture : (n,) bool, True where the sample is recorded
-    """
-
-    phase: Phase
-    run: int
-    position_mm: Array
-    rpy_rad: Array
-    angle_deg: Array
-    lap: NDArray[np.int64]
-    capture: NDArray[np.bool_]
-
-    @classmethod
-    def uncaptured(
-        cls, phase: Phase, run: int, poses: tuple[Array, Array], angle_deg: float | Array = np.nan
-    ) -> Segment:
-        """Return a segment of which nothing is recorded."""
-        n = len(poses[0])
-        angles = np.broadcast_to(np.asarray(angle_deg, dtype=float), (n,))
-        return cls(phase, run, *poses, angles, np.full(n, -1), np.zeros(n, dtype=bool))
-
-    @property
-    def begin(self) -> tuple[Array, Array]:
-        """First pose: position (1, 3) mm, roll, pitch, yaw (1, 3) rad."""
-        return self.position_mm[:1], self.rpy_rad[:1]
-
-    @property
-    def end(self) -> tuple[Array, Array]:
-        """Last pose: position (1, 3) mm, roll, pitch, yaw (1, 3) rad."""
-        return self.position_mm[-1:], self.rpy_rad[-1:]
-
-
-@dataclass(frozen=True)
-class Table:
-    """The columns of a programme, one row per cycle.
-
-    Attributes
-    ----------
-    sliders_mm : (n, 6) slider targets, mm
-    phase : (n,) `Phase`
-    run : (n,) index into the programme's runs, -1 for none
-    angle_deg : (n,) commanded polar angle, 0 <= angle < 360, NaN off the circle
-    lap : (n,) turns completed inside the capture, -1 outside it
-    capture : (n,) bool
-    """
-
-    sliders_mm: Array
-    phase: NDArray[np.int64]
-    run: NDArray[np.int64]
-    angle_deg: Array
-    lap: NDArray[np.int64]
-    capture: NDArray[np.bool_]
-
-    def __len__(self) -> int:
-        return len(self.capture)
-
-    def then(self, other: Table) -> Table:
-        """Return this table followed by another."""
-        return Table(*(np.concatenate([getattr(self, f.name), getattr(other, f.name)]) for f in fields(Table)))
+OVERLAP = 3
+"""Rows before a block that the differences of its first row need: those of jerk."""
 
 
 @dataclass(frozen=True)
 class Programme:
-    """Runs in order and the table of targets that drives them.
+    """Runs in order and the targets that drive them.
 
     Attributes
     ----------
-    runs : the runs that `table.run` indexes
-    table : targets; begins and ends at rest
+    runs : the runs that `Table.run` indexes
+    rows : targets of the runs; begin and end at rest
+    captured : (runs,) rows captured of each run
+    begins, feeds_in : (runs,) first row of each run, and of its feed-in, in `rows`
     cycle_s : time between two rows, s
     first_pose : pose of the first row
     first_travel : (6,) assumed direction of travel of each slider at the first row, -1 to 1
     targets : computes the targets of further poses
     limit_fraction : fraction of the sliders' limits used between captures
+    way : targets before the runs, from the present position; None where it is not known
     """
 
     runs: tuple[CircleRun, ...]
-    table: Table
+    rows: TableFile
+    captured: NDArray[np.int64]
+    begins: NDArray[np.int64]
+    feeds_in: NDArray[np.int64]
     cycle_s: float
     first_pose: Poses
     first_travel: Array
     targets: Targets
     limit_fraction: float
+    way: Table | None = None
+
+    def __len__(self) -> int:
+        return self.before + len(self.rows)
+
+    @property
+    def before(self) -> int:
+        """Number of rows before the runs."""
+        return 0 if self.way is None else len(self.way)
+
+    @property
+    def table(self) -> Table:
+        """All rows in memory; for plans of minutes, not of hours."""
+        return self.part(0, len(self))
+
+    def part(self, first: int, last: int) -> Table:
+        """Return rows `first` to `last`, the last one left out."""
+        before = self.before
+        rows = self.rows.part(max(first - before, 0), max(last - before, 0))
+        return rows if self.way is None or first >= before else self.way.part(first, last).then(rows)
 
     @property
     def duration_s(self) -> float:
         """Time from the first to the last row, s."""
-        return (len(self.table) - 1) * self.cycle_s
+        return (len(self) - 1) * self.cycle_s
 
     @property
     def extent(self) -> Extent:
-        """Machine time, rows and memory of the table."""
-        return Extent(len(self.table) * self.cycle_s, self.cycle_s)
+        """Machine time, rows and disk space of the targets."""
+        return Extent(len(self) * self.cycle_s, self.cycle_s)
 
     def after(self, approach: Table) -> Programme:
         """Return this programme with an approach before it."""
-        return replace(self, table=approach.then(self.table))
+        return replace(self, way=approach if self.way is None else approach.then(self.way))
 
 
 @dataclass(frozen=True)
@@ -164,13 +112,20 @@ class Tabulator:
 
     def tabulate(
         self, segments: Sequence[Segment], before: Array | None = None, after: Array | None = None
-    ) -> tuple[Table, TargetRows]:
-        """Compute the targets of all segments in one call and check every row.
+    ) -> tuple[TableFile, Array]:
+        """Compute the targets of all segments block by block and check every row.
 
         Parameters
         ----------
         segments : segments in order, each beginning where the previous one ends
-        before, after : (6,) directions of travel as in `Targets.sliders`
+        before, after : (6,) directions of travel as in `Targets.along`
+
+        Returns
+        -------
+        TableFile
+            The targets.
+        ndarray, shape (6,)
+            Assumed direction of travel of each slider at the first row, -1 to 1.
 
         Raises
         ------
@@ -179,29 +134,52 @@ class Tabulator:
         TooFastError
             A slider would be too fast between captures.
         """
-        position_mm = np.concatenate([s.position_mm for s in segments])
-        rpy_rad = np.concatenate([s.rpy_rad for s in segments])
-        lengths = [len(s.position_mm) for s in segments]
-        phase = np.repeat([int(s.phase) for s in segments], lengths)
-        run = np.repeat([s.run for s in segments], lengths)
-        angle_deg = np.concatenate([s.angle_deg for s in segments])
+        motion, kept = Motion(segments), TableFile()
+        targets = self.targets.along(motion, self.cycle_s, before, after)
+        last_mm = np.empty((0, 6))
+        for first in range(0, motion.rows, BLOCK_ROWS):
+            last = min(first + BLOCK_ROWS, motion.rows)
+            sliders_mm, refused = targets.part(first, last)
+            if refused is not None:
+                row, why = refused
+                raise InputError(f"{self._row_name(motion, row)}: {why}")
+            self._check(motion, first - len(last_mm), np.concatenate([last_mm, sliders_mm]))
+            last_mm = sliders_mm[-OVERLAP:] if len(sliders_mm) >= OVERLAP else sliders_mm
+            kept.append(_columns(motion, first, last, sliders_mm))
+        return kept, targets.first_travel
 
-        def row_name(row: int) -> str:
-            return describe(self.plan_name, self.runs, Phase(int(phase[row])), int(run[row]), float(angle_deg[row]))
-
-        rows = self.targets.sliders(position_mm, rpy_rad, self.cycle_s, before, after)
-        if rows.refused is not None:
-            row, why = rows.refused
-            raise InputError(f"{row_name(row)}: {why}")
-        lap = np.concatenate([s.lap for s in segments])
-        capture = np.concatenate([s.capture for s in segments])
+    def _check(self, motion: Motion, first: int, sliders_mm: Array) -> None:
+        """Check the motion of rows from `first` on."""
         try:
-            check_motion(rows.sliders_mm, self.cycle_s, self.machine.can_setup.limits, row_name)
+            check_motion(
+                sliders_mm,
+                self.cycle_s,
+                self.machine.can_setup.limits,
+                lambda row: self._row_name(motion, first + row),
+            )
         except TooFastError as error:
-            if not capture[error.row]:
+            row = first + error.row
+            _, part = next(motion.parts(row, row + 1))
+            if not part.capture[0]:
                 raise
             raise InputError(str(error)) from None  # too fast at its feed: a smaller fraction would not help
-        return Table(rows.sliders_mm, phase, run, angle_deg, lap, capture), rows
+
+    def _row_name(self, motion: Motion, row: int) -> str:
+        return describe(self.plan_name, self.runs, *motion.place(row))
+
+
+def _columns(motion: Motion, first: int, last: int, sliders_mm: Array) -> Table:
+    """Return the columns of rows `first` to `last` with their targets."""
+    parts = list(motion.parts(first, last))
+    lengths = [len(rows.capture) for _, rows in parts]
+    return Table(
+        sliders_mm,
+        np.repeat([int(segment.phase) for segment, _ in parts], lengths),
+        np.repeat([segment.run for segment, _ in parts], lengths),
+        np.concatenate([rows.angle_deg for _, rows in parts]),
+        np.concatenate([rows.lap for _, rows in parts]),
+        np.concatenate([rows.capture for _, rows in parts]),
+    )
 
 
 def describe(plan_name: str, runs: Sequence[CircleRun], phase: Phase, run: int, angle_deg: float) -> str:

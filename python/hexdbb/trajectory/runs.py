@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
@@ -19,10 +20,12 @@ from hexdbb.plan import CircleRun, Plan
 from hexdbb.trajectory.extent import FEED_IN_MM, ROWS_MAX, SETTLE_S, Extent, require_extent, too_long
 from hexdbb.trajectory.limits import LIMIT_FRACTIONS, PROBE_DEG, fastest_within_limits, path_limits
 from hexdbb.trajectory.poses import PosePath, circle_poses, constant_bar_path, radial_path, straight_path
-from hexdbb.trajectory.programme import Phase, Programme, Segment, Tabulator, describe
+from hexdbb.trajectory.programme import Programme, Tabulator, describe
+from hexdbb.trajectory.segments import Phase, Segment, SegmentRows
 from hexdbb.trajectory.targets import NominalTargets, Targets
 from hexdbb.trajectory.time_law import feed_law, rest_to_rest
 
+Rows = NDArray[np.int64]
 SAME_POSE_MM = 1e-9
 """Limits the path length below which two poses count as one: a picometre, above the rounding of 100 mm (1e-14 mm)."""
 
@@ -30,7 +33,7 @@ SAME_POSE_MM = 1e-9
 def plan_programme(
     plan: Plan, machine: MachineFile, cycle_s: float, plan_name: str, targets: Targets | None = None
 ) -> Programme:
-    """Compute the whole target table of a plan.
+    """Compute and check the targets of a plan.
 
     Parameters
     ----------
@@ -61,10 +64,25 @@ def plan_programme(
 
     def programme_at(limit_fraction: float) -> Programme:
         segments = _SegmentBuilder(runs, plan.overshoot_deg, machine, cycle_s, plan_name, limit_fraction).all()
-        table, rows = tabulator.tabulate(segments)
-        return Programme(runs, table, cycle_s, segments[0].begin, rows.first_travel, targets, limit_fraction)
+        rows, first_travel = tabulator.tabulate(segments)
+        counted = _counted(segments, len(runs))
+        return Programme(runs, rows, *counted, cycle_s, segments[0].begin, first_travel, targets, limit_fraction)
 
     return fastest_within_limits(LIMIT_FRACTIONS, programme_at)
+
+
+def _counted(segments: Sequence[Segment], runs: int) -> tuple[Rows, Rows, Rows]:
+    """Return of each run the rows captured, its first row and that of its feed-in."""
+    captured, begins, feeds_in = (np.zeros(runs, np.int64) for _ in range(3))
+    at, known = 0, -1
+    for segment in segments:
+        if segment.run != known:
+            known, begins[segment.run] = segment.run, at
+        if segment.phase is Phase.FEED_IN:
+            feeds_in[segment.run] = at
+        captured[segment.run] += segment.captured
+        at += segment.rows
+    return captured, begins, feeds_in
 
 
 class _SegmentBuilder:
@@ -90,7 +108,7 @@ class _SegmentBuilder:
             if segments:
                 segments += self.transfer(index, segments[-1], own[0])
             segments += own
-            rows = sum(len(each.capture) for each in segments)
+            rows = sum(each.rows for each in segments)
             if rows > ROWS_MAX:
                 raise InputError(f"{self.plan_name}: {too_long(Extent(rows * self.cycle_s, self.cycle_s))}")
         return segments
@@ -100,11 +118,9 @@ class _SegmentBuilder:
         arc = self.arc(index)
         radius_mm = self.runs[index].circle.radius_mm
         outside_mm = radius_mm + FEED_IN_MM
-        first_rad, last_rad = np.radians(arc.angle_deg[[0, -1]])
-        feed_in = self.move(
-            index, Phase.FEED_IN, radial_path(self.runs[index], float(first_rad), outside_mm, radius_mm)
-        )
-        retract = self.move(index, Phase.RETRACT, radial_path(self.runs[index], float(last_rad), radius_mm, outside_mm))
+        first_rad, last_rad = (math.radians(float(arc.part(row, row + 1).angle_deg[0])) for row in (0, arc.rows - 1))
+        feed_in = self.move(index, Phase.FEED_IN, radial_path(self.runs[index], first_rad, outside_mm, radius_mm))
+        retract = self.move(index, Phase.RETRACT, radial_path(self.runs[index], last_rad, radius_mm, outside_mm))
         for segment in (feed_in, arc, retract):
             yield from (segment, self.settle(segment))
 
@@ -124,12 +140,17 @@ class _SegmentBuilder:
         overshoot_mm = radius_mm * math.radians(self.overshoot_deg)
         where = describe(self.plan_name, self.runs, Phase.ARC, index, math.nan)
         law = feed_law(overshoot_mm, run.laps * turn_mm, limits, self.cycle_s, where)
-        angle_rad = run.direction * law.u_mm / radius_mm
-        poses = circle_poses(run, angle_rad, np.full_like(angle_rad, radius_mm))
-        lap = np.where(law.capture, np.floor((law.u_mm + SAME_POSE_MM) / turn_mm).astype(np.int64), -1)
-        # Twice, because the remainder of a tiny negative angle rounds to 360.
-        angle_deg = np.degrees(angle_rad) % 360.0 % 360.0
-        return Segment(Phase.ARC, index, *poses, angle_deg, lap, law.capture)
+
+        def part(first: int, last: int) -> SegmentRows:
+            u_mm = law.u_mm(first, last)
+            capture = law.capture(first, u_mm)
+            angle_rad = run.direction * u_mm / radius_mm
+            poses = circle_poses(run, angle_rad, np.full_like(angle_rad, radius_mm))
+            lap = np.where(capture, np.floor((u_mm + SAME_POSE_MM) / turn_mm).astype(np.int64), -1)
+            # Twice, because the remainder of a tiny negative angle rounds to 360.
+            return SegmentRows(*poses, np.degrees(angle_rad) % 360.0 % 360.0, lap, capture)
+
+        return Segment(Phase.ARC, index, law.rows, part, law.captured)
 
     def transfer(self, index: int, before: Segment, after: Segment) -> list[Segment]:
         """Return the transfer to the beginning of a run, with its rest; none where the previous run ends there."""
@@ -148,11 +169,9 @@ class _SegmentBuilder:
         """Return a segment along a path from rest to rest, as fast as the fraction of the sliders' limits allows."""
         where = describe(self.plan_name, self.runs, phase, index, math.nan)
         limits = path_limits(path, self.machine, self.limit_fraction, lambda _: where)
-        u_mm = rest_to_rest(path.length_mm, limits, self.cycle_s, where)
-        return Segment.uncaptured(phase, index, path.poses(u_mm))
+        law = rest_to_rest(path.length_mm, limits, self.cycle_s, where)
+        return Segment.uncaptured(phase, index, law.rows, lambda first, last: path.poses(law.u_mm(first, last)))
 
     def settle(self, after: Segment) -> Segment:
         """Return a rest at the end of a segment."""
-        n = max(1, round(SETTLE_S / self.cycle_s))
-        position_mm, rpy_rad = after.end
-        return Segment.uncaptured(Phase.SETTLE, after.run, (np.tile(position_mm, (n, 1)), np.tile(rpy_rad, (n, 1))))
+        return Segment.at_rest(Phase.SETTLE, after.run, max(1, round(SETTLE_S / self.cycle_s)), after.end)

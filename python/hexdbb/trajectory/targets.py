@@ -2,11 +2,13 @@
 
 `NominalTargets` is the nominal machine: inverse kinematics in closed form. A compensating controller is another
 (`hexdbb.compensation`). Poses come in order of motion, one row per cycle, because a compensated target may depend on
-the direction of travel.
+the direction of travel; targets are computed for parts of the rows, so that memory does not grow with their number.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -16,6 +18,43 @@ from numpy.typing import NDArray
 from hexdbb.kinematics import forward, inverse, rpy_from_rotation, status_name
 from hexdbb.machine import MachineFile
 from hexdbb.trajectory.poses import Array, Poses
+
+Refused = tuple[int, str] | None
+"""First row without a target and the reason in words; None where every row has one."""
+
+
+class PoseRows(Protocol):
+    """Poses in order of motion, computed for any part of their rows.
+
+    Attributes
+    ----------
+    rows : int
+        Number of poses.
+    """
+
+    @property
+    def rows(self) -> int:
+        """Number of poses."""
+
+    def poses(self, first: int, last: int) -> Poses:
+        """Compute the poses of rows `first` to `last`, the last one left out."""
+
+
+@dataclass(frozen=True)
+class HeldPoses:
+    """Poses in memory: position (n, 3) mm, roll, pitch, yaw (n, 3) rad."""
+
+    position_mm: Array
+    rpy_rad: Array
+
+    @property
+    def rows(self) -> int:
+        """Number of poses."""
+        return len(self.position_mm)
+
+    def poses(self, first: int, last: int) -> Poses:
+        """Return the poses of rows `first` to `last`."""
+        return self.position_mm[first:last], self.rpy_rad[first:last]
 
 
 @dataclass(frozen=True)
@@ -30,26 +69,37 @@ class TargetRows:
     """
 
     sliders_mm: Array
-    refused: tuple[int, str] | None
+    refused: Refused
     first_travel: Array
 
 
-class Targets(Protocol):
+@dataclass(frozen=True)
+class TargetParts:
+    """Slider targets of poses in order of motion, computed for any part of their rows.
+
+    Attributes
+    ----------
+    first_travel : (6,) assumed direction of travel of each slider at the first row, -1 to 1
+    part : rows `first` to `last` -> targets (n, 6), mm, and the first row of all without one; the result does not
+        depend on how the rows are divided
+    """
+
+    first_travel: Array
+    part: Callable[[int, int], tuple[Array, Refused]]
+
+
+class Targets(ABC):
     """Mapping of poses to slider targets and back."""
 
-    def sliders(
-        self,
-        position_mm: Array,
-        rpy_rad: Array,
-        cycle_s: float,
-        before: Array | None = None,
-        after: Array | None = None,
-    ) -> TargetRows:
-        """Compute the targets of poses, one per cycle; the machine is at rest before and after them.
+    @abstractmethod
+    def along(
+        self, poses: PoseRows, cycle_s: float, before: Array | None = None, after: Array | None = None
+    ) -> TargetParts:
+        """Prepare the targets of poses, one per cycle; the machine is at rest before and after them.
 
         Parameters
         ----------
-        position_mm, rpy_rad : ndarray, shape (n, 3)
+        poses : PoseRows
             Platform reference point, mm, and roll, pitch, yaw, rad.
         cycle_s : float
             Time between two rows, s.
@@ -57,18 +107,10 @@ class Targets(Protocol):
             Directions of travel of the sliders at the first row and after the last one; default: those of the first
             and of the last motion.
         """
-        ...
 
+    @abstractmethod
     def pose(self, sliders_mm: Array) -> tuple[Poses, str | None]:
         """Return the pose (1, 3) mm, (1, 3) rad with these targets (6,), and the reason where there is none."""
-        ...
-
-
-@dataclass(frozen=True)
-class NominalTargets:
-    """Slider targets of the nominal machine."""
-
-    machine: MachineFile
 
     def sliders(
         self,
@@ -78,9 +120,28 @@ class NominalTargets:
         before: Array | None = None,
         after: Array | None = None,
     ) -> TargetRows:
-        """See `Targets.sliders`; the directions of travel make no difference."""
-        sliders_mm, status = inverse(self.machine, position_mm, rpy_rad)
-        return TargetRows(sliders_mm, first_refused(status), np.zeros(6))
+        """Compute the targets of poses (n, 3) mm, (n, 3) rad at once; see `along`."""
+        parts = self.along(HeldPoses(position_mm, rpy_rad), cycle_s, before, after)
+        return TargetRows(*parts.part(0, len(position_mm)), parts.first_travel)
+
+
+@dataclass(frozen=True)
+class NominalTargets(Targets):
+    """Slider targets of the nominal machine."""
+
+    machine: MachineFile
+
+    def along(
+        self, poses: PoseRows, cycle_s: float, before: Array | None = None, after: Array | None = None
+    ) -> TargetParts:
+        """See `Targets.along`; the directions of travel make no difference."""
+
+        def part(first: int, last: int) -> tuple[Array, Refused]:
+            sliders_mm, status = inverse(self.machine, *poses.poses(first, last))
+            refused = first_refused(status)
+            return sliders_mm, None if refused is None else (first + refused[0], refused[1])
+
+        return TargetParts(np.zeros(6), part)
 
     def pose(self, sliders_mm: Array) -> tuple[Poses, str | None]:
         """See `Targets.pose`."""
@@ -89,7 +150,7 @@ class NominalTargets:
         return pose, f"{status_name(int(status[0]))} (expected a pose of the nominal machine)" if status[0] else None
 
 
-def first_refused(status: NDArray[np.integer]) -> tuple[int, str] | None:
+def first_refused(status: NDArray[np.integer]) -> Refused:
     """Return the first row whose status (n,) is not 0, with the reason in words; None where all are 0."""
     failed = np.flatnonzero(status)
     if not failed.size:

@@ -33,30 +33,93 @@ class PathLimits:
 
 
 @dataclass(frozen=True)
+class TimeLaw:
+    """Path coordinate per cycle, computed for any part of the rows; at rest at both ends.
+
+    Attributes
+    ----------
+    trajectory : profile in time
+    cycle_s : time between two rows
+    where : name of the path in errors
+    """
+
+    trajectory: Trajectory
+    cycle_s: float
+    where: str = "path"
+
+    def __post_init__(self) -> None:
+        if self.trajectory.duration > ROWS_MAX * self.cycle_s:
+            raise InputError(f"{self.where}: {too_long(Extent(self.trajectory.duration, self.cycle_s))}")
+
+    @property
+    def rows(self) -> int:
+        """Cycles up to the first one at or after the end."""
+        duration_s: float = self.trajectory.duration
+        return math.ceil(duration_s / self.cycle_s) + 1
+
+    def u_mm(self, first: int = 0, last: int | None = None) -> NDArray[np.float64]:
+        """Return the path coordinate of rows `first` to `last`, the last one left out; by default of all, (n,) mm."""
+        end_s, cycle_s, at_time = self.trajectory.duration, self.cycle_s, self.trajectory.at_time
+        rows = range(first, self.rows if last is None else last)
+        return np.fromiter((at_time(min(k * cycle_s, end_s))[0][0] for k in rows), np.float64, len(rows))
+
+
+@dataclass(frozen=True)
 class FeedLaw:
     """Constant feed over a captured length, with a lead before and after it to accelerate and to stop.
 
     Attributes
     ----------
-    u_mm : (n,) path coordinate per cycle, 0 at the start of the capture, negative before it
-    capture : (n,) bool, True from 0 up to, and not including, the captured length
+    law : path coordinate from the beginning of the lead
+    lead_cycles : row at which the capture begins
     lead_mm : length before and length after the capture, extended to whole cycles
+    capture_mm : captured length
+    feed_mm_s : feed over it
     """
 
-    u_mm: NDArray[np.float64]
-    capture: NDArray[np.bool_]
+    law: TimeLaw
+    lead_cycles: int
     lead_mm: float
+    capture_mm: float
+    feed_mm_s: float
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return self.law.rows
+
+    @property
+    def captured(self) -> int:
+        """Number of rows captured."""
+        # The feed is constant: the row at which the capture ends is known but for one, which is looked at.
+        end = self.lead_cycles + round(self.capture_mm / (self.feed_mm_s * self.law.cycle_s))
+        near = range(max(end - 2, self.lead_cycles), min(end + 3, self.rows))
+        ends = self.capture(near.start, self.u_mm(near.start, near.stop))
+        return near.start - self.lead_cycles + int(ends.sum())
+
+    def u_mm(self, first: int = 0, last: int | None = None) -> NDArray[np.float64]:
+        """Return the path coordinate of some rows, (n,) mm: 0 at the start of the capture, negative before it."""
+        u_mm = self.law.u_mm(first, last) - self.lead_mm
+        if first <= self.lead_cycles < first + len(u_mm):
+            u_mm[self.lead_cycles - first] = 0.0  # exact but for rounding
+        return u_mm
+
+    def capture(self, first: int, u_mm: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """Return which rows from `first` on are captured: from 0 up to, and not including, the captured length."""
+        rows = np.arange(first, first + len(u_mm))
+        captured: NDArray[np.bool_] = (rows >= self.lead_cycles) & (u_mm < self.capture_mm - ROUNDING)
+        return captured
 
 
-def rest_to_rest(length_mm: float, limits: PathLimits, cycle_s: float, where: str = "path") -> NDArray[np.float64]:
-    """Compute the path coordinate per cycle from rest at 0 to rest at `length_mm`, both ends included; (n,) mm.
+def rest_to_rest(length_mm: float, limits: PathLimits, cycle_s: float, where: str = "path") -> TimeLaw:
+    """Compute the time law from rest at 0 to rest at `length_mm`, both ends included.
 
     Raises
     ------
     InputError
         There is no time law within the limits, or it has more than `ROWS_MAX` rows; begins with `where`.
     """
-    return _sampled(_fastest(length_mm, limits, where), cycle_s, where)
+    return TimeLaw(_fastest(length_mm, limits, where), cycle_s, where)
 
 
 def feed_law(
@@ -83,10 +146,7 @@ def feed_law(
     lead_cycles = math.ceil(to_capture_s / cycle_s - ROUNDING)
     lead_mm = ramp_mm + overshoot_mm + (lead_cycles * cycle_s - to_capture_s) * feed_mm_s
     trajectory = _fastest(capture_mm + 2 * lead_mm, limits, where)
-    u_mm = _sampled(trajectory, cycle_s, where) - lead_mm
-    u_mm[lead_cycles] = 0.0  # exact but for rounding
-    capture = (np.arange(len(u_mm)) >= lead_cycles) & (u_mm < capture_mm - ROUNDING)
-    return FeedLaw(u_mm, capture, lead_mm)
+    return FeedLaw(TimeLaw(trajectory, cycle_s, where), lead_cycles, lead_mm, capture_mm, feed_mm_s)
 
 
 def _input(limits: PathLimits) -> InputParameter:
@@ -122,11 +182,3 @@ def _calculated(parameter: InputParameter, limits: PathLimits, where: str) -> Tr
         expected = "a feed and limits of the sliders that a path can be driven with"
         raise InputError(f"{where}: no time law with {found} along the path (expected {expected})") from None
     return trajectory
-
-
-def _sampled(trajectory: Trajectory, cycle_s: float, where: str) -> NDArray[np.float64]:
-    """Return the position at every cycle, (n,) mm, up to the first one at or after the end, where it rests."""
-    end_s = trajectory.duration
-    if end_s > ROWS_MAX * cycle_s:
-        raise InputError(f"{where}: {too_long(Extent(end_s, cycle_s))}")
-    return np.array([trajectory.at_time(min(k * cycle_s, end_s))[0][0] for k in range(math.ceil(end_s / cycle_s) + 1)])

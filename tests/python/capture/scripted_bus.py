@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import can
 
@@ -15,7 +15,9 @@ from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import AxisGroup
 from hexdbb.capture.plausibility import Plausibility
 from hexdbb.capture.supervision import Supervision
+from hexdbb.capture.targets_ahead import Row
 from hexdbb.capture.watch import Watch
+from hexdbb.trajectory import Phase
 
 DRIVES, GAUGE = (1, 2, 3, 4, 5, 6), 7
 LABELS = (*(f"node {node} (slider {node})" for node in DRIVES), "node 7 (gauge)")
@@ -98,3 +100,8 @@ def axes_on(bus: ScriptedBus) -> AxisGroup:
         ),
     )
     return AxisGroup(loop, watch, LABELS, cycle_s=CYCLE_S)
+
+
+def at_rest(rows: int) -> Iterator[Row]:
+    """Targets of axes that stay at 0, off the circle."""
+    return (Row(row, [0] * 6, Phase.APPROACH, -1, False, [0.0] * 9) for row in range(rows))

@@ -8,15 +8,15 @@ import struct
 import time
 
 import can
-import numpy as np
 import pytest
-from tests.python.capture.scripted_bus import DRIVES, GAUGE, ScriptedBus, axes_on
+from tests.python.capture.scripted_bus import DRIVES, GAUGE, ScriptedBus, at_rest, axes_on
 
 from hexdbb.capture.exchange import MAX_BACKLOG, Exchange, Feedback
 from hexdbb.capture.frames import GuardedBus
 from hexdbb.capture.link import Link
 from hexdbb.capture.motion import AxisGroup, MotionFaultError
 from hexdbb.capture.sdo import RemoteDevice
+from hexdbb.capture.targets_ahead import Row
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import RunError
 from hexdbb.machine import shipped
@@ -31,7 +31,7 @@ class Kept:
 
     count = 0
 
-    def keep(self, row: int, feedback: Feedback) -> None:
+    def keep(self, row: Row, feedback: Feedback) -> None:
         self.count += 1
 
     def settle(self, paired: bool, held: int) -> None:
@@ -39,9 +39,9 @@ class Kept:
 
 
 def follow(axes: AxisGroup) -> int:
-    """Follow a table of standing targets; return the number of rows kept."""
+    """Follow standing targets; return the number of rows kept."""
     kept = Kept()
-    axes.follow(np.zeros((ROWS, 6), dtype=np.int32), np.zeros(ROWS, dtype=bool), kept, {})
+    axes.follow(at_rest(ROWS), kept, {})
     return kept.count
 
 

@@ -28,8 +28,9 @@ def test_display_says_where_the_run_is(terminal: bool, programme: Programme) -> 
     wanted = ["note: node 3 (slider 3): no object 60C2:01", "run 2/2, circle 0, counter-clockwise, 753.98 mm/min: arc"]
     wanted += ["reading +12.5 µm", "ms/cycle, 3 missed"]
     with display(progress, console):
-        progress.rows, progress.programme = len(programme.table), programme
-        progress.row = int(((programme.table.run == 1) & (programme.table.phase == Phase.ARC)).argmax())
+        progress.rows, progress.programme = len(programme), programme
+        progress.place = (Phase.ARC, 1)
+        progress.row = len(programme) // 2
         progress.stage, progress.reading_um, progress.missed = "moving", 12.5, 3
         end_s = time.monotonic() + 20.0
         while not all(words in out.getvalue() for words in wanted) and time.monotonic() < end_s:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import tracemalloc
 
-import numpy as np
-from tests.python.capture.scripted_bus import ScriptedBus, axes_on
+from tests.python.capture.scripted_bus import ScriptedBus, at_rest, axes_on
 
 from hexdbb.capture.exchange import Feedback
+from hexdbb.capture.targets_ahead import Row
 
 CYCLES = 5000
 """Growth of 8 bytes a cycle would be 40 kB."""
@@ -24,7 +24,7 @@ class Dropped(list[tuple[int, bytes]]):
 class NoRows:
     """Rows that nobody keeps."""
 
-    def keep(self, row: int, feedback: Feedback) -> None:
+    def keep(self, row: Row, feedback: Feedback) -> None:
         """Forget the row."""
 
     def settle(self, paired: bool, held: int) -> None:
@@ -37,13 +37,12 @@ def test_memory_does_not_grow_with_the_cycles() -> None:
     axes = axes_on(bus)
     axes.read_positions()
     axes.enable()
-    table, watched = np.zeros((CYCLES, 6), np.int32), np.zeros(CYCLES, dtype=bool)
-    axes.follow(table, watched, NoRows(), {})
+    axes.follow(at_rest(CYCLES), NoRows(), {})
     tracemalloc.start()
     try:
-        axes.follow(table, watched, NoRows(), {})
+        axes.follow(at_rest(CYCLES), NoRows(), {})
         before, _ = tracemalloc.get_traced_memory()
-        axes.follow(table, watched, NoRows(), {})
+        axes.follow(at_rest(CYCLES), NoRows(), {})
         after, _ = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()

@@ -248,8 +248,8 @@ def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
 ) -> None:
     with start_rig() as rig:
         line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
-        # No file beyond 400 blocks: the system's own limit stands in for a full disk.
-        limited = ["bash", "-c", 'ulimit -f 400; exec "$@"', "bash", *line]
+        # No file beyond 1000 blocks: the system's own limit stands in for a full disk. The targets take 850.
+        limited = ["bash", "-c", 'ulimit -f 1000; exec "$@"', "bash", *line]
         done = subprocess.run(limited, capture_output=True, text=True, timeout=120)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
         assert "no client on the bus" not in rig.log.read_text()

@@ -9,6 +9,7 @@ from tests.truth.closing import silent
 from tests.truth.simulate import Pace, simulate
 
 from hexdbb.compensation import CompensatedTargets, make_compensation, smooth_changes, travel_directions
+from hexdbb.compensation import targets as targets_module
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.machine import shipped_machine
@@ -17,6 +18,7 @@ from hexdbb.plan import Plan, load_plan
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import TruthFile
 from hexdbb.trajectory import Programme, approach, plan_programme
+from hexdbb.trajectory import programme as programme_module
 
 Floats = NDArray[np.float64]
 
@@ -70,6 +72,19 @@ def test_every_row_keeps_the_limits_though_play_is_crossed_at_every_reversal(wor
     for limit in (LIMITS.velocity_mm_s, LIMITS.acceleration_mm_s2, LIMITS.jerk_mm_s3):
         rate = np.diff(rate, axis=0) / CYCLE_S
         assert np.abs(rate).max() <= limit
+
+
+@pytest.mark.parametrize("block_rows", [64, 1008])
+def test_targets_do_not_depend_on_how_their_rows_are_divided(
+    worn: CompensatedTargets, block_rows: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Play is crossed before and after the ends of blocks, and rests last longer than a block."""
+    whole = programme_of(worn)
+    monkeypatch.setattr(programme_module, "BLOCK_ROWS", block_rows)
+    monkeypatch.setattr(targets_module, "LOOK_ROWS", block_rows)
+    parts = programme_of(worn)
+    np.testing.assert_allclose(parts.table.sliders_mm, whole.table.sliders_mm, rtol=0, atol=1e-8)
+    assert parts.first_travel.tolist() == whole.first_travel.tolist()
 
 
 def test_the_way_in_joins_the_programme_at_rest(worn: CompensatedTargets) -> None:

@@ -36,7 +36,7 @@ NOT_RUN = {
 }
 PAGES_NOT_RUN = {
     "docs/closed-loop.md": "250 readings a second for minutes; `make closed-loop` does it, five machines",
-    "docs/your-machine.md": "asks questions, then looks for circles for a minute; tests/python/machine does both, coarser",
+    "docs/your-machine.md": "asks questions, and plans for a minute; tests/python/machine does both, coarser",
 }
 """Of these commands only the options are checked."""
 SERVES = re.compile(r"^hexdbb rig .*--port ")

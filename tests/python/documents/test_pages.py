@@ -36,8 +36,8 @@ def test_index_lists_every_page_of_its_folder_and_the_indexes_below(index: Path)
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_commands_shown_exist(page: Path) -> None:
-    shown = set(re.findall(r"^(?:\$ )?hexdbb ([a-z]+)", "\n".join(blocks(page)), flags=re.MULTILINE))
-    shown |= set(re.findall(r"`hexdbb ([a-z]+)", page.read_text(encoding="utf-8")))
+    shown = set(re.findall(r"^(?:\$ )?hexdbb ([a-z][a-z-]*)", "\n".join(blocks(page)), flags=re.MULTILINE))
+    shown |= set(re.findall(r"`hexdbb ([a-z][a-z-]*)", page.read_text(encoding="utf-8")))
     assert shown - set(cli.list_commands(None)) == set()
 
 

@@ -89,6 +89,81 @@ def test_no_flipped_bit_of_a_parquet_record_changes_a_value_unnoticed(
     assert saved > refused / 2
 
 
+def footer_of(content: bytes) -> tuple[int, int]:
+    """Return where the footer of a Parquet file begins and ends."""
+    end = len(content) - 8
+    return end - int.from_bytes(content[end : end + 4], "little"), end
+
+
+def test_a_record_whose_end_is_missing_or_damaged_is_recovered_whole(long_record: Record, tmp_path: Path) -> None:
+    path, rng = tmp_path / "a.parquet", random.Random(4)
+    write_record(long_record, path)
+    original, content = read_record(path), path.read_bytes()
+    begin, end = footer_of(content)
+    cut = [content[:at] for at in (begin, begin + 1, (begin + end) // 2, end, end + 3, len(content) - 1)]
+    flips = []
+    for _ in range(FLIPS):
+        data = bytearray(content)
+        data[rng.randrange(begin, len(data))] ^= 1 << rng.randrange(8)
+        flips.append(bytes(data))
+    saved = 0
+    for damaged in [*cut, *flips]:
+        path.write_bytes(damaged)
+        again = read_or_refused(read_record, path)
+        if again is not None:
+            assert is_part_of(again, original), "what is read in spite of the damage is right"
+            continue
+        rest = recover(path)
+        saved += 1
+        assert len(rest) == len(original)
+        assert is_part_of(rest, original)
+        assert not rest.complete
+        assert (
+            "read by its copy" in rest.metadata["incomplete_because"]
+            or "left out" in rest.metadata["incomplete_because"]
+        )
+    assert saved > len(cut) + FLIPS / 2
+
+
+def test_of_a_record_cut_short_the_row_groups_before_the_cut_are_recovered(
+    long_record: Record, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(parquet_form, "ROWS_PER_GROUP", 150)
+    path = tmp_path / "a.parquet"
+    write_record(long_record, path)
+    original, content = read_record(path), path.read_bytes()
+    with pq.ParquetFile(path) as file:
+        third = file.metadata.row_group(2).column(0)
+        begin = third.dictionary_page_offset or third.data_page_offset
+    path.write_bytes(content[: begin + 10])
+    with pytest.raises(InputError, match=r"not a whole Parquet file.*save what is whole with: hexdbb recover"):
+        read_record(path)
+    rest = recover(path)
+    assert len(rest) == 300
+    assert is_part_of(rest, original)
+
+
+def test_where_footer_and_copy_are_damaged_nothing_is_invented(long_record: Record, tmp_path: Path) -> None:
+    path = tmp_path / "a.parquet"
+    write_record(long_record, path)
+    content = bytearray(path.read_bytes())
+    content[200] ^= 1
+    path.write_bytes(content[:-20])
+    with pytest.raises(InputError, match=r"its index is damaged"):
+        recover(path)
+
+
+def test_a_footer_that_needs_more_room_than_expected_is_copied_all_the_same(
+    long_record: Record, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hexdbb.record.footer_copy.CHUNK_BYTES", 0)
+    monkeypatch.setattr("hexdbb.record.footer_copy.SPARE_BYTES", 0)
+    path = tmp_path / "a.parquet"
+    write_record(long_record, path)
+    path.write_bytes(path.read_bytes()[:-1])
+    assert len(recover(path)) == len(long_record)
+
+
 def journal_of(record: Record, path: Path, rows: int = 100) -> bytes:
     """Return the bytes of a journal of the record, its batches of `rows` rows."""
     setup = {"machine": record.machine, "gauge": record.gauge, "mounts": record.mounts, "circles": record.circles}
@@ -102,7 +177,7 @@ def journal_of(record: Record, path: Path, rows: int = 100) -> bytes:
 @pytest.fixture
 def writes_when_told(monkeypatch: pytest.MonkeyPatch) -> None:
     """The journal's own thread writes nothing before the end, so that batches are those of the test."""
-    monkeypatch.setattr("hexdbb.record.journal.SYNC_PERIOD_S", 1e3)
+    monkeypatch.setattr("hexdbb.record.journal.WRITE_PERIOD_S", 1e3)
 
 
 @pytest.mark.usefixtures("writes_when_told")

@@ -1,4 +1,4 @@
-"""Machine time, rows and memory of a plan are known before they are spent: what is too much is refused at once."""
+"""Machine time, rows and disk space of a plan are known before they are spent: what is too much is refused at once."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def refused(plan: Plan, machine: MachineFile, monkeypatch: pytest.MonkeyPatch) -
     def none(*arguments: object) -> None:
         raise AssertionError("rows were computed")
 
-    monkeypatch.setattr(time_law, "_sampled", none)
+    monkeypatch.setattr(time_law.TimeLaw, "u_mm", none)
     with pytest.raises(InputError) as caught:
         prepare(Request(plan, machine, "my.toml", CYCLE_S, Path("never.parquet")))
     message = str(caught.value)
@@ -45,7 +45,7 @@ def refused(plan: Plan, machine: MachineFile, monkeypatch: pytest.MonkeyPatch) -
 def test_too_many_laps_are_refused_before_a_row_is_computed(laps: int, monkeypatch: pytest.MonkeyPatch) -> None:
     message = refused(plan_with(laps=laps), machine_with(), monkeypatch)
     assert message.startswith(f"my.toml: circle 0, 753.98 mm/min, {laps} laps: the plan takes ")
-    assert "(expected at most 4.44 h of machine time, 4,000,000 rows, 1.2 GB" in message
+    assert "(expected at most 4.44 h of machine time, 4,000,000 rows, 264.0 MB of targets" in message
 
 
 @pytest.mark.parametrize("feed", [5e-324, 1e-9, 1e-3, 0.1])
@@ -98,6 +98,6 @@ def test_the_estimate_is_that_of_the_table(name: str) -> None:
     machine = plan.machine_file()
     programme = plan_programme(plan, machine, CYCLE_S, name)
     estimate = estimated_extent(plan.runs(), plan.overshoot_deg, machine.can_setup.limits, CYCLE_S)
-    assert 0.9 * len(programme.table) < estimate.rows < 1.05 * len(programme.table)
-    assert programme.extent.rows == pytest.approx(len(programme.table))
+    assert 0.9 * len(programme) < estimate.rows < 1.05 * len(programme)
+    assert programme.extent.rows == pytest.approx(len(programme))
     assert programme.extent.rows < ROWS_MAX / 5

@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hexdbb.errors import InputError
+from hexdbb.errors import InputError, RunError
 from hexdbb.kinematics import forward, inverse, rotation_from_rpy, rpy_from_rotation
 from hexdbb.plan import Plan, load_plan
 from hexdbb.trajectory import Phase, Programme, approach, plan_programme
+from hexdbb.trajectory import programme as programme_module
 from hexdbb.trajectory.extent import FEED_IN_MM
 from hexdbb.trajectory.time_law import PathLimits, feed_law, rest_to_rest
 
 CYCLE_S = 0.004
+TARGETS = Path(__file__).parents[2] / "data" / "trajectory" / "thesis_targets.csv"
 
 
 def changed(name: str = "thesis", **circle: object) -> Plan:
@@ -44,7 +47,7 @@ positive = st.floats(0.5, 300.0)
 @settings(max_examples=60, deadline=None)
 @given(length_mm=st.floats(1e-6, 500.0), v=positive, a=st.floats(5.0, 3000.0), j=st.floats(50.0, 50000.0))
 def test_rest_to_rest_keeps_its_limits_and_arrives(length_mm: float, v: float, a: float, j: float) -> None:
-    u = rest_to_rest(length_mm, PathLimits(v, a, j), CYCLE_S)
+    u = rest_to_rest(length_mm, PathLimits(v, a, j), CYCLE_S).u_mm()
     assert u[0] == 0.0
     assert u[-1] == pytest.approx(length_mm, abs=1e-9)
     # Differences are averages of the derivatives, so they keep the same limits; padded by the rest before and after.
@@ -58,14 +61,17 @@ def test_rest_to_rest_keeps_its_limits_and_arrives(length_mm: float, v: float, a
 def test_feed_law_captures_from_zero_at_constant_feed(overshoot_mm: float, laps: int, feed: float) -> None:
     turn_mm = 2 * math.pi * 100.0
     law = feed_law(overshoot_mm, laps * turn_mm, PathLimits(feed, 300.0, 5000.0), CYCLE_S)
-    captured = law.u_mm[law.capture]
+    u_mm = law.u_mm()
+    capture = law.capture(0, u_mm)
+    captured = u_mm[capture]
+    assert law.captured == len(captured)
     step_mm = feed * CYCLE_S
     assert captured[0] == pytest.approx(0.0, abs=1e-8)
     assert np.diff(captured) == pytest.approx(step_mm, abs=1e-8)
     assert laps * turn_mm - step_mm - 1e-8 <= captured[-1] < laps * turn_mm
-    first = int(law.capture.argmax())
-    assert law.u_mm[0] == pytest.approx(-law.lead_mm, abs=1e-9)
-    at_feed = np.isclose(np.diff(law.u_mm[: first + 1]), step_mm, atol=1e-8)
+    first = int(capture.argmax())
+    assert u_mm[0] == pytest.approx(-law.lead_mm, abs=1e-9)
+    at_feed = np.isclose(np.diff(u_mm[: first + 1]), step_mm, atol=1e-8)
     assert at_feed.sum() * step_mm >= overshoot_mm - 2 * step_mm
 
 
@@ -147,6 +153,50 @@ def test_approach_from_where_no_pose_is_is_refused() -> None:
     plan = changed()
     with pytest.raises(InputError, match=r"sliders stand at 20\.000.*expected a pose"):
         approach(np.array([20.0, 846.0, 20.0, 846.0, 400.0, 470.0]), programme_of(plan), plan.machine_file(), "plan")
+
+
+@pytest.mark.parametrize("block_rows", [7, 1000])
+def test_targets_do_not_depend_on_how_their_rows_are_divided(block_rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = changed(laps=2)
+    monkeypatch.setattr(programme_module, "BLOCK_ROWS", 10**6)
+    whole = programme_of(plan, 0.02)
+    monkeypatch.setattr(programme_module, "BLOCK_ROWS", block_rows)
+    parts = programme_of(plan, 0.02)
+    for name in ("sliders_mm", "phase", "run", "angle_deg", "lap", "capture"):
+        np.testing.assert_array_equal(getattr(parts.table, name), getattr(whole.table, name))
+    assert parts.captured.tolist() == np.bincount(whole.table.run[whole.table.capture]).tolist()
+    feeds_in = whole.table.phase == Phase.FEED_IN
+    assert parts.feeds_in.tolist() == [int((feeds_in & (whole.table.run == k)).argmax()) for k in range(2)]
+
+
+def test_too_fast_a_row_is_named_across_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan, messages = changed(), []
+    machine = plan.machine_file()
+    limits = machine.can_setup.limits.model_copy(update={"jerk_mm_s3": 150.0})
+    slow = machine.model_copy(update={"can": machine.can_setup.model_copy(update={"limits": limits})})
+    for block_rows in (10**6, 100):
+        monkeypatch.setattr(programme_module, "BLOCK_ROWS", block_rows)
+        with pytest.raises(InputError, match=r"arc at \d.* deg: jerk of slider") as caught:
+            plan_programme(plan, slow, 0.02, "plan")
+        messages.append(str(caught.value))
+    assert messages[0] == messages[1]
+
+
+def test_targets_are_those_of_the_version_that_computed_them_at_once() -> None:
+    """Every 97th row of the plan `thesis` at 250 Hz, computed as one table in memory."""
+    rows, *sliders_mm = np.loadtxt(TARGETS, delimiter=",", unpack=True)
+    table = plan_programme(load_plan("thesis"), load_plan("thesis").machine_file(), CYCLE_S, "thesis").table
+    assert len(table) == 32096
+    np.testing.assert_allclose(table.sliders_mm[rows.astype(int)], np.column_stack(sliders_mm), rtol=0, atol=1e-9)
+
+
+def test_a_full_disk_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object) -> int:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.pwrite", full)
+    with pytest.raises(RunError, match=r"^targets: cannot be written in .*: No space left on device \(exp"):
+        programme_of(changed(), 0.02)
 
 
 @pytest.mark.parametrize("rpy", [(0.1, -0.2, 0.3), (-1.0, 1.2, 3.0), (0.0, 0.0, 0.0)])
