@@ -13,6 +13,7 @@ from hexdbb.machine.file import (
 )
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 from hexdbb.machine.tolerance import Tolerance
+from hexdbb.machine.watch import Watch
 
 __all__ = [
     "SHIPPED_MACHINE",
@@ -24,6 +25,7 @@ __all__ = [
     "Platform",
     "Sliders",
     "Tolerance",
+    "Watch",
     "load_machine",
     "machine_beside",
     "shipped",

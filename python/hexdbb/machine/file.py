@@ -20,6 +20,7 @@ from hexdbb.files.validation import BadValueError, FileModel, Number, Positive, 
 from hexdbb.machine.can_setup import CanSetup
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 from hexdbb.machine.tolerance import Tolerance
+from hexdbb.machine.watch import Watch
 
 
 class Base(StrictModel):
@@ -92,6 +93,8 @@ class MachineFile(FileModel):
     """Six sliders, two on each guideway."""
     tolerance: Tolerance | None = None
     """Largest values of ISO 230-4 quantities that pass, for reports; absent means that nothing is judged."""
+    watch: Annotated[tuple[Watch, ...], Field(strict=False)] | None = None
+    """Limits of the trend over the machine's records, one table each; absent means that nothing is watched."""
     can: CanSetup | None = None
     """Drives and gauge on the bus; absent means the defaults below. Fits use none of it."""
 

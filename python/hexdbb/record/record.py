@@ -131,7 +131,7 @@ class Record:
     def content_hash(self) -> str:
         """Return the SHA-256 (hex) of required columns, gauge, mounts, circles and machine; equal in every format.
 
-        What only reports show (conditions, serial numbers, calibration, tolerance) is not in it: a note corrected later
+        What only reports show (conditions, serial numbers, calibration, limits) is not in it: a note corrected later
         leaves a record what it was.
         """
         return self.whole_hash if self.whole_hash is not None else self._own_hash
@@ -144,7 +144,7 @@ class Record:
             digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
         nameless = self.gauge.model_copy(update={"serial_number": None, "calibrated": None})
         digest.update(dump_toml(self.measurement("machine").model_copy(update={"gauge": nameless})).encode())
-        described: dict[str, Any] = {"serial_number": None, "tolerance": None}
+        described: dict[str, Any] = {"serial_number": None, "tolerance": None, "watch": None}
         digest.update(dump_toml(self.machine.model_copy(update=described)).encode())
         return digest.hexdigest()
 
