@@ -5,7 +5,7 @@ from hexdbb.record.conditions import conditions_metadata
 from hexdbb.record.formats import read_record, write_record
 from hexdbb.record.journal import Journal, journal_path
 from hexdbb.record.plausibility import Doubt, doubts
-from hexdbb.record.record import Record
+from hexdbb.record.record import Record, require_dimensions
 from hexdbb.record.recovery import recover
 
 __all__ = [
@@ -20,5 +20,6 @@ __all__ = [
     "journal_path",
     "read_record",
     "recover",
+    "require_dimensions",
     "write_record",
 ]

@@ -163,14 +163,35 @@ class Record:
         InputError
             Naming the first dimension that differs, with both values.
         """
-        for section in DIMENSIONS:
-            own, other = getattr(self.machine, section).model_dump(), getattr(machine, section).model_dump()
-            for key, value in own.items():
-                if other[key] != value:
-                    raise InputError(
-                        f"{origin}: {section}.{key}: {format_value(other[key])}"
-                        f" (expected {format_value(value)}, as in {self.name}: they do not belong together)"
-                    )
+        require_dimensions(self.machine, self.name, machine, origin)
+
+
+def require_dimensions(machine: MachineFile, named: str, other: MachineFile, origin: str) -> None:
+    """Check that two machine files have the same dimensions.
+
+    Parameters
+    ----------
+    machine : MachineFile
+        What is expected.
+    named : str
+        The file that it was read from, for the error.
+    other : MachineFile
+    origin : str
+        The file that `other` was read from.
+
+    Raises
+    ------
+    InputError
+        Naming the first dimension that differs, with both values.
+    """
+    for section in DIMENSIONS:
+        own, found = getattr(machine, section).model_dump(), getattr(other, section).model_dump()
+        for key, value in own.items():
+            if found[key] != value:
+                raise InputError(
+                    f"{origin}: {section}.{key}: {format_value(found[key])}"
+                    f" (expected {format_value(value)}, as in {named}: they do not belong together)"
+                )
 
 
 def _first_time_and_temperature(columns: Columns) -> tuple[float, float]:

@@ -365,7 +365,8 @@ def _of_all(
 
 def _layout(models: Sequence[Model]) -> Layout:
     parameters = models[0].parameters()
-    machine = np.array([not each.is_set_up for each in parameters])
+    # Shape parameters of the user's effects are held: they are not fitted by these equations.
+    machine = np.array([not each.is_set_up and each.shape is None for each in parameters])
     of_mounts = np.array([models[0].info(each.effect).element_kind == "mount" for each in parameters])
     shared = np.flatnonzero((machine & ~of_mounts) & models[0].free)
     own = []
