@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hexdbb.charts.colours import FORMULA_COLOUR, FUNCTION_COLOUR, NOMINAL_COLOUR, RULE_COLOUR
+from hexdbb.charts.colours import FORMULA_COLOUR, FUNCTION_COLOUR, NOMINAL_COLOUR, PAPER_COLOUR, RULE_COLOUR
 from hexdbb.machine import Watch
 from hexdbb.plots.style import sheet, styled
 from hexdbb.trend import SURE, Series, Trend
@@ -35,7 +35,7 @@ def trend_figure(found: Trend) -> Figure:
     for axes, series in zip(panels[1:-1], changing, strict=True):
         _draw_changing(axes, found, series)
     _draw_residual(panels[-1], found)
-    _date_axis(panels[-1], found)
+    _date_axis(panels[-1])
     name = found.dated[0].record.machine.name
     figure.suptitle(f"{name}: {len(found.dated)} records, intervals ± {SURE:g} standard deviations")
     return figure
@@ -50,11 +50,10 @@ def trend_effects_figure(found: Trend) -> Figure:
     panels = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
     for axes, effect in zip(panels, effects, strict=False):
         _draw_effect(axes, found, [each for each in found.series if each.effect == effect])
-        axes.set_title(effect)
     for axes in panels[len(effects) :]:
         axes.set_axis_off()
     for axes in panels[max(0, 2 * rows - 2) :]:
-        _date_axis(axes, found)
+        _date_axis(axes, most=7)
     figure.suptitle(f"Change since the first record, each element alone beside those that change (± {SURE:g} s. d.)")
     return figure
 
@@ -67,7 +66,9 @@ def _draw_quantities(axes: Axes, found: Trend, quantities: list[Series]) -> None
         axes.plot(times, series.value, marker=mark, markersize=3.5, color=colour, label=series.label)
         for watch in _watches(found, series):
             _limit(axes, watch, signs=(1.0,), name=series.label)
+        _change_points(axes, found, series, colour)
     axes.set_ylim(bottom=0.0)
+    axes.margins(y=0.15)
     axes.set_ylabel("µm")
     axes.set_title("Circular deviation G, bi-directional G(b), hysteresis H: the largest on any circle")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -82,14 +83,12 @@ def _draw_changing(axes: Axes, found: Trend, series: Series) -> None:
     axes.errorbar(times, value, SURE * sigma, fmt="o", markersize=3.5, capsize=2.0, color=FUNCTION_COLOUR)
     lines = found.segments.get(series.name, [])
     shift = value[0] - series.value[0]
-    for number, each in enumerate(lines):
+    for each in lines:
         begin, end = times[each.first], times[each.last]
         rise = each.slope * (end - begin) / timedelta(days=1)
         axes.plot([begin, end], [each.level + shift, each.level + shift + rise], color=RULE_COLOUR, zorder=1)
-        if number:
-            before = times[each.first - 1]
-            axes.axvline(before + (begin - before) / 2, color=NOMINAL_COLOUR, linestyle=":", linewidth=1.0)
-    signs = tuple(sign for sign in (1.0, -1.0) if (sign * value > 0.0).any())
+    _change_points(axes, found, series, NOMINAL_COLOUR)
+    signs = tuple(sign for sign in (1.0, -1.0) if (sign * value - SURE * np.nan_to_num(sigma) > 0.0).any())
     for watch in watches:
         _limit(axes, watch, signs)
     for each in found.exceeded:
@@ -103,6 +102,7 @@ def _draw_changing(axes: Axes, found: Trend, series: Series) -> None:
                 textcoords="offset points",
                 ha="right",
                 color=LIMIT_COLOUR,
+                bbox={"facecolor": PAPER_COLOUR, "edgecolor": "none", "pad": 1.0},
             )
     axes.set_ylabel(readable_unit(series.unit))
     what = "change since the first record" if as_change else "value"
@@ -113,6 +113,7 @@ def _draw_residual(axes: Axes, found: Trend) -> None:
     times = [each.measured for each in found.dated]
     axes.plot(times, found.residual_um, "o-", markersize=3.5, color=FUNCTION_COLOUR, label="residual")
     axes.plot(times, found.noise_um, "--", color=NOMINAL_COLOUR, label="noise")
+    axes.margins(y=0.15)
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel("µm RMS")
     axes.set_title("What the fit of all records leaves of each, and the noise of one reading")
@@ -135,10 +136,15 @@ def _draw_effect(axes: Axes, found: Trend, every: list[Series]) -> None:
             color=colour,
             alpha=1.0 if series.is_changing else 0.45,
             zorder=3 if series.is_changing else 2,
+            label=_element_words(series, every),
         )
-        if series.is_changing:
-            axes.annotate(series.name, (times[-1], series.change[-1]), xytext=(-6, -10), textcoords="offset points", ha="right")
     axes.set_ylabel(readable_unit(every[0].unit))
+    changing = ", ".join(series.name.removeprefix(f"{series.effect}:") for series in every if series.is_changing)
+    axes.set_title(f"{every[0].effect}: {changing} changes" if changing else every[0].effect)
+    if len(every) > 1:
+        axes.legend(
+            loc="center left", bbox_to_anchor=(1.0, 0.5), borderaxespad=0.2, handlelength=0.8, labelspacing=0.2
+        )
 
 
 def _watches(found: Trend, series: Series) -> list[Watch]:
@@ -163,8 +169,22 @@ def _limit(axes: Axes, watch: Watch, signs: tuple[float, ...], name: str = "") -
             )
 
 
-def _date_axis(axes: Axes, found: Trend) -> None:
-    locator = mdates.AutoDateLocator(minticks=3, maxticks=13)
+def _change_points(axes: Axes, found: Trend, series: Series, colour: str) -> None:
+    """Mark where one line of time ends and the next begins, midway between two records."""
+    for each in found.segments.get(series.name, [])[1:]:
+        before, after = found.dated[each.first - 1].measured, found.dated[each.first].measured
+        axes.axvline(before + (after - before) / 2, color=colour, linestyle=":", linewidth=1.0)
+
+
+def _element_words(series: Series, every: list[Series]) -> str:
+    """Return what tells one value of an effect from the others: element, parameter or both."""
+    element = series.label.removeprefix(series.effect).lstrip(":")
+    several = len({each.parameter for each in every}) > 1
+    return " ".join(filter(None, (element, series.parameter if several else "")))
+
+
+def _date_axis(axes: Axes, most: int = 13) -> None:
+    locator = mdates.AutoDateLocator(minticks=3, maxticks=most)
     axes.xaxis.set_major_locator(locator)
     axes.xaxis.set_major_formatter(mdates.ConciseDateFormatter(locator))
     axes.tick_params(axis="x", labelbottom=True)
