@@ -87,6 +87,20 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "discovery",
     },
+    # what changes over the records of years
+    "trend": {
+        "errors",
+        "files",
+        "threads",
+        "units",
+        "machine",
+        "record",
+        "model",
+        "samples",
+        "identifiability",
+        "diagnosis",
+        "comparison",
+    },
     # every error's part in the circular deviation
     "contributions": {
         "errors",
@@ -107,6 +121,8 @@ ALLOWED: dict[str, set[str]] = {
     "plots": {
         "errors",
         "files",
+        "units",
+        "machine",
         "plan",
         "learned",
         "model",
@@ -115,6 +131,7 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "discovery",
         "comparison",
+        "trend",
         "charts",
     },
     # one file to hand over; nothing is computed in it
@@ -139,6 +156,8 @@ ALLOWED: dict[str, set[str]] = {
     # what a controller does about it
     "trajectory": {"errors", "machine", "plan", "kinematics"},
     "compensation": {"errors", "files", "machine", "record", "kinematics", "model", "trajectory", "_core"},
+    # a machine's files over the years
+    "logbook": {"errors", "files", "machine", "record", "model", "compensation", "trend"},
     # which circles determine most
     "planning": {
         "errors",
@@ -359,6 +378,7 @@ NAME_BLIND = (
     "ledger",
     "predictors",
     "comparison",
+    "trend",
     "contributions",
     "charts",
     "reporting",

@@ -13,7 +13,7 @@ from hexdbb.cli.shared_options import json_option
 from hexdbb.cli.trend import command as trend_command
 from hexdbb.errors import RunError
 from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
-from hexdbb.logbook.json_form import entry_json, log_json
+from hexdbb.logbook.json_form import log_json
 
 folder_argument = click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
 
@@ -65,6 +65,8 @@ def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
         where = f"{entry.kind} {entry.sha256[:SHORT]}, {entry.measured[:10]}"
         if added.is_new:
             say(f"{path}: added to {folder}: {where}")
+        elif added.is_back:
+            say(f"{path}: in {folder} already, its missing file is back: {where}")
         else:
             say(f"{path}: in {folder} already, added as {entry.name} on {entry.added[:10]}: {where}")
 
@@ -83,6 +85,9 @@ def list_entries(folder: Path, kind: str | None, as_json: bool) -> None:
     """
     logbook = Logbook(folder)
     entries = logbook.entries(kind)
+    loose = logbook.loose()
+    if loose:
+        message_console().print(f"note: {loose[0]}: not in the index ({len(loose)} such): hexdbb log check {folder}")
     if as_json:
         say(json.dumps(log_json(logbook, entries).to_json(), indent=2, allow_nan=False))
         return
@@ -94,7 +99,9 @@ def list_entries(folder: Path, kind: str | None, as_json: bool) -> None:
         table.add_column(heading)
     for each in entries:
         missing = "" if logbook.path_of(each).is_file() else " (file missing: hexdbb log check)"
-        table.add_row(each.measured[:16].replace("T", " "), each.kind, each.sha256[:SHORT], each.name, _what(each) + missing)
+        table.add_row(
+            each.measured[:16].replace("T", " "), each.kind, each.sha256[:SHORT], each.name, _what(each) + missing
+        )
     output_console().print(table)
 
 
@@ -108,14 +115,16 @@ def show(folder: Path, entry: str, as_json: bool) -> None:
     \b
     Examples:
       hexdbb log show glider 4f1c
-      hexdbb diagnose "$(hexdbb log show glider 4f1c --json | jq -r .path)" -m model.toml
+      hexdbb diagnose "$(hexdbb log show glider 4f1c --json | jq -r '.entries[0].path')" -m model.toml
     """
     logbook = Logbook(folder)
     found = logbook.entry(entry)
     if as_json:
-        say(json.dumps(entry_json(logbook, found).to_json(), indent=2, allow_nan=False))
+        say(json.dumps(log_json(logbook, [found]).to_json(), indent=2, allow_nan=False))
         return
-    facts = {key: ", ".join(map(str, value)) if isinstance(value, list) else value for key, value in found.facts.items()}
+    facts = {
+        key: ", ".join(map(str, value)) if isinstance(value, list) else value for key, value in found.facts.items()
+    }
     rows = {"kind": found.kind, "name": found.name, "sha256": found.sha256, "measured": found.measured}
     for key, value in {**rows, "added": found.added, "file": logbook.path_of(found), **facts}.items():
         say(f"{key:12} {value}")

@@ -14,9 +14,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from hexdbb.errors import InputError
-from hexdbb.logbook.folder import Logbook, entry_of
+from hexdbb.logbook.folder import SHORT, Logbook, entry_of, files_of
 from hexdbb.logbook.index import Entry, all_entries, insert
-from hexdbb.logbook.kinds import FOLDERS, Content, content_of
+from hexdbb.logbook.kinds import Content, content_of
 from hexdbb.trend import parsed_time
 
 
@@ -93,7 +93,7 @@ def _of_entries(logbook: Logbook, known: list[Entry], progress: Callable[[str], 
 def _of_files(
     logbook: Logbook, connection: sqlite3.Connection, places: set[str], progress: Callable[[str], None]
 ) -> Iterator[Finding]:
-    for path in _files(logbook.folder):
+    for path in files_of(logbook.folder):
         place = path.relative_to(logbook.folder).as_posix()
         if place in places:
             continue
@@ -110,7 +110,7 @@ def _of_files(
         else:
             changed = datetime.fromtimestamp(path.stat().st_mtime, UTC)
             measured = changed if content.measured is None else parsed_time(content.measured, str(path))
-            insert(connection, entry_of(content, path.name, measured, changed))
+            insert(connection, entry_of(content, f"{content.sha256[:SHORT]}{path.suffix}", measured, changed))
             yield Finding(f"{place}: not in the index: entered", True)
 
 
@@ -123,9 +123,3 @@ def _content(logbook: Logbook, path: Path) -> tuple[Content | None, str]:
     except InputError as error:
         return None, str(error)
     return content, ""
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    for name in FOLDERS.values():
-        if (folder / name).is_dir():
-            yield from sorted(each for each in (folder / name).iterdir() if each.is_file())

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import os
 import sqlite3
+from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -23,7 +24,7 @@ from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import write_text
 from hexdbb.files.validation import dump_toml
 from hexdbb.logbook.index import NAME, Entry, Index, all_entries, insert
-from hexdbb.logbook.kinds import FOLDERS, Content, content_of
+from hexdbb.logbook.kinds import Content, content_of
 from hexdbb.machine import MachineFile, load_machine
 from hexdbb.record import read_record, require_dimensions
 from hexdbb.trend import Dated, dated, parsed_time
@@ -35,10 +36,11 @@ SHORT = 12
 
 @dataclass(frozen=True)
 class Added:
-    """What became of a file: its entry, and whether it is new."""
+    """What became of a file: its entry, whether that is new, and whether a missing file of an old one is back."""
 
     entry: Entry
     is_new: bool
+    is_back: bool = False
 
 
 class Logbook:
@@ -59,7 +61,9 @@ class Logbook:
         self.folder = folder
         self.index = Index(folder)
         if not folder.is_dir():
-            raise InputError(f"{folder}: no such logbook (expected a folder, as `hexdbb log add {folder} RECORD` makes)")
+            raise InputError(
+                f"{folder}: no such logbook (expected a folder, as `hexdbb log add {folder} RECORD` makes)"
+            )
         if not (folder / MACHINE).is_file():
             there = "its machine.toml is missing" if self.index.path.exists() else "no logbook"
             raise InputError(f"{folder}: {there} (expected a folder with {MACHINE} and {NAME})")
@@ -119,9 +123,7 @@ class Logbook:
         serials = (own.serial_number, machine.serial_number)
         differ = None not in serials and serials[0] != serials[1]
         if machine.name != own.name or differ:
-            raise InputError(
-                f"{origin}: of {_named(machine)} (expected {_named(own)}, whose logbook {self.folder} is)"
-            )
+            raise InputError(f"{origin}: of {_named(machine)} (expected {_named(own)}, whose logbook {self.folder} is)")
         require_dimensions(own, str(self.folder / MACHINE), machine, origin)
 
     def add(self, path: Path, date: str | None = None) -> Added:
@@ -150,12 +152,13 @@ class Logbook:
         with self.index.writing() as connection:
             known = _known(connection, content)
             target = self.folder / content.place
-            if known is None or not target.exists():
+            is_back = known is not None and not target.exists()
+            if known is None or is_back:
                 target.parent.mkdir(exist_ok=True)
                 content.write(target)
                 os.utime(target, (measured.timestamp(), measured.timestamp()))
             if known is not None:
-                return Added(known, is_new=False)
+                return Added(known, is_new=False, is_back=is_back)
             entry = entry_of(content, content.path.name, measured, datetime.now(UTC))
             insert(connection, entry)
             return Added(entry, is_new=True)
@@ -166,16 +169,26 @@ class Logbook:
         Raises
         ------
         InputError
-            A file is missing or damaged, or its content is another than it was.
+            A file is missing or damaged, or lies there without an entry.
         """
         found = []
+        loose = [each for each in self.loose() if each.parent.name == FOLDERS["record"]]
+        if loose:
+            raise InputError(f"{loose[0]}: not in the index ({len(loose)} such): hexdbb log check {self.folder}")
         for entry in self.entries("record"):
             path = self.path_of(entry)
             if not path.is_file():
-                raise InputError(f"{path}: missing ({entry.name}, {entry.measured[:10]}): hexdbb log check {self.folder}")
+                raise InputError(
+                    f"{path}: missing ({entry.name}, {entry.measured[:10]}): hexdbb log check {self.folder}"
+                )
             if entry.facts.get("complete", True):
                 found.append(dated(read_record(path)))
         return sorted(found, key=lambda each: each.measured)
+
+    def loose(self) -> list[Path]:
+        """Return the files that no entry names."""
+        named = {each.place for each in self.entries()}
+        return [each for each in files_of(self.folder) if each.relative_to(self.folder).as_posix() not in named]
 
     def _timed(self, content: Content, date: str | None) -> tuple[Content, datetime]:
         """Return a content and its time: what the file states, else what is given, else when it was changed last."""
@@ -187,6 +200,13 @@ class Logbook:
         if content.kind == "record":
             raise InputError(f"{content.path}: does not say when it was measured (expected --date 2026-03-01)")
         return content, datetime.fromtimestamp(int(content.path.stat().st_mtime), UTC)
+
+
+def files_of(folder: Path) -> Iterator[Path]:
+    """Yield all files in the folders of entries, sorted."""
+    for name in FOLDERS.values():
+        if (folder / name).is_dir():
+            yield from sorted(each for each in (folder / name).iterdir() if each.is_file())
 
 
 def entry_of(content: Content, name: str, measured: datetime, added: datetime) -> Entry:

@@ -121,7 +121,10 @@ def all_entries(connection: sqlite3.Connection) -> list[Entry]:
     rows = connection.execute(
         "select kind, sha256, place, name, measured, added, facts from entry order by measured, added, sha256"
     )
-    return [Entry(*row[:-1], json.loads(row[-1])) for row in rows]
+    return [
+        Entry(kind, sha256, place, name, measured, added, json.loads(facts))
+        for kind, sha256, place, name, measured, added, facts in rows
+    ]
 
 
 def insert(connection: sqlite3.Connection, entry: Entry) -> None:

@@ -34,17 +34,10 @@ class LogEntryJson(JsonPart):
 
 
 @dataclass(frozen=True)
-class LogShowJson(LogEntryJson, JsonResult):
-    """One entry of a logbook."""
+class LogJson(JsonResult):
+    """Entries of a logbook: all of them, those of one kind, or the one shown."""
 
-    SCHEMA = "hexdbb.log.show/1"
-
-
-@dataclass(frozen=True)
-class LogListJson(JsonResult):
-    """The entries of a logbook."""
-
-    SCHEMA = "hexdbb.log.list/1"
+    SCHEMA = "hexdbb.log/1"
 
     machine: str
     """Name of the machine."""
@@ -52,14 +45,9 @@ class LogListJson(JsonResult):
     """In the order of their times."""
 
 
-def log_json(logbook: Logbook, entries: Sequence[Entry]) -> LogListJson:
+def log_json(logbook: Logbook, entries: Sequence[Entry]) -> LogJson:
     """Return entries as the command prints them."""
-    return LogListJson(logbook.machine.name, tuple(LogEntryJson(**_fields(logbook, each)) for each in entries))
-
-
-def entry_json(logbook: Logbook, entry: Entry) -> LogShowJson:
-    """Return one entry as the command prints it."""
-    return LogShowJson(**_fields(logbook, entry))
+    return LogJson(logbook.machine.name, tuple(LogEntryJson(**_fields(logbook, each)) for each in entries))
 
 
 def _fields(logbook: Logbook, entry: Entry) -> dict[str, Any]:

@@ -154,11 +154,10 @@ def _compensation(path: Path, machine: MachineFile | None) -> Content:
     try:
         data = read_compensation(path, machine)
     except InputError as error:
-        if machine is not None and "expected" in str(error) and str(path) not in str(error):
+        if "not a compensation file" not in str(error):
             raise
-        raise InputError(
-            f"{error} (a logbook keeps records, models, results of --json and compensation files)"
-        ) from None
+        expected = "a record, a model, what a command printed with --json, or a compensation file"
+        raise InputError(f"{path}: nothing that a logbook keeps (expected {expected})") from None
     return Content("compensation", _sha256(path), path, None, None, {"name": data.name, "model": data.model_sha256})
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from datetime import timedelta
+from typing import Any
 
-import matplotlib.dates as mdates
+import matplotlib.dates
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from hexdbb.charts.colours import FORMULA_COLOUR, FUNCTION_COLOUR, NOMINAL_COLOUR, PAPER_COLOUR, RULE_COLOUR
 from hexdbb.machine import Watch
@@ -59,23 +60,20 @@ def trend_effects_figure(found: Trend) -> Figure:
 
 
 def _draw_quantities(axes: Axes, found: Trend, quantities: list[Series]) -> None:
-    times = [each.measured for each in found.dated]
-    for series, mark, colour in zip(
-        quantities, MARKS, (FUNCTION_COLOUR, NOMINAL_COLOUR, FORMULA_COLOUR), strict=False
-    ):
+    times = _days(found)
+    for series, mark, colour in zip(quantities, MARKS, (FUNCTION_COLOUR, NOMINAL_COLOUR, FORMULA_COLOUR), strict=False):
         axes.plot(times, series.value, marker=mark, markersize=3.5, color=colour, label=series.label)
         for watch in _watches(found, series):
             _limit(axes, watch, signs=(1.0,), name=series.label)
         _change_points(axes, found, series, colour)
-    axes.set_ylim(bottom=0.0)
-    axes.margins(y=0.15)
+    axes.set_ylim(0.0, 1.15 * axes.get_ylim()[1])
     axes.set_ylabel("µm")
     axes.set_title("Circular deviation G, bi-directional G(b), hysteresis H: the largest on any circle")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def _draw_changing(axes: Axes, found: Trend, series: Series) -> None:
-    times = [each.measured for each in found.dated]
+    times = _days(found)
     watches = _watches(found, series)
     as_change = not series.is_known or any(each.change for each in watches)
     value = series.change if as_change else series.value
@@ -85,18 +83,18 @@ def _draw_changing(axes: Axes, found: Trend, series: Series) -> None:
     shift = value[0] - series.value[0]
     for each in lines:
         begin, end = times[each.first], times[each.last]
-        rise = each.slope * (end - begin) / timedelta(days=1)
+        rise = each.slope * (end - begin)
         axes.plot([begin, end], [each.level + shift, each.level + shift + rise], color=RULE_COLOUR, zorder=1)
     _change_points(axes, found, series, NOMINAL_COLOUR)
     signs = tuple(sign for sign in (1.0, -1.0) if (sign * value - SURE * np.nan_to_num(sigma) > 0.0).any())
     for watch in watches:
         _limit(axes, watch, signs)
-    for each in found.exceeded:
-        if each.series is series:
-            mark = each.first
+    for beyond in found.exceeded:
+        if beyond.series is series:
+            mark = beyond.first
             axes.plot(times[mark], value[mark], "o", markersize=9, markerfacecolor="none", color=LIMIT_COLOUR)
             axes.annotate(
-                f"beyond {each.watch.limit:g} since {found.dated[mark].month}",
+                f"beyond {beyond.watch.limit:g} since {found.dated[mark].month}",
                 (times[mark], value[mark]),
                 xytext=(-8, 6),
                 textcoords="offset points",
@@ -110,23 +108,22 @@ def _draw_changing(axes: Axes, found: Trend, series: Series) -> None:
 
 
 def _draw_residual(axes: Axes, found: Trend) -> None:
-    times = [each.measured for each in found.dated]
+    times = _days(found)
     axes.plot(times, found.residual_um, "o-", markersize=3.5, color=FUNCTION_COLOUR, label="residual")
     axes.plot(times, found.noise_um, "--", color=NOMINAL_COLOUR, label="noise")
-    axes.margins(y=0.15)
-    axes.set_ylim(bottom=0.0)
+    axes.set_ylim(0.0, 1.3 * max(found.residual_um + found.noise_um))
     axes.set_ylabel("µm RMS")
     axes.set_title("What the fit of all records leaves of each, and the noise of one reading")
     axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
 
 def _draw_effect(axes: Axes, found: Trend, every: list[Series]) -> None:
-    times = [each.measured for each in found.dated]
+    times = _days(found)
     for number, series in enumerate(every):
         colour = FUNCTION_COLOUR if series.is_changing else NOMINAL_COLOUR
-        apart = timedelta(days=0.02 * max((times[-1] - times[0]).days, 1) * (number / max(len(every), 2) - 0.5))
+        apart = 0.02 * max(times[-1] - times[0], 1.0) * (number / len(every) - 0.5)
         axes.errorbar(
-            [each + apart for each in times],
+            times + apart,
             series.change,
             SURE * np.nan_to_num(series.change_sigma),
             fmt=MARKS[number % len(MARKS)],
@@ -142,9 +139,7 @@ def _draw_effect(axes: Axes, found: Trend, every: list[Series]) -> None:
     changing = ", ".join(series.name.removeprefix(f"{series.effect}:") for series in every if series.is_changing)
     axes.set_title(f"{every[0].effect}: {changing} changes" if changing else every[0].effect)
     if len(every) > 1:
-        axes.legend(
-            loc="center left", bbox_to_anchor=(1.0, 0.5), borderaxespad=0.2, handlelength=0.8, labelspacing=0.2
-        )
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), borderaxespad=0.2, handlelength=0.8, labelspacing=0.2)
 
 
 def _watches(found: Trend, series: Series) -> list[Watch]:
@@ -172,8 +167,8 @@ def _limit(axes: Axes, watch: Watch, signs: tuple[float, ...], name: str = "") -
 def _change_points(axes: Axes, found: Trend, series: Series, colour: str) -> None:
     """Mark where one line of time ends and the next begins, midway between two records."""
     for each in found.segments.get(series.name, [])[1:]:
-        before, after = found.dated[each.first - 1].measured, found.dated[each.first].measured
-        axes.axvline(before + (after - before) / 2, color=colour, linestyle=":", linewidth=1.0)
+        times = _days(found)
+        axes.axvline(float(np.mean(times[each.first - 1 : each.first + 1])), color=colour, linestyle=":", linewidth=1.0)
 
 
 def _element_words(series: Series, every: list[Series]) -> str:
@@ -183,8 +178,15 @@ def _element_words(series: Series, every: list[Series]) -> str:
     return " ".join(filter(None, (element, series.parameter if several else "")))
 
 
+def _days(found: Trend) -> NDArray[np.float64]:
+    """Return the times of the records as matplotlib has them, days."""
+    dates: Any = matplotlib.dates
+    return np.asarray(dates.date2num([each.measured for each in found.dated]), float)
+
+
 def _date_axis(axes: Axes, most: int = 13) -> None:
-    locator = mdates.AutoDateLocator(minticks=3, maxticks=most)
+    dates: Any = matplotlib.dates
+    locator = dates.AutoDateLocator(minticks=3, maxticks=most)
     axes.xaxis.set_major_locator(locator)
-    axes.xaxis.set_major_formatter(mdates.ConciseDateFormatter(locator))
+    axes.xaxis.set_major_formatter(dates.ConciseDateFormatter(locator))
     axes.tick_params(axis="x", labelbottom=True)

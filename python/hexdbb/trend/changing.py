@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.diagnosis.sufficiency import MATTERS_OF_NOISE
-from hexdbb.trend.joint import Changing, JointFit, Part, Solution, fit_together, solve, started
 from hexdbb.model import Model
+from hexdbb.trend.joint import Changing, JointFit, Part, Solution, fit_together, solve, started
 
 Floats = NDArray[np.float64]
 
@@ -132,6 +132,7 @@ def _matters(fit: JointFit, one: Changing) -> bool:
 
 def shown_mm(fit: JointFit, one: Changing) -> Floats:
     """Return the RMS (mm) by which a change moves each record's readings against the records' mean, set-up fitted."""
+    columns = np.array(one.columns, dtype=np.intp)
     place = [each.label for each in fit.changing].index(one.label)
     first = sum(len(each.columns) for each in fit.changing[:place])
     departed = np.array([each[first : first + len(one.columns)] for each in fit.departures])
@@ -139,8 +140,8 @@ def shown_mm(fit: JointFit, one: Changing) -> Floats:
     shown = []
     for each, set_up, step in zip(fit.equations, fit.layout.set_up, departed, strict=True):
         inside = each.information[np.ix_(set_up, set_up)] + np.diag(np.full(len(set_up), each.effective_mm**2))
-        across = each.information[np.ix_(set_up, one.columns)]
-        own = each.information[np.ix_(one.columns, one.columns)]
+        across = each.information[np.ix_(set_up, columns)]
+        own = each.information[np.ix_(columns, columns)]
         left = step @ (own - across.T @ np.linalg.solve(inside, across)) @ step
         shown.append(np.sqrt(max(left, 0.0) / each.readings))
     return np.array(shown)

@@ -74,9 +74,7 @@ def exceeded(series: Sequence[Series], watches: Sequence[Watch], origin: str) ->
                 " (expected change = true)"
             )
         found += [
-            beyond
-            for each in meant
-            if each.label not in unknown and (beyond := _beyond(each, watch)) is not None
+            beyond for each in meant if each.label not in unknown and (beyond := _beyond(each, watch)) is not None
         ]
     return found, notes
 

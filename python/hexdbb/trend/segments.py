@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-LEAST = 2
-"""Records of a segment: one alone is an outlier, not a state."""
+LEAST = 3
+"""Records of a segment at least: one alone is an outlier, and a line through two fits whatever they are."""
 MEDIAN_OF_NORMAL = 0.6745
 """Median magnitude of a standard normal value."""
 
@@ -77,7 +77,7 @@ def segments(days: Floats, values: Floats, sigma: Floats) -> list[Segment]:
     best: list[tuple[float, list[Segment]]] = [(0.0, [])]
     for end in range(1, n + 1):
         options = []
-        for begin in range(0, end):
+        for begin in range(end):
             if (end - begin < LEAST and n >= LEAST) or not np.isfinite(best[begin][0]):
                 continue
             cost, segment = _line(days, values, spread, begin, end, price)
@@ -90,15 +90,13 @@ def segments(days: Floats, values: Floats, sigma: Floats) -> list[Segment]:
     return best[n][1]
 
 
-def _line(
-    days: Floats, values: Floats, spread: Floats, begin: int, end: int, price: float
-) -> tuple[float, Segment]:
+def _line(days: Floats, values: Floats, spread: Floats, begin: int, end: int, price: float) -> tuple[float, Segment]:
     """Return the cheaper of a constant and a sloped line through values `begin` to `end`, with its cost."""
     t, y, weight = days[begin:end], values[begin:end], 1.0 / spread[begin:end] ** 2
     centre, level = np.average(t, weights=weight), np.average(y, weights=weight)
     flat = float(weight @ (y - level) ** 2) + price
     moment = float(weight @ (t - centre) ** 2)
-    if end - begin <= LEAST or moment == 0.0:
+    if end - begin < LEAST or moment == 0.0:
         return flat, Segment(begin, end - 1, float(level), 0.0, float("nan"))
     slope = float(weight @ ((t - centre) * y)) / moment
     sloped = float(weight @ (y - level - slope * (t - centre)) ** 2) + 2.0 * price

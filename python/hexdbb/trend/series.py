@@ -105,9 +105,7 @@ def effect_series(fit: JointFit) -> list[Series]:
     return found
 
 
-def _of_value(
-    fit: JointFit, one: Changing, column: int, solution: Solution, departures: Sequence[Floats]
-) -> Series:
+def _of_value(fit: JointFit, one: Changing, column: int, solution: Solution, departures: Sequence[Floats]) -> Series:
     parameter = fit.models[0].parameters()[column]
     factor = parameter.prior_sigma * shown_factor(parameter.unit)
     place = int(np.flatnonzero(solution.layout.shared == column)[0])

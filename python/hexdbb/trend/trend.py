@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hexdbb.comparison import QUANTITIES
 from hexdbb.diagnosis.sufficiency import MATTERS_OF_NOISE
 from hexdbb.errors import InputError
+from hexdbb.files.results import number_or_none
 from hexdbb.machine import MachineFile, Watch
 from hexdbb.model import Choice, Model, new_model
 from hexdbb.samples import Samples
@@ -22,7 +23,6 @@ from hexdbb.trend.json_form import ChangeJson, ExceededJson, SegmentJson, Series
 from hexdbb.trend.limits import Exceeded, exceeded, status_of, watched_effects
 from hexdbb.trend.segments import Segment, segments
 from hexdbb.trend.series import WATCHED_QUANTITIES, Series, effect_series, quantity_series
-from hexdbb.files.results import number_or_none
 
 Floats = NDArray[np.float64]
 
@@ -180,7 +180,9 @@ def trend(
     ordered = tuple(sorted(dated, key=lambda each: each.measured))
     watches = machine.watch or ()
     origin = str(machine.path) if machine.path is not None else machine.name
-    fitted = with_watched(model if model is not None else new_model(machine), watched_effects(watches, [*SYMBOLS.values()]), origin)
+    fitted = with_watched(
+        model if model is not None else new_model(machine), watched_effects(watches, [*SYMBOLS.values()]), origin
+    )
     progress("reading records")
     samples = [Samples.of([each.record]) for each in ordered]
     fit, found = find_changes([Part.of(each) for each in samples], fitted, progress)
@@ -193,7 +195,9 @@ def trend(
         for each in every
         if each.is_changing and np.isfinite(each.value).all()
     }
-    return Trend(ordered, tuple(every), tuple(found), cut, tuple(beyond), (*notes, *_lacking(ordered, fit)), fit, tuple(watches))
+    return Trend(
+        ordered, tuple(every), tuple(found), cut, tuple(beyond), (*notes, *_lacking(ordered, fit)), fit, tuple(watches)
+    )
 
 
 def with_watched(model: Model, effects: Sequence[str], origin: str) -> Model:
