@@ -24,7 +24,7 @@ from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import write_text
 from hexdbb.files.validation import dump_toml
 from hexdbb.logbook.index import NAME, Entry, Index, all_entries, insert
-from hexdbb.logbook.kinds import Content, content_of
+from hexdbb.logbook.kinds import FOLDERS, Content, content_of
 from hexdbb.machine import MachineFile, load_machine
 from hexdbb.record import read_record, require_dimensions
 from hexdbb.trend import Dated, dated, parsed_time

@@ -13,7 +13,7 @@ class Watch(StrictModel):
     """One limit: of an ISO 230-4 quantity or of an effect; `hexdbb trend` ends with a status of its own beyond it."""
 
     what: Annotated[str, Field(min_length=1)]
-    """`G`, `G(b)` or `H`, the largest on any circle; or an effect, as `backlash`, or an element of it, `leg_length:2`."""
+    """`G`, `G(b)` or `H`, the largest on any circle; or an effect, `backlash`, or one element, `leg_length:2`."""
     limit: Positive
     """Largest magnitude that is allowed; an effect is beyond it where it is so with its interval."""
     alarm: Positive | None = None
