@@ -219,7 +219,7 @@ def solve(
     at = equations[0].at.copy()
     at[columns] -= first_departed
     downhill -= at[shared]
-    covariance: Floats = np.linalg.inv(total)
+    covariance: Floats = np.asarray(np.linalg.inv(total), np.float64)
     moved = covariance @ downhill
     log_evidence += 0.5 * (downhill @ moved - np.linalg.slogdet(total)[1])
     return Solution(
