@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from hexdbb.diagnosis.sufficiency import MATTERS_OF_NOISE
 from hexdbb.model import Model
-from hexdbb.trend.joint import Changing, JointFit, Part, Solution, fit_together, solve, started
+from hexdbb.trend.joint import Changing, JointFit, Part, Solution, cost, fit_together, solve, started
 
 Floats = NDArray[np.float64]
 
@@ -26,6 +26,9 @@ SCALES = (0.01, 0.03, 0.1, 0.3, 1.0)
 half a decade apart, which costs a hypothesis one unit of log evidence at most."""
 ENOUGH = 10.0
 """Gain of log evidence from which a change is believed: odds of 22,000 to 1, some hundred elements being tried."""
+MOST_FALSE = 3
+"""Candidates that first order promises and the fit refuses, after which the search ends: along directions that only
+the curvature of the readings determines, first order promises too much."""
 MOST = 8
 """Changes looked for at most: a machine of which more elements change was rebuilt, and needs a model of its own."""
 
@@ -83,23 +86,25 @@ def find_changes(
     progress("fitting all records together")
     fit = fit_together(parts, started(parts, model))
     found: list[Found] = []
-    while len(found) < MOST:
-        best = strongest(fit, found)
+    refused: list[str] = []
+    while len(found) < MOST and len(refused) < MOST_FALSE:
+        best = strongest(fit, found, refused)
         if best is None:
             break
         progress(f"fitting with {best.changing.label} changing")
         changing = [*(each.changing for each in found), best.changing]
         departures = [np.append(each, np.zeros(len(best.changing.columns))) for each in fit.departures]
         more = fit_together(parts, fit.models, changing, departures)
-        if not _matters(more, best.changing):
-            break
+        if not _falls_enough(fit, more) or not _matters(more, best.changing):
+            refused.append(best.changing.label)
+            continue
         fit, found = more, [*found, best]
     return fit, found
 
 
-def strongest(fit: JointFit, found: Sequence[Found]) -> Found | None:
+def strongest(fit: JointFit, found: Sequence[Found], refused: Sequence[str] = ()) -> Found | None:
     """Return the change that gains most evidence beside those found; None where none gains enough."""
-    known = {each.changing.label for each in found}
+    known = {*refused, *(each.changing.label for each in found)}
     base = _with(fit, None).log_evidence
     gains: list[tuple[float, Changing]] = []
     for each in candidates(fit):
@@ -119,9 +124,17 @@ def strongest(fit: JointFit, found: Sequence[Found]) -> Found | None:
 def _with(fit: JointFit, one: Changing | None) -> Solution:
     """Return the system solved with one more element changing."""
     if one is None:
-        return solve(fit.equations, fit.layout, fit.changing, fit.departures)
+        return solve(fit.equations, fit.layout, fit.changing, fit.departures, fit.damping)
     departures = [np.append(each, np.zeros(len(one.columns))) for each in fit.departures]
-    return solve(fit.equations, fit.layout, (*fit.changing, one), departures)
+    return solve(fit.equations, fit.layout, (*fit.changing, one), departures, fit.damping)
+
+
+def _falls_enough(before: JointFit, after: JointFit) -> bool:
+    """Whether a change lowers half chi-square by what its evidence promised at least, readings counting as before."""
+    weighed = [
+        replace(each, effective_mm=by.effective_mm) for each, by in zip(after.equations, before.equations, strict=True)
+    ]
+    return before.cost - cost(weighed, after.layout, after.changing, after.departures) >= ENOUGH
 
 
 def _matters(fit: JointFit, one: Changing) -> bool:

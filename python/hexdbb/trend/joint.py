@@ -27,14 +27,15 @@ from hexdbb.samples import Samples, normal_equations, predict
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
-STEPS = 30
-"""Largest number of Gauss-Newton steps: ten are needed from the nominal machine, some of them along directions that
-only the curvature of the readings determines; one or two from a fitted machine."""
+STEPS = 60
+"""Largest number of steps tried: ten to thirty are needed from the nominal machine, most of them along directions that
+only the curvature of the readings determines; a few from a fitted machine."""
 AT_REST = 0.02
 """Fall of half chi-square below which steps end: one standard deviation of any value is a fall of 0.5."""
-LEAST_DAMPING, DAMPED_MORE = 0.1, 10.0
-"""Levenberg-Marquardt: the least share by which a step that led uphill shortens the next, and the factor from one to
-the next. Steps lead uphill along the height of a cup that only level circles see: its square shortens the bar."""
+LEAST_DAMPING, DAMPED_MORE = 1.0, 5.0
+"""Levenberg-Marquardt: the least information, in that of a prior, by which a step uphill shortens the next one, and
+the factor from one to the next. Steps lead uphill along the height of a cup that only level circles see: its square
+shortens the bar, and a tenth of its prior standard deviation is a step already."""
 
 
 @dataclass(frozen=True)
@@ -190,7 +191,7 @@ def solve(
         Present departures of each record, in prior standard deviations, in the order of `changing`; zero where not
         given.
     damping : float
-        Share by which the diagonal of a record's own information is raised.
+        Information, in that of a prior, that the steps of the set-ups are small.
     """
     shared = layout.shared
     columns = np.array([column for each in changing for column in each.columns], dtype=np.intp)
@@ -204,7 +205,7 @@ def solve(
         departed = np.zeros(len(columns)) if departures is None else departures[number]
         prior = np.concatenate([np.ones(len(set_up)), 1.0 / scales**2])
         inside = weight * each.information[np.ix_(own, own)] + np.diag(prior)
-        inside[np.diag_indices_from(inside)] *= 1.0 + damping
+        inside[np.arange(len(set_up)), np.arange(len(set_up))] += damping
         across = weight * each.information[np.ix_(own, shared)]
         down_own = weight * each.gradient[own] - prior * np.concatenate([each.at[set_up], departed])
         inverse = np.linalg.inv(inside)
@@ -249,6 +250,9 @@ class JointFit:
         About the values of `models`.
     solution : Solution
         About them too; its steps are those that were not taken any more.
+    damping : float
+        With which the last steps led downhill: the curvature along the set-ups' weak directions, which the equations
+        do not have.
     """
 
     parts: tuple[Part, ...]
@@ -256,6 +260,12 @@ class JointFit:
     departures: tuple[Floats, ...]
     equations: tuple[Equations, ...]
     solution: Solution
+    damping: float = 0.0
+
+    @property
+    def cost(self) -> float:
+        """Half of chi-square of readings and priors, readings counting as in `equations`."""
+        return cost(self.equations, self.layout, self.changing, self.departures)
 
     @property
     def layout(self) -> Layout:
@@ -307,7 +317,7 @@ def fit_together(
         solution = solve(equations, layout, changing, state.departures, damping)
         further = state.moved(solution)
         there = _of_all(parts, further.models, equations)
-        fall = _cost(equations, layout, changing, state) - _cost(there, layout, changing, further)
+        fall = cost(equations, layout, changing, state.departures) - cost(there, layout, changing, further.departures)
         if fall < 0.0:
             damping = max(DAMPED_MORE * damping, LEAST_DAMPING)
         else:
@@ -315,7 +325,7 @@ def fit_together(
             state, equations = further, _of_all(parts, further.models)
         if abs(fall) < AT_REST:
             solution = solve(equations, layout, changing, state.departures)
-            return JointFit(tuple(parts), state.models, state.departures, equations, solution)
+            return JointFit(tuple(parts), state.models, state.departures, equations, solution, damping)
     raise RunError(f"records fitted together: no rest after {STEPS} steps (expected a model nearer to the machine)")
 
 
@@ -340,14 +350,16 @@ class _State:
         return _State(tuple(models), tuple(departures))
 
 
-def _cost(equations: Sequence[Equations], layout: Layout, changing: Sequence[Changing], state: _State) -> float:
+def cost(
+    equations: Sequence[Equations], layout: Layout, changing: Sequence[Changing], departures: Sequence[Floats]
+) -> float:
     """Return half of chi-square of all readings and of all departures from the priors."""
     columns = [column for each in changing for column in each.columns]
     scales = np.array([each.scale for each in changing for _ in each.columns])
     shared = equations[0].at.copy()
-    shared[columns] -= state.departures[0]
+    shared[columns] -= departures[0]
     total = float(np.sum(shared[layout.shared] ** 2))
-    for each, set_up, departed in zip(equations, layout.set_up, state.departures, strict=True):
+    for each, set_up, departed in zip(equations, layout.set_up, departures, strict=True):
         total += each.squared_mm2 / each.effective_mm**2 + float(np.sum(each.at[set_up] ** 2))
         total += float(np.sum((departed / scales) ** 2))
     return 0.5 * total

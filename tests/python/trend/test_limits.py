@@ -68,7 +68,7 @@ def test_a_value_that_is_not_identifiable_is_not_judged_but_said() -> None:
     found, (note,) = exceeded([play([5.0, 15.0], is_known=False)], [watch()], "machine.toml")
     assert found == []
     assert "watch[0]: backlash:4: these readings determine its change alone (expected change = true)" in note
-    assert len(exceeded([play([5.0, 16.0], is_known=False)], [watch(change=True)], "")[0]) == 1
+    assert len(exceeded([play([5.0, 17.0], is_known=False)], [watch(change=True)], "")[0]) == 1
 
 
 @pytest.mark.parametrize(
