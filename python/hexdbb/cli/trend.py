@@ -85,7 +85,7 @@ def command(
     if as_json:
         say(json.dumps(found.to_json().to_json(), indent=2, allow_nan=False))
     else:
-        output_console().print(trend_text(found))
+        output_console().print(trend_text(found), soft_wrap=True)
     if not no_plot:
         print_pictures(_draw(found, stem), messages)
     end_output()
