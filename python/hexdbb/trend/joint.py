@@ -18,6 +18,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import linalg
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.errors import RunError
@@ -208,21 +209,26 @@ def solve(
         inside[np.arange(len(set_up)), np.arange(len(set_up))] += damping
         across = weight * each.information[np.ix_(own, shared)]
         down_own = weight * each.gradient[own] - prior * np.concatenate([each.at[set_up], departed])
-        inverse = np.linalg.inv(inside)
-        carried = inverse @ across
-        total += weight * each.information[np.ix_(shared, shared)] - across.T @ carried
-        downhill += weight * each.gradient[shared] - carried.T @ down_own
-        log_evidence += 0.5 * (down_own @ inverse @ down_own - np.linalg.slogdet(inside)[1] + np.log(prior).sum())
+        # By the triangular factor: the difference below loses what an inverse of this condition is wrong by.
+        factor = linalg.cholesky(inside, lower=True)
+        half = linalg.solve_triangular(factor, across, lower=True)
+        down = linalg.solve_triangular(factor, down_own, lower=True)
+        inverse = linalg.cho_solve((factor, True), np.eye(len(own)))
+        carried = linalg.solve_triangular(factor, half, lower=True, trans="T")
+        total += weight * each.information[np.ix_(shared, shared)] - half.T @ half
+        downhill += weight * each.gradient[shared] - half.T @ down
+        log_evidence += 0.5 * (down @ down + np.log(prior).sum()) - np.log(np.diag(factor)).sum()
         log_evidence -= 0.5 * float(departed**2 @ (1.0 / scales**2)) if len(columns) else 0.0
-        kept.append((inverse, carried, inverse @ down_own))
+        kept.append((inverse, carried, linalg.solve_triangular(factor, down, lower=True, trans="T")))
     # The prior of the shared values counts once; the present values differ from record to record by departures only.
     first_departed = np.zeros(len(columns)) if departures is None else departures[0]
     at = equations[0].at.copy()
     at[columns] -= first_departed
     downhill -= at[shared]
-    covariance: Floats = np.asarray(np.linalg.inv(total), np.float64)
+    factor = linalg.cholesky(total, lower=True)
+    covariance: Floats = linalg.cho_solve((factor, True), np.eye(len(shared)))
     moved = covariance @ downhill
-    log_evidence += 0.5 * (downhill @ moved - np.linalg.slogdet(total)[1])
+    log_evidence += 0.5 * float(downhill @ moved) - np.log(np.diag(factor)).sum()
     return Solution(
         layout,
         tuple(changing),
