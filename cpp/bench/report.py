@@ -66,7 +66,7 @@ def scipy_forward_ns() -> float:
     machine = shipped_machine()
     engine = engine_machine(machine)
     vertex = np.array([_core.guideway_vertex(engine, k // 2) for k in range(6)])
-    direction = np.array([_core.guideway_direction(k // 2) for k in range(6)])
+    direction = np.array([_core.guideway_direction(engine, k // 2) for k in range(6)])
     joint = np.array([_core.platform_joint(engine, k // 2) for k in range(6)])
     random = np.random.default_rng(20060701)
     position = random.uniform([-100, -100, 265], [100, 100, 295], (200, 3))

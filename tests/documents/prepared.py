@@ -6,6 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tests.documents.shown import blocks
+from tests.truth.months import Year
+
+from hexdbb.record import write_record
 
 Run = Callable[[str, Path], str]
 ROOT = Path(__file__).parents[2]
@@ -73,6 +76,13 @@ def _measuring(folder: Path, run: Run) -> None:
         (folder / name).write_bytes((ROOT / "firmware_interfaces" / source).read_bytes())
 
 
+def _logbook(folder: Path, run: Run) -> None:
+    """Write a year's records, and the limits that the page shows."""
+    for number, record in enumerate(Year(5).records(), start=1):
+        write_record(record, folder / f"2025-{number:02}.parquet")
+    (folder / "watch.toml").write_text(f"\n{_block('docs/logbook.md', 'toml')}", encoding="utf-8")
+
+
 def _simulated_rig(folder: Path, run: Run) -> None:
     """Write the truth file that the page shows."""
     (folder / "truth.toml").write_text(_block("docs/simulated-rig.md", "toml"), encoding="utf-8")
@@ -105,6 +115,7 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "docs/discovery.md": _discovery,
     "docs/import.md": _import,
     "docs/ledger.md": _today,
+    "docs/logbook.md": _logbook,
     "docs/planning.md": _planning,
     "docs/measuring.md": _measuring,
     "docs/report.md": _report,

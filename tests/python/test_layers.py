@@ -89,6 +89,20 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "discovery",
     },
+    # what changes over the records of years
+    "trend": {
+        "errors",
+        "files",
+        "threads",
+        "units",
+        "machine",
+        "record",
+        "model",
+        "samples",
+        "identifiability",
+        "diagnosis",
+        "comparison",
+    },
     # every error's part in the circular deviation
     "contributions": {
         "errors",
@@ -109,6 +123,7 @@ ALLOWED: dict[str, set[str]] = {
     "plots": {
         "errors",
         "files",
+        "units",
         "machine",
         "kinematics",
         "workspace",
@@ -120,6 +135,7 @@ ALLOWED: dict[str, set[str]] = {
         "predictors",
         "discovery",
         "comparison",
+        "trend",
         "charts",
     },
     # one file to hand over; nothing is computed in it
@@ -144,6 +160,8 @@ ALLOWED: dict[str, set[str]] = {
     # what a controller does about it
     "trajectory": {"errors", "machine", "plan", "kinematics"},
     "compensation": {"errors", "files", "machine", "record", "kinematics", "model", "trajectory", "_core"},
+    # a machine's files over the years
+    "logbook": {"errors", "files", "machine", "record", "model", "compensation", "trend"},
     # which circles determine most
     "planning": {
         "errors",
@@ -367,6 +385,7 @@ NAME_BLIND = (
     "ledger",
     "predictors",
     "comparison",
+    "trend",
     "contributions",
     "charts",
     "reporting",

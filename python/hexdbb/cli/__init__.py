@@ -27,6 +27,8 @@ COMMANDS = {
     "history": "list the changes of a model, step by step",
     "compensate": "write compensation data for motion controllers, or a corrected path",
     "plan": "check, propose and compare plans: reach, limits, identifiability",
+    "log": "keep the logbook of a machine: records, models, verdicts, compensation files",
+    "trend": "what changes over the records of a logbook; limits, change points, pictures",
     "workbench": "see and play with records and a model in a page of the browser",
     "thesis": "the method of the thesis: reference contours, linear estimator, tables",
     "convert": "make records of files of other programs; convert records between formats",

@@ -22,6 +22,7 @@ from hexdbb.capture.setup import Confirm
 from hexdbb.cli.consoles import drop, run_console
 from hexdbb.cli.exits import Program, reports_errors, unwritable
 from hexdbb.cli.run_conditions import conditions_asked, conditions_options, numbered
+from hexdbb.cli.run_logged import filing_in, log_option
 from hexdbb.cli.run_watched import refuse_without_page, watch_options, watched
 from hexdbb.errors import InputError, RunError
 from hexdbb.files.atomic_file import refuse_existing
@@ -48,6 +49,7 @@ Examples:
   hexdbb-run --plan standard --compensation sp120.hexcomp -o after.parquet
   hexdbb-run --plan thesis --fault drive-fault:3@20 -o fault.parquet
   hexdbb-run --plan my-plan.toml --bus socketcan:can0 --watch -o monday.parquet
+  hexdbb-run --plan my-plan.toml --bus socketcan:can0 --log glider -o monday.parquet
 
 \b
 Buses (any interface of python-can):
@@ -98,6 +100,7 @@ Buses (any interface of python-can):
     "--fault", "faults", multiple=True, metavar="SPEC", help="Simulated rig: fault to inject; see hexdbb rig --help."
 )
 @watch_options
+@log_option
 @click.option("--yes", is_flag=True, help="Do not ask whether the bar is mounted.")
 @click.option("--overwrite", is_flag=True, help="Replace an existing record.")
 def command(
@@ -118,6 +121,7 @@ def command(
     faults: tuple[str, ...],
     watch: bool,
     no_browser: bool,
+    log: Path | None,
     yes: bool,
     overwrite: bool,
 ) -> None:
@@ -135,6 +139,7 @@ def command(
     lockstep = simulated if lockstep is None else lockstep
     request, progress = _request(plan_name, record, rate_hz, overwrite), RunProgress()
     request = numbered(request, machine_serial, gauge_serial, gauge_calibrated)
+    filing = None if log is None else filing_in(log, request.machine)
     asked = conditions_asked(operator, notes, temperature_c)
     request.metadata.update(conditions_metadata(request.plan.conditions, asked))
     if compensation_path is not None:
@@ -168,6 +173,8 @@ def command(
     except OSError as error:  # the record is what the command is for, and it is safe
         drop(sys.stdout)
         console.print(f"note: stdout: {unwritable(error)}; {recorded.path} is whole", highlight=False, soft_wrap=True)
+    if filing is not None:
+        click.echo(filing(recorded))
 
 
 def main() -> None:

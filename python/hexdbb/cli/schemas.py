@@ -18,8 +18,10 @@ from hexdbb.discovery.json_form import DiscoveryJson
 from hexdbb.errors import InputError
 from hexdbb.files.results import JsonResult
 from hexdbb.ledger.json_form import AddedJson, HistoryJson, UndoneJson
+from hexdbb.logbook.json_form import LogJson
 from hexdbb.machine import shipped
 from hexdbb.reporting.json_form import ReportJson
+from hexdbb.trend.json_form import TrendJson
 
 DECLARED: dict[str, type[JsonResult]] = {
     "diagnose": DiagnosisJson,
@@ -30,6 +32,8 @@ DECLARED: dict[str, type[JsonResult]] = {
     "history": HistoryJson,
     "eds": EdsCheckJson,
     "report": ReportJson,
+    "log": LogJson,
+    "trend": TrendJson,
 }
 """Declared result of each command that has a schema."""
 COMMANDS = tuple(DECLARED)

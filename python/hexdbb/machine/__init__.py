@@ -7,6 +7,7 @@ from hexdbb.machine.home import home_heights_mm
 from hexdbb.machine.limits_of_use import Joints, Workspace
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 from hexdbb.machine.tolerance import Tolerance
+from hexdbb.machine.watch import Watch
 
 __all__ = [
     "SHIPPED_MACHINE",
@@ -19,6 +20,7 @@ __all__ = [
     "Platform",
     "Sliders",
     "Tolerance",
+    "Watch",
     "Workspace",
     "home_heights_mm",
     "load_machine",

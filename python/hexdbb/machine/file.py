@@ -23,6 +23,7 @@ from hexdbb.machine.home import home_heights_mm, home_legs
 from hexdbb.machine.limits_of_use import Joints, Workspace
 from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
 from hexdbb.machine.tolerance import Tolerance
+from hexdbb.machine.watch import Watch
 
 
 class MachineFile(FileModel):
@@ -54,6 +55,8 @@ class MachineFile(FileModel):
     """Where the platform is wanted, for `hexdbb machine check`; absent means one is chosen by the machine's size."""
     tolerance: Tolerance | None = None
     """Largest values of ISO 230-4 quantities that pass, for reports; absent means that nothing is judged."""
+    watch: Annotated[tuple[Watch, ...], Field(strict=False)] | None = None
+    """Limits of the trend over the machine's records, one table each; absent means that nothing is watched."""
     can: CanSetup | None = None
     """Drives and gauge on the bus; absent means the defaults below. Fits use none of it."""
 

@@ -12,6 +12,7 @@ from hexdbb.plots.learned import learned_figure
 from hexdbb.plots.pages import comparison_pages
 from hexdbb.plots.residual_circles import residual_figure
 from hexdbb.plots.saving import Page, save_figure, save_pages, save_pdf
+from hexdbb.plots.trend import trend_effects_figure, trend_figure
 
 __all__ = [
     "Page",
@@ -23,4 +24,6 @@ __all__ = [
     "save_figure",
     "save_pages",
     "save_pdf",
+    "trend_effects_figure",
+    "trend_figure",
 ]

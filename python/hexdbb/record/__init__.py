@@ -6,7 +6,7 @@ from hexdbb.record.formats import read_record, write_record
 from hexdbb.record.journal import Journal, journal_path
 from hexdbb.record.not_measured import NotMeasured
 from hexdbb.record.plausibility import Doubt, doubts
-from hexdbb.record.record import Record
+from hexdbb.record.record import Record, require_dimensions
 from hexdbb.record.recovery import recover
 
 __all__ = [
@@ -22,5 +22,6 @@ __all__ = [
     "journal_path",
     "read_record",
     "recover",
+    "require_dimensions",
     "write_record",
 ]

@@ -147,7 +147,7 @@ class Record:
     def content_hash(self) -> str:
         """Return the SHA-256 (hex) of required columns, gauge, mounts, circles and machine; equal in every format.
 
-        What only reports show (conditions, serial numbers, calibration, tolerance) is not in it: a note corrected later
+        What only reports show (conditions, serial numbers, calibration, limits) is not in it: a note corrected later
         leaves a record what it was.
         """
         return self.whole_hash if self.whole_hash is not None else self._own_hash
@@ -160,7 +160,7 @@ class Record:
             digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
         nameless = self.gauge.model_copy(update={"serial_number": None, "calibrated": None})
         digest.update(dump_toml(self.measurement("machine").model_copy(update={"gauge": nameless})).encode())
-        described: dict[str, Any] = {"serial_number": None, "tolerance": None}
+        described: dict[str, Any] = {"serial_number": None, "tolerance": None, "watch": None}
         digest.update(dump_toml(self.machine.model_copy(update=described)).encode())
         return digest.hexdigest()
 
@@ -179,14 +179,35 @@ class Record:
         InputError
             Naming the first dimension that differs, with both values.
         """
-        for section in DIMENSIONS:
-            own, other = getattr(self.machine, section).model_dump(), getattr(machine, section).model_dump()
-            for key, value in own.items():
-                if other[key] != value:
-                    raise InputError(
-                        f"{origin}: {section}.{key}: {format_value(other[key])}"
-                        f" (expected {format_value(value)}, as in {self.name}: they do not belong together)"
-                    )
+        require_dimensions(self.machine, self.name, machine, origin)
+
+
+def require_dimensions(machine: MachineFile, named: str, other: MachineFile, origin: str) -> None:
+    """Check that two machine files have the same dimensions.
+
+    Parameters
+    ----------
+    machine : MachineFile
+        What is expected.
+    named : str
+        The file that it was read from, for the error.
+    other : MachineFile
+    origin : str
+        The file that `other` was read from.
+
+    Raises
+    ------
+    InputError
+        Naming the first dimension that differs, with both values.
+    """
+    for section in DIMENSIONS:
+        own, found = getattr(machine, section).model_dump(), getattr(other, section).model_dump()
+        for key, value in own.items():
+            if found[key] != value:
+                raise InputError(
+                    f"{origin}: {section}.{key}: {format_value(found[key])}"
+                    f" (expected {format_value(value)}, as in {named}: they do not belong together)"
+                )
 
 
 def _first_time_and_temperature(columns: Columns) -> tuple[float, float]:

@@ -1,0 +1,466 @@
+"""Records fitted together: one machine, a set-up for each record, and chosen values that change from record to record.
+
+Model: y_r = f(x + v_r, z_r) + noise, record by record; x are the machine's values, shared by all; z_r the set-up of
+record r (cups, ball); v_r the departure of the changing values from the shared ones, zero elsewhere. All have normal
+priors: x and z_r with the catalogue's standard deviations, v_r with a part of them (`Changing.scale`).
+Method: Gauss-Newton on the normal equations of every record. A record's own unknowns w_r = (z_r, v_r) meet those of
+other records in x alone, so the system has the form of an arrow and is reduced to x by Schur complements:
+    S = P + sum (H_xx - H_xw A_w^-1 H_wx),  A_w = H_ww + P_w;   a year of daily records costs 365 small systems.
+Covariances are those of the whole system; that of x is carried into every w_r.
+Assumption: nearly linear (errors of 0.1 mm on legs of 400 mm), as in `hexdbb.diagnosis`; a few steps suffice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import linalg
+
+from hexdbb.diagnosis import noise_of
+from hexdbb.errors import RunError
+from hexdbb.model import Model, MountKey, new_term
+from hexdbb.samples import Samples, normal_equations, predict
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.intp]
+
+STEPS = 60
+"""Largest number of steps tried: ten to thirty are needed from the nominal machine, most of them along directions that
+only the curvature of the readings determines; a few from a fitted machine."""
+AT_REST = 0.02
+"""Fall of half chi-square below which steps end: one standard deviation of any value is a fall of 0.5."""
+LEAST_DAMPING, DAMPED_MORE = 1.0, 5.0
+"""Levenberg-Marquardt: the least information, in that of a prior, by which a step uphill shortens the next one, and
+the factor from one to the next. Steps lead uphill along the height of a cup that only level circles see: its square
+shortens the bar, and a tenth of its prior standard deviation is a step already."""
+
+
+@dataclass(frozen=True)
+class Changing:
+    """Values that change from record to record: one element of one effect.
+
+    Attributes
+    ----------
+    effect, element : str
+    columns : tuple of int
+        Their places among the model's values.
+    scale : float
+        Standard deviation of the departures, in the values' prior standard deviations.
+    """
+
+    effect: str
+    element: str
+    columns: tuple[int, ...]
+    scale: float = 1.0
+
+    @property
+    def label(self) -> str:
+        """Name as options and files have it: ``backlash:4``."""
+        return f"{self.effect}:{self.element}" if self.element else self.effect
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One record as the fit sees it.
+
+    Attributes
+    ----------
+    samples : Samples
+    noise_mm : float
+        Of one reading.
+    """
+
+    samples: Samples
+    noise_mm: float
+
+    @classmethod
+    def of(cls, samples: Samples) -> Part:
+        """Return a record with the noise of its own readings."""
+        return cls(samples, noise_of(samples).sigma_mm)
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """Normal equations of one record about the present values, in prior standard deviations.
+
+    Attributes
+    ----------
+    information : ndarray, shape (size, size)
+    gradient : ndarray, shape (size,)
+        J'r, r measured minus predicted.
+    at : ndarray, shape (size,)
+        Present values, from their starts, in prior standard deviations.
+    effective_mm : float
+        Noise with which readings count: what the model leaves, times the root of its autocorrelation time.
+    noise_mm : float
+        Of one reading.
+    squared_mm2, rms_mm : float
+        Sum of the squares of what the model leaves; its root mean square.
+    readings : int
+    """
+
+    information: Floats
+    gradient: Floats
+    at: Floats
+    effective_mm: float
+    noise_mm: float
+    squared_mm2: float
+    rms_mm: float
+    readings: int
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Which of a record's values are shared, and which are its own.
+
+    Attributes
+    ----------
+    shared : ndarray of int
+        Places of the machine's free values.
+    set_up : tuple of ndarray of int
+        Places of each record's free values of the set-up.
+    """
+
+    shared: Ints
+    set_up: tuple[Ints, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The arrow-shaped system solved about the present values.
+
+    Attributes
+    ----------
+    layout : Layout
+    changing : tuple of Changing
+    moved : ndarray, shape (shared,)
+        Step of the shared values, in prior standard deviations.
+    covariance : ndarray, shape (shared, shared)
+    own : tuple of ndarray
+        Every record's own unknowns: step of the set-up, then of the departures.
+    spread : tuple of ndarray
+        Their covariances with the shared values held.
+    carried : tuple of ndarray
+        How a record's own unknowns follow the shared ones: w = ... - carried x.
+    log_evidence : float
+        Of the readings, up to a constant that no choice of changing values alters.
+    """
+
+    layout: Layout
+    changing: tuple[Changing, ...]
+    moved: Floats
+    covariance: Floats
+    own: tuple[Floats, ...]
+    spread: tuple[Floats, ...]
+    carried: tuple[Floats, ...]
+    log_evidence: float
+
+    @cached_property
+    def departing(self) -> Ints:
+        """Places of the changing values."""
+        return np.array([column for each in self.changing for column in each.columns], dtype=np.intp)
+
+    def covariance_of(self, record: int) -> Floats:
+        """Return the covariance of a record's own unknowns, that of the shared values carried into it."""
+        return self.spread[record] + self.carried[record] @ self.covariance @ self.carried[record].T
+
+    def of_departures(self, record: int) -> slice:
+        """Return where the departures stand among a record's own unknowns."""
+        return slice(len(self.layout.set_up[record]), None)
+
+
+def solve(
+    equations: Sequence[Equations],
+    layout: Layout,
+    changing: Sequence[Changing],
+    departures: Sequence[Floats] | None = None,
+    damping: float = 0.0,
+) -> Solution:
+    """Solve the arrow-shaped system about the present values.
+
+    Parameters
+    ----------
+    equations : sequence of Equations
+        One of each record.
+    layout : Layout
+    changing : sequence of Changing
+    departures : sequence of ndarray, optional
+        Present departures of each record, in prior standard deviations, in the order of `changing`; zero where not
+        given.
+    damping : float
+        Information, in that of a prior, that the steps of the set-ups are small.
+    """
+    shared = layout.shared
+    columns = np.array([column for each in changing for column in each.columns], dtype=np.intp)
+    scales = np.array([each.scale for each in changing for _ in each.columns])
+    total = np.eye(len(shared))
+    downhill = np.zeros(len(shared))
+    kept, log_evidence = [], 0.0
+    for number, (each, set_up) in enumerate(zip(equations, layout.set_up, strict=True)):
+        weight = 1.0 / each.effective_mm**2
+        own = np.concatenate([set_up, columns])
+        departed = np.zeros(len(columns)) if departures is None else departures[number]
+        prior = np.concatenate([np.ones(len(set_up)), 1.0 / scales**2])
+        inside = weight * each.information[np.ix_(own, own)] + np.diag(prior)
+        inside[np.arange(len(set_up)), np.arange(len(set_up))] += damping
+        across = weight * each.information[np.ix_(own, shared)]
+        down_own = weight * each.gradient[own] - prior * np.concatenate([each.at[set_up], departed])
+        # By the triangular factor: the difference below loses what an inverse of this condition is wrong by.
+        factor = linalg.cholesky(inside, lower=True)
+        half = linalg.solve_triangular(factor, across, lower=True)
+        down = linalg.solve_triangular(factor, down_own, lower=True)
+        inverse = linalg.cho_solve((factor, True), np.eye(len(own)))
+        carried = linalg.solve_triangular(factor, half, lower=True, trans="T")
+        total += weight * each.information[np.ix_(shared, shared)] - half.T @ half
+        downhill += weight * each.gradient[shared] - half.T @ down
+        log_evidence += 0.5 * (down @ down + np.log(prior).sum()) - np.log(np.diag(factor)).sum()
+        log_evidence -= 0.5 * float(departed**2 @ (1.0 / scales**2)) if len(columns) else 0.0
+        kept.append((inverse, carried, linalg.solve_triangular(factor, down, lower=True, trans="T")))
+    # The prior of the shared values counts once; the present values differ from record to record by departures only.
+    first_departed = np.zeros(len(columns)) if departures is None else departures[0]
+    at = equations[0].at.copy()
+    at[columns] -= first_departed
+    downhill -= at[shared]
+    factor = linalg.cholesky(total, lower=True)
+    covariance: Floats = linalg.cho_solve((factor, True), np.eye(len(shared)))
+    moved = covariance @ downhill
+    log_evidence += 0.5 * float(downhill @ moved) - np.log(np.diag(factor)).sum()
+    return Solution(
+        layout,
+        tuple(changing),
+        moved,
+        covariance,
+        tuple(step - carried @ moved for _, carried, step in kept),
+        tuple(inverse for inverse, _, _ in kept),
+        tuple(carried for _, carried, _ in kept),
+        float(log_evidence),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class JointFit:
+    """Records fitted together.
+
+    Attributes
+    ----------
+    parts : tuple of Part
+    models : tuple of Model
+        Each record's: the shared values and its own.
+    departures : tuple of ndarray
+        Of the changing values from the shared ones, in prior standard deviations.
+    equations : tuple of Equations
+        About the values of `models`.
+    solution : Solution
+        About them too; its steps are those that were not taken any more.
+    damping : float
+        With which the last steps led downhill: the curvature along the set-ups' weak directions, which the equations
+        do not have.
+    """
+
+    parts: tuple[Part, ...]
+    models: tuple[Model, ...]
+    departures: tuple[Floats, ...]
+    equations: tuple[Equations, ...]
+    solution: Solution
+    damping: float = 0.0
+
+    @property
+    def cost(self) -> float:
+        """Half of chi-square of readings and priors, readings counting as in `equations`."""
+        return cost(self.equations, self.layout, self.changing, self.departures)
+
+    @property
+    def layout(self) -> Layout:
+        """Which values are shared."""
+        return self.solution.layout
+
+    @property
+    def changing(self) -> tuple[Changing, ...]:
+        """The values that change from record to record."""
+        return self.solution.changing
+
+
+def started(parts: Sequence[Part], model: Model) -> tuple[Model, ...]:
+    """Return the model that each record begins with: the machine of `model`, the record's own mounts where planned."""
+    return tuple(_of_mounts(model, part.samples.mounts) for part in parts)
+
+
+def fit_together(
+    parts: Sequence[Part],
+    models: Sequence[Model],
+    changing: Sequence[Changing] = (),
+    departures: Sequence[Floats] | None = None,
+) -> JointFit:
+    """Fit records together.
+
+    Parameters
+    ----------
+    parts : sequence of Part
+    models : sequence of Model
+        Where the fit starts (`started`, or those of an earlier fit).
+    changing : sequence of Changing
+    departures : sequence of ndarray, optional
+        Those of `models`; zero where not given.
+
+    Raises
+    ------
+    InputError
+        A record of another machine, or a sample that the machine cannot reach.
+    RunError
+        Steps did not come to rest.
+    """
+    layout = _layout(models)
+    columns = np.array([column for each in changing for column in each.columns], dtype=np.intp)
+    departed = [np.zeros(len(columns)) for _ in models] if departures is None else list(departures)
+    state = _State(tuple(models), tuple(departed))
+    equations = _of_all(parts, state.models)
+    damping = 0.0
+    for _ in range(STEPS):
+        solution = solve(equations, layout, changing, state.departures, damping)
+        further = state.moved(solution)
+        there = _of_all(parts, further.models, equations)
+        fall = cost(equations, layout, changing, state.departures) - cost(there, layout, changing, further.departures)
+        if fall < 0.0:
+            damping = max(DAMPED_MORE * damping, LEAST_DAMPING)
+        else:
+            damping = damping / DAMPED_MORE if damping > LEAST_DAMPING else 0.0
+            state, equations = further, _of_all(parts, further.models)
+        if abs(fall) < AT_REST:
+            solution = solve(equations, layout, changing, state.departures)
+            return JointFit(tuple(parts), state.models, state.departures, equations, solution, damping)
+    raise RunError(f"records fitted together: no rest after {STEPS} steps (expected a model nearer to the machine)")
+
+
+@dataclass(frozen=True, eq=False)
+class _State:
+    """Where a fit stands: every record's model, and its departures."""
+
+    models: tuple[Model, ...]
+    departures: tuple[Floats, ...]
+
+    def moved(self, solution: Solution) -> _State:
+        """Return the state one step further."""
+        models, departures = [], []
+        for number, (model, own) in enumerate(zip(self.models, solution.own, strict=True)):
+            set_up, change = solution.layout.set_up[number], own[solution.of_departures(number)]
+            step = np.zeros(len(model.values))
+            step[solution.layout.shared] = solution.moved
+            step[set_up] = own[: len(set_up)]
+            step[solution.departing] += change
+            models.append(model.with_values(model.values + step * model.prior_sigma))
+            departures.append(self.departures[number] + change)
+        return _State(tuple(models), tuple(departures))
+
+
+def cost(
+    equations: Sequence[Equations], layout: Layout, changing: Sequence[Changing], departures: Sequence[Floats]
+) -> float:
+    """Return half of chi-square of all readings and of all departures from the priors."""
+    columns = [column for each in changing for column in each.columns]
+    scales = np.array([each.scale for each in changing for _ in each.columns])
+    shared = equations[0].at.copy()
+    shared[columns] -= departures[0]
+    total = float(np.sum(shared[layout.shared] ** 2))
+    for each, set_up, departed in zip(equations, layout.set_up, departures, strict=True):
+        total += each.squared_mm2 / each.effective_mm**2 + float(np.sum(each.at[set_up] ** 2))
+        total += float(np.sum((departed / scales) ** 2))
+    return 0.5 * total
+
+
+def _of_all(
+    parts: Sequence[Part], models: Sequence[Model], weighed: Sequence[Equations] | None = None
+) -> tuple[Equations, ...]:
+    """Return the equations of all records; readings count as in others where given, else by what the models leave."""
+    found = [_equations(part, model) for part, model in zip(parts, models, strict=True)]
+    if weighed is None:
+        return _pooled(found)
+    return tuple(replace(each, effective_mm=by.effective_mm) for each, by in zip(found, weighed, strict=True))
+
+
+def _layout(models: Sequence[Model]) -> Layout:
+    parameters = models[0].parameters()
+    # Shape parameters of the user's effects are held: they are not fitted by these equations.
+    machine = np.array([not each.is_set_up and each.shape is None for each in parameters])
+    of_mounts = np.array([models[0].info(each.effect).element_kind == "mount" for each in parameters])
+    shared = np.flatnonzero((machine & ~of_mounts) & models[0].free)
+    own = []
+    for model in models:
+        names = model.parameters()
+        is_own = np.array([each.is_set_up or model.info(each.effect).element_kind == "mount" for each in names])
+        own.append(np.flatnonzero(is_own & model.free))
+    return Layout(shared, tuple(own))
+
+
+def _of_mounts(model: Model, mounts: tuple[MountKey, ...]) -> Model:
+    """Return the model with some mounts in place of its own; values of the set-up start where planned."""
+    known = replace(model, mounts=mounts)
+    is_mount = {term.effect: model.info(term.effect).element_kind == "mount" for term in model.terms}
+    # Effects of mounts stand last: places of all other values are then the same in every record.
+    ordered = sorted(model.terms, key=lambda term: is_mount[term.effect])
+    return replace(
+        known,
+        terms=tuple(
+            new_term(term.effect, known.info(term.effect).size, free=bool(term.free.any()))
+            if is_mount[term.effect]
+            else term
+            for term in ordered
+        ),
+    )
+
+
+def _equations(part: Part, model: Model) -> Equations:
+    found = normal_equations(part.samples, model)
+    if found.failure >= 0:
+        predict(part.samples, model)  # raises, naming the sample
+    prior = model.prior_sigma
+    residual_mm = predict(part.samples, model).residual_mm
+    rms_mm = float(np.sqrt(np.mean(residual_mm**2)))
+    correlation = autocorrelation_time(residual_mm, part.samples["sweep"])
+    return Equations(
+        found.information * np.outer(prior, prior),
+        found.gradient * prior,
+        (model.values - model.start) / prior,
+        max(part.noise_mm, rms_mm) * float(np.sqrt(correlation)),
+        part.noise_mm,
+        found.squared,
+        rms_mm,
+        len(residual_mm),
+    )
+
+
+def _pooled(equations: Sequence[Equations]) -> tuple[Equations, ...]:
+    """Return the equations with readings of all records counting alike, where a record's own noise is not larger.
+
+    Weights by each record's own residual would let the records that the model fits badly, the changed ones, count
+    least.
+    """
+    readings = sum(each.readings for each in equations)
+    pooled_mm = float(np.sqrt(sum(each.readings * each.effective_mm**2 for each in equations) / readings))
+    return tuple(replace(each, effective_mm=max(pooled_mm, each.noise_mm)) for each in equations)
+
+
+def autocorrelation_time(residual_mm: Floats, sweep: NDArray[np.integer]) -> float:
+    """Return the integrated autocorrelation time of a residual within sweeps (Geyer 1992), as the engine's fit has it.
+
+    Parameters
+    ----------
+    residual_mm : ndarray, shape (n,)
+    sweep : ndarray of int, shape (n,)
+    """
+    covariance = np.zeros(len(residual_mm))
+    for each in np.unique(sweep):
+        own = residual_mm[sweep == each]
+        size = 1 << (2 * len(own) - 1).bit_length()
+        spectrum = np.abs(np.fft.rfft(own, size)) ** 2
+        covariance[: len(own)] += np.fft.irfft(spectrum, size)[: len(own)]
+    if not covariance[0] > 0.0:
+        return 1.0
+    relative = covariance / covariance[0]
+    pairs = relative[1:-1:2] + relative[2::2][: len(relative[1:-1:2])]
+    ends = np.flatnonzero(pairs <= 0.0)
+    positive = pairs[: ends[0]] if len(ends) else pairs
+    return max(1.0 + 2.0 * float(positive.sum()), 1.0)
