@@ -1,0 +1,37 @@
+"""Configuration of Sphinx for the documentation site."""
+
+from __future__ import annotations
+
+from importlib.metadata import version as installed_version
+
+project = "hexdbb"
+version = release = installed_version("hexdbb")
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_click", "sphinx_copybutton"]
+root_doc = "index"
+nitpicky = False  # types in signatures are those of numpy and click, too, which are not described here
+
+myst_heading_anchors = 4  # as a forge makes them, so that links to headings hold on both
+myst_enable_extensions: list[str] = []
+
+default_role = "code"  # docstrings and comments mark code by single backticks
+highlight_language = "console"
+add_module_names = False
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_class_signature = "separated"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+maximum_signature_line_length = 90
+copybutton_prompt_text = "$ "
+copybutton_only_copy_prompt_lines = True
+
+html_theme = "furo"
+html_title = f"hexdbb {version}"
+html_copy_source = False
+html_show_sphinx = False
+html_show_copyright = False
+templates_path: list[str] = []
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
