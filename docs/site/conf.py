@@ -7,7 +7,7 @@ from importlib.metadata import version as installed_version
 project = "hexdbb"
 version = release = installed_version("hexdbb")
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_click", "sphinx_copybutton"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinx_click", "sphinx_copybutton"]
 root_doc = "index"
 nitpicky = False  # types in signatures are those of numpy and click, too, which are not described here
 
@@ -21,8 +21,7 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_class_signature = "separated"
-napoleon_google_docstring = False
-napoleon_use_rtype = False
+numpydoc_show_class_members = False  # autodoc lists them
 maximum_signature_line_length = 90
 copybutton_prompt_text = "$ "
 copybutton_only_copy_prompt_lines = True
