@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import importlib
+import textwrap
+from collections.abc import Iterator
+from itertools import groupby
 from pathlib import Path
 
 from hexdbb.cli import COMMANDS
 
+BAR = "| "
+"""Before lines of a help text that click does not fill, as sphinx-click hands them over."""
 RUN = "hexdbb-run"
 
 
@@ -27,10 +32,29 @@ def write_pages(folder: Path) -> None:
     (folder / "cli.rst").write_text(index, encoding="utf-8")
 
 
+def show_examples_as_code(app: object, context: object, lines: list[str]) -> None:
+    """Replace the lines that a help text has as they stand (examples, tables) by blocks of code, in place."""
+    lines[:] = [line for bar, part in groupby(lines, _is_bar) for line in (_block([*part]) if bar else part)]
+
+
+def _is_bar(line: str) -> bool:
+    return line.startswith(BAR)
+
+
+def _block(lines: list[str]) -> Iterator[str]:
+    bare = [line.removeprefix(BAR) for line in lines]
+    if bare[0].endswith(":"):
+        yield from (bare.pop(0), "")
+    if bare:
+        language = "console" if bare[0].split()[0].startswith("hexdbb") else "none"
+        yield from (f".. code-block:: {language}", "")
+        yield from textwrap.indent(textwrap.dedent("\n".join(bare)), "   ").splitlines()
+    yield ""
+
+
 def _file(title: str) -> str:
     return title.replace(" ", "-")
 
 
 def _page(title: str, module: str) -> str:
-    line = "=" * len(title)
-    return f"{title}\n{line}\n\n.. click:: hexdbb.cli.{module}:command\n   :prog: {title}\n   :nested: full\n"
+    return f".. click:: hexdbb.cli.{module}:command\n   :prog: {title}\n   :nested: full\n"
