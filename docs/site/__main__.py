@@ -31,7 +31,7 @@ def build(folder: Path) -> int:
     source.mkdir(parents=True)
     try:
         stage(ROOT, source)
-        draw_figures(source)
+        draw_figures(source / "docs")
         for each in (command_reference, python_reference):
             each.write_pages(source / "reference")
         header_reference.write_pages(ROOT, source / "reference")
