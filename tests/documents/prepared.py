@@ -73,6 +73,16 @@ def _measuring(folder: Path, run: Run) -> None:
         (folder / name).write_bytes((ROOT / "firmware_interfaces" / source).read_bytes())
 
 
+def _how_to_embed(folder: Path, run: Run) -> None:
+    run("hexdbb model new sp120 -o model.toml --effects leg_length", folder)
+
+
+def _how_to_judge(folder: Path, run: Run) -> None:
+    """Write a measurement in text form, as another program would."""
+    run("hexdbb-run --plan thesis --rate 10 --seed 11 -o measured.parquet", folder)
+    run("hexdbb convert measured.parquet my-readings.csv", folder)
+
+
 def _simulated_rig(folder: Path, run: Run) -> None:
     """Write the truth file that the page shows."""
     (folder / "truth.toml").write_text(_block("docs/simulated-rig.md", "toml"), encoding="utf-8")
@@ -91,6 +101,9 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "README.md": _readme,
     "docs/compensation.md": _compensation,
     "docs/discovery.md": _discovery,
+    "docs/how-to-embed.md": _how_to_embed,
+    "docs/how-to-judge.md": _how_to_judge,
+    "docs/how-to-measure.md": _measuring,
     "docs/ledger.md": _today,
     "docs/planning.md": _planning,
     "docs/measuring.md": _measuring,
