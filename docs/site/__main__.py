@@ -12,12 +12,11 @@ import shutil
 import sys
 from pathlib import Path
 
-from sphinx.cmd.build import build_main
-
 from docs.site import command_reference, header_reference, python_reference
 from docs.site.figures import draw_figures
 from docs.site.links import broken_links
-from docs.site.staging import stage
+from docs.site.staging import copy, stage
+from sphinx.cmd.build import build_main
 
 ROOT = Path(__file__).parents[2]
 HERE = Path(__file__).parent
@@ -26,12 +25,13 @@ HERE = Path(__file__).parent
 def build(folder: Path) -> int:
     """Build the site in a folder; return 0, or 1 where something is wrong, which is printed."""
     source, html = folder / "source", folder / "html"
-    for old in (source, html):
+    for old in (source, html, folder / "drawn"):
         shutil.rmtree(old, ignore_errors=True)
     source.mkdir(parents=True)
     try:
         stage(ROOT, source)
-        draw_figures(source / "docs")
+        for picture in draw_figures(folder / "drawn" / "docs"):
+            copy(picture, folder / "drawn", source)
         for each in (command_reference, python_reference):
             each.write_pages(source / "reference")
         header_reference.write_pages(ROOT, source / "reference")
@@ -42,8 +42,8 @@ def build(folder: Path) -> int:
     if build_main([*options, str(source), str(html)]) != 0:
         return 1
     broken = broken_links(html)
-    for each in broken:
-        print(f"error: link leads nowhere: {each}", file=sys.stderr)
+    for link in broken:
+        print(f"error: link leads nowhere: {link}", file=sys.stderr)
     if not broken:
         print(f"{html / 'index.html'}: {len(list(html.rglob('*.html')))} pages")
     return 1 if broken else 0

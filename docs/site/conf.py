@@ -10,7 +10,7 @@ from sphinx.application import Sphinx
 
 sys.path.insert(0, str(Path(__file__).parents[2]))  # processes that Sphinx starts import this file by its path
 
-from docs.site.command_reference import show_examples_as_code  # noqa: E402
+from docs.site.command_reference import show_examples_as_code
 
 project = "hexdbb"
 version = release = installed_version("hexdbb")

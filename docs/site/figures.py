@@ -9,12 +9,18 @@ import sys
 from pathlib import Path
 
 from docs.site.first_look import draw_first_look
+
 from hexdbb.effects.signature import write_handbook
 
 
 def draw_figures(docs: Path) -> list[Path]:
-    """Draw the figures into the folders of pages, in place of those that are there; return their paths."""
-    return [*draw_first_look(docs / "images"), *write_handbook(docs / "effects")]
+    """Draw the figures, and write the handbook that they belong to, into a folder of pages; return the pictures' paths.
+
+    What stands there is replaced.
+    """
+    (docs / "images").mkdir(parents=True, exist_ok=True)
+    written = [*draw_first_look(docs / "images"), *write_handbook(docs / "effects")]
+    return [path for path in written if path.suffix == ".png"]
 
 
 if __name__ == "__main__":

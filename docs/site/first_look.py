@@ -100,7 +100,9 @@ def circles_figure() -> Figure:
         for direction, readings_um in _readings_um(angle_rad, effect, index).items():
             style = "-" if direction > 0 else "--"
             closed = np.append(readings_um, readings_um[0])
-            dial.line(direction * np.append(angle_rad, 0.0), closed, color=PREDICTED_COLOURS[direction], linestyle=style)
+            dial.line(
+                direction * np.append(angle_rad, 0.0), closed, color=PREDICTED_COLOURS[direction], linestyle=style
+            )
         axes.set_title(title, pad=10.0)
     words = "full line: counter-clockwise; broken: clockwise; grey: the circle as commanded"
     magnification = 1000.0 * load_plan(PLAN).circles[0].radius_mm / -INNER_UM
@@ -148,7 +150,7 @@ def _draw_machine(axes: Axes, machine: MachineFile, position_mm: Floats) -> dict
 
 def _label(axes: Axes, text: str, at: Floats, offset_pt: tuple[float, float]) -> None:
     arrow: dict[str, Any] = {"arrowstyle": "-", "color": QUIET_COLOUR, "linewidth": 0.7, "shrinkB": 2.0}
-    axes.annotate(text, _seen(at), offset_pt, textcoords="offset points", arrowprops=arrow, zorder=9, fontsize=9.0)
+    axes.annotate(text, tuple(_seen(at)), offset_pt, textcoords="offset points", arrowprops=arrow, zorder=9, fontsize=9.0)
 
 
 def _line(axes: Axes, points: Floats, **style: Any) -> None:

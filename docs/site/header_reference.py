@@ -63,7 +63,7 @@ def _paragraph(text: str) -> str:
 def _described(each: Declared, domain: str) -> Iterator[str]:
     directive = DIRECTIVES[domain].get(each.kind, each.kind)
     code = f".. code-block:: {domain}\n\n{textwrap.indent(each.text, '   ')}"
-    if not each.signature[0] or domain == "c" and each.kind == "alias":
+    if not each.signature[0] or (domain == "c" and each.kind == "alias"):
         yield from filter(None, (prose(each.comment), code))
         return
     lines = [f".. {domain}:{directive}:: " + "\n   ".join(each.signature)]

@@ -128,7 +128,7 @@ def _declaration(node: Node, scope: str, before: list[Node]) -> Declared | None:
     comment = plain("\n".join(_source(each) for each in before)) if near else ""
     text = _dedented(node)
     kind, signature, members = "", "", []
-    if node.type in TYPES or node.type == "type_definition" and node.child_by_field_name("type") is not None:
+    if node.type in TYPES or (node.type == "type_definition" and node.child_by_field_name("type") is not None):
         specifier = node if node.type in TYPES else node.child_by_field_name("type")
         assert specifier is not None
         body = specifier.child_by_field_name("body")
@@ -176,7 +176,7 @@ def _function_or_variable(node: Node) -> tuple[str, str]:
 def _leading_comments(root: Node) -> tuple[str, int]:
     taken: list[Node] = []
     for node in root.children:
-        if node.type != "comment" or taken and taken[-1].end_point.row + 1 != node.start_point.row:
+        if node.type != "comment" or (taken and taken[-1].end_point.row + 1 != node.start_point.row):
             break
         taken.append(node)
     return plain("\n".join(_source(each) for each in taken)), len(taken)

@@ -22,7 +22,7 @@ def groups() -> dict[str, list[str]]:
     """
     assert hexdbb.__doc__ is not None
     table = re.split(r"^=+  =+$", hexdbb.__doc__, flags=re.MULTILINE)[1]
-    offered = [name for name in hexdbb.__all__ if not name.startswith("_")]
+    offered = [name for name in dir(hexdbb) if not name.startswith("_")]
     found = {title: _names(text, offered) for title, text in GROUP.findall(table)}
     missing = sorted(set(offered) - {name for names in found.values() for name in names})
     if missing:

@@ -53,7 +53,7 @@ def start_page(listed: list[Section]) -> str:
     trees = [toctree(section.pages, section.title) for section in listed]
     trees.append(toctree(("reference/cli", "reference/python", "reference/cpp", "reference/c"), "Interfaces"))
     trees.append(toctree((INDEX, *PROJECT_PAGES), "The project"))
-    return "```{include} README.md\n:end-before: \"## Try it\"\n```\n\n" + "\n".join(trees)
+    return '```{include} README.md\n:end-before: "## Try it"\n```\n\n' + "\n".join(trees)
 
 
 def toctree(pages: tuple[str, ...], caption: str = "") -> str:
