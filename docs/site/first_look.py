@@ -150,7 +150,8 @@ def _draw_machine(axes: Axes, machine: MachineFile, position_mm: Floats) -> dict
 
 def _label(axes: Axes, text: str, at: Floats, offset_pt: tuple[float, float]) -> None:
     arrow: dict[str, Any] = {"arrowstyle": "-", "color": QUIET_COLOUR, "linewidth": 0.7, "shrinkB": 2.0}
-    axes.annotate(text, tuple(_seen(at)), offset_pt, textcoords="offset points", arrowprops=arrow, zorder=9, fontsize=9.0)
+    style: Any = {"textcoords": "offset points", "arrowprops": arrow, "zorder": 9, "fontsize": 9.0}
+    axes.annotate(text, tuple(_seen(at)), offset_pt, **style)
 
 
 def _line(axes: Axes, points: Floats, **style: Any) -> None:
