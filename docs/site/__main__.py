@@ -12,7 +12,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from docs.site import command_reference, header_reference, python_reference
+from docs.site import command_reference, header_reference, python_reference, results_reference
 from docs.site.figures import draw_figures
 from docs.site.links import broken_links
 from docs.site.staging import copy, stage
@@ -34,6 +34,7 @@ def build(folder: Path) -> int:
             copy(picture, folder / "drawn", source)
         for each in (command_reference, python_reference):
             each.write_pages(source / "reference")
+        results_reference.write_page(source / "reference")
         header_reference.write_pages(ROOT, source / "reference")
     except ValueError as error:
         print(f"error: {error}", file=sys.stderr)

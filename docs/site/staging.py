@@ -14,6 +14,8 @@ from docs.site.sections import INDEX, Section, pages_in_no_section, sections
 
 FOLDERS = ("docs", "firmware_interfaces")
 PROJECT_PAGES = ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")
+INTERFACES = ("cli", "results", "python", "cpp", "c")
+"""Pages that the build writes, and that no forge has."""
 IMAGES = (".png", ".svg")
 FENCED = re.compile(r"^```.*?^```$", flags=re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^)#\s]+)(#[^)]*)?\)")
@@ -51,7 +53,7 @@ def copy(path: Path, root: Path, into: Path) -> None:
 def start_page(listed: list[Section]) -> str:
     """Return the first page: what README says before its first section, and the navigation."""
     trees = [toctree(section.pages, section.title) for section in listed]
-    trees.append(toctree(("reference/cli", "reference/python", "reference/cpp", "reference/c"), "Interfaces"))
+    trees.append(toctree(tuple(f"reference/{each}" for each in INTERFACES), "Interfaces"))
     trees.append(toctree((INDEX, *PROJECT_PAGES), "The project"))
     return '```{include} README.md\n:end-before: "## Try it"\n```\n\n' + "\n".join(trees)
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 from pathlib import Path
 
 import pytest
-from docs.site import command_reference, header_reference, python_reference
+from docs.site import command_reference, header_reference, python_reference, results_reference
 from docs.site.headers import plain, read_header
 from docs.site.links import broken_links
 from docs.site.sections import pages_in_no_section, sections
@@ -146,6 +147,15 @@ def test_every_command_and_every_public_name_has_a_place(tmp_path: Path) -> None
     assert {path.stem for path in (tmp_path / "cli").iterdir()} == {f"hexdbb-{each}" for each in (*COMMANDS, "run")}
     named = {name for names in python_reference.groups().values() for name in names}
     assert named == {name for name in hexdbb.__all__ if not name.startswith("_")}
+
+
+def test_results_page_has_every_key_of_every_schema(tmp_path: Path) -> None:
+    results_reference.write_page(tmp_path)
+    page = (tmp_path / "results.md").read_text(encoding="utf-8")
+    schemas = [json.loads(path.read_text(encoding="utf-8")) for path in results_reference.SCHEMAS.glob("*.json")]
+    assert {each["$id"] for each in schemas} == set(re.findall(r"^`(hexdbb\.\w+/\d+)`: ", page, flags=re.MULTILINE))
+    assert [key for each in schemas for key in each["properties"] if f"| `{key}` | " not in page] == []
+    assert "| any |" not in page
 
 
 def test_examples_of_a_command_become_code() -> None:
