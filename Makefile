@@ -13,7 +13,7 @@ PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
 CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
 CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
 CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) firmware_interfaces/linuxcnc -name '*.[ch]pp' -o -name '*.[ch]')
-PYTHON_SOURCES := python tests .ci/scripts firmware_interfaces cpp/bench
+PYTHON_SOURCES := python tests .ci/scripts firmware_interfaces cpp/bench docs/site
 
 MAKEFLAGS += --no-print-directory
 .DELETE_ON_ERROR:
@@ -92,6 +92,11 @@ sanitize: | system  ## C++ tests under AddressSanitizer and UndefinedBehaviorSan
 demo: setup  ## circular tests on the simulated rig: diagnosed, compared, a hidden fault found and added
 	@rm -rf demo
 	@$(BIN)/hexdbb demo demo --all --rate 20
+
+.PHONY: docs
+docs: setup  ## the documentation site, build/site/html/index.html; a warning or a dead link is an error
+	@$(STEP) "Documentation site" $(BIN)/python -m docs.site build/site
+	@echo "build/site/html/index.html"
 
 .PHONY: bench
 bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks.md, docs/real-time.md

@@ -83,6 +83,16 @@ def _logbook(folder: Path, run: Run) -> None:
     (folder / "watch.toml").write_text(f"\n{_block('docs/logbook.md', 'toml')}", encoding="utf-8")
 
 
+def _how_to_embed(folder: Path, run: Run) -> None:
+    run("hexdbb model new sp120 -o model.toml --effects leg_length", folder)
+
+
+def _how_to_judge(folder: Path, run: Run) -> None:
+    """Write a measurement in text form, as another program would."""
+    run("hexdbb-run --plan thesis --rate 10 --seed 11 -o measured.parquet", folder)
+    run("hexdbb convert measured.parquet my-readings.csv", folder)
+
+
 def _simulated_rig(folder: Path, run: Run) -> None:
     """Write the truth file that the page shows."""
     (folder / "truth.toml").write_text(_block("docs/simulated-rig.md", "toml"), encoding="utf-8")
@@ -114,6 +124,9 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "docs/compensation.md": _compensation,
     "docs/discovery.md": _discovery,
     "docs/import.md": _import,
+    "docs/how-to-embed.md": _how_to_embed,
+    "docs/how-to-judge.md": _how_to_judge,
+    "docs/how-to-measure.md": _measuring,
     "docs/ledger.md": _today,
     "docs/logbook.md": _logbook,
     "docs/planning.md": _planning,

@@ -78,7 +78,7 @@ def _summary(results: Sequence[TableResult]) -> str:
 
 
 def _tables(results: Iterable[TableResult]) -> str:
-    return "\n".join(f"### Table {each.table.number}\n\n{_given_and_identified(each)}" for each in results)
+    return "\n".join(f"## Table {each.table.number}\n\n{_given_and_identified(each)}" for each in results)
 
 
 def _given_and_identified(result: TableResult) -> str:
