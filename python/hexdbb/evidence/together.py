@@ -83,8 +83,8 @@ class KnownSets:
         most : int
             Effects in a set.
         per_effects : int
-            Elements of one effect in a set, and sets of the same effects at different elements: all six screws that
-            warm, each in its own way, imitate whatever changes with time.
+            Elements of one effect in a pair, and sets of the same effects at different elements. Larger sets have one
+            element of each effect: screws that warm, each in its own way, imitate whatever changes with time.
         """
         chosen: list[Together] = []
         sets = self._scored([(each,) for each in self.every])
@@ -92,7 +92,8 @@ class KnownSets:
         best = max((each.log_evidence for each in sets), default=0.0)
         for size in range(2, most + 1):
             followed = sets if size == 2 else sets[: self.criteria.known_sets_followed]
-            sets = self._scored(_widened((each.members for each in followed), self.every, per_effects))
+            of_one_effect = per_effects if size == 2 else 1
+            sets = self._scored(_widened((each.members for each in followed), self.every, of_one_effect))
             worth = [each for each in sets if each.log_evidence > best + choice]
             chosen += _of_different_effects(worth, self.criteria.known_sets, per_effects)
             best = max([best, *(each.log_evidence for each in worth)])
@@ -135,8 +136,8 @@ def _widened(
     for each in sets:
         there = {one.known for one in each}
         for other in every:
-            alike = sum(known.effect == other.known.effect for known in there)
-            if other.known not in there and alike < of_one_effect:
+            wider = [one.effect for one in (*there, other.known)]
+            if other.known not in there and max(map(wider.count, wider)) <= of_one_effect:
                 found.setdefault(frozenset((*each, other)), (*each, other))
     return list(found.values())
 
