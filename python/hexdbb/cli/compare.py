@@ -14,7 +14,7 @@ from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
 from hexdbb.cli.read_samples import read_samples
-from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument
+from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument, stem_of
 from hexdbb.comparison import Comparison, compare, compare_commanded
 from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
@@ -79,7 +79,7 @@ def command(
       hexdbb compare monday.parquet tuesday.csv -m model.toml --plot week --pages all
       hexdbb compare demo.parquet -m model.toml --json --no-plot > comparison.json
     """
-    stem = prefix or records[0].with_name(f"{records[0].stem}-compare")
+    stem = stem_of(prefix, records[0].with_name(f"{records[0].stem}-compare"))
     if prefix and no_plot:
         raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")
     if pages and no_plot:

@@ -38,6 +38,13 @@ def print_pictures(written: Sequence[Path], messages: Console) -> None:
     messages.print(f"pictures: {names}", markup=False, highlight=False, soft_wrap=True)
 
 
+def stem_of(prefix: Path | None, default: Path) -> Path:
+    """Return what the names of pictures begin with: a prefix, or the default name, in the prefix if it is a folder."""
+    if prefix is None:
+        return default
+    return prefix / default.name if prefix.is_dir() else prefix
+
+
 def model_option(help_text: str, required: bool = True) -> Decorator:
     """Return the option -m MODEL with a help text."""
     return click.option(

@@ -11,6 +11,7 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from hexdbb.cli.consoles import message_console, output_console, say
+from hexdbb.cli.shared_options import stem_of
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.importing import read_measured
@@ -57,6 +58,7 @@ def contours(
       hexdbb thesis contours -o contours
       hexdbb thesis contours --plan standard --circle 1 -o tilted --errors leg1,y1,xy1
     """
+    stem = stem_of(stem, Path("contours"))
     table = stem.with_name(f"{stem.name}.csv")
     suffixes = (".csv",) if no_plot else (".csv", ".png", ".svg")
     for suffix in suffixes:

@@ -11,7 +11,7 @@ import click
 from hexdbb.cli.consoles import end_output, message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option, own_effects
 from hexdbb.cli.existing_model import existing_model
-from hexdbb.cli.shared_options import json_option, print_pictures
+from hexdbb.cli.shared_options import json_option, print_pictures, stem_of
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.logbook import Logbook
@@ -70,7 +70,7 @@ def command(
     if prefix is not None and no_plot:
         raise InputError(f"--plot {prefix} together with --no-plot: expected one of them")
     logbook = Logbook(folder)
-    stem = prefix or folder / "trend"
+    stem = stem_of(prefix, folder / "trend")
     for suffix in () if no_plot else (".png", "-effects.png"):
         refuse_existing(stem.with_name(stem.name + suffix), overwrite=True)
     first = None if since is None else parsed_time(since, "--since")

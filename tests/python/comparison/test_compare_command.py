@@ -124,6 +124,12 @@ def test_pictures_go_beside_the_first_record(folder: Path) -> None:
     assert [path.name for path in folder.glob("one-compare*")] == ["one-compare.png"]
 
 
+def test_a_folder_takes_pictures_of_the_records_name(folder: Path, tmp_path: Path) -> None:
+    done = run_compare(folder / "one.parquet", "-m", folder / "diagnosed.toml", "--no-cause", "--plot", tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["one-compare.png"]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
