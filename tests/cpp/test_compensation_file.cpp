@@ -70,9 +70,9 @@ TEST(CompensationFile, NoiseIsReadOrRefusedInOneLine) {
 
 TEST(CompensationFile, ALaterVersionIsNamed) {
   std::string message;
-  const std::string text = replaced(compensation_text(everything()), "compensation/1", "compensation/3");
+  const std::string text = replaced(compensation_text(everything()), "compensation/1", "compensation/4");
   EXPECT_EQ(fault_of(resealed(text), &message), CompensationFault::kLaterVersion);
-  EXPECT_EQ(message, "a.hexcomp: of a later version: hexdbb.compensation/3 (expected at most 2)");
+  EXPECT_EQ(message, "a.hexcomp: of a later version: hexdbb.compensation/4 (expected at most 3)");
 }
 
 TEST(CompensationFile, OfAnotherMachineIsNamed) {
