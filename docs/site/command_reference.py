@@ -24,7 +24,7 @@ def write_pages(folder: Path) -> None:
     run = importlib.import_module("hexdbb.cli.run").command
     described = {RUN: run.get_short_help_str(200), **{f"hexdbb {name}": text for name, text in COMMANDS.items()}}
     for title in described:
-        module = "run" if title == RUN else title.removeprefix("hexdbb ")
+        module = "run" if title == RUN else title.removeprefix("hexdbb ").replace("-", "_")
         (folder / "cli" / f"{_file(title)}.rst").write_text(_page(title, module), encoding="utf-8")
     rows = "".join(f"   * - :doc:`{title} <cli/{_file(title)}>`\n     - {text}\n" for title, text in described.items())
     entries = "".join(f"   cli/{_file(title)}\n" for title in described)

@@ -147,7 +147,8 @@ def read_compensation(path: Path, machine: MachineFile | None = None) -> _core.C
         if machine is not None:
             _core.require_machine(data.machine, engine_machine(machine), str(path))
     except _core.CompensationError as error:
-        raise InputError(str(error)) from None
-    except UnicodeDecodeError:  # of a message that quotes the file
+        # A message that quotes what is not UTF-8 is lost on some versions of Python, and an error of its own on others.
+        raise InputError(str(error) or f"{path}: not UTF-8 (expected a compensation file)") from None
+    except UnicodeDecodeError:
         raise InputError(f"{path}: not UTF-8 (expected a compensation file)") from None
     return data

@@ -110,8 +110,7 @@ class Criteria:
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
     leaves_structure : float
-        Mean square (noise variances) left from which a hypothesis' remainder bends geometry, and from which several
-        known effects together do not end the search.
+        Mean square (noise variances) left from which a hypothesis' remainder bends geometry.
     form_explains : float
         Part of the unexplained from which an effect that does not predict circles left out may still be the cause with
         another form: a form 20 % off, the largest that the calibration has, leaves 4 % of it, twice that where no
@@ -137,9 +136,8 @@ class Criteria:
         larger than forms may be off, must explain more than its square where others stand in for most of it.
     of_size : float
         Part of what three and more known effects explain that the squares of what they push beyond geometry must sum
-        to, and one over it the most, of two as well. True triples have 0.34 to 2.6, true pairs up to 3.4; three drifts
-        that stood in for a ball off its axis had 0.06, joints off their places that stood in for a guideway that warms
-        4 to 7.
+        to, and one over it the most: of true triples it is 0.34 to 2.6; three drifts that stood in for a ball off its
+        axis had 0.06, joints off their places that stood in for a guideway that warms 6.
     """
 
     max_rows: int = 12000

@@ -59,12 +59,10 @@ def _are_of_size(search: Search, node: Node) -> bool:
     Slow drifts that geometry stands in for can be made to cancel but for a step that none of them has.
     """
     sizes = _sizes(search, node)
-    if len(sizes) < max(len(node.members), 2):
+    if len(sizes) < max(len(node.members), SLOW_DRIFTS):
         return True
     explained = search.root.trial.left - node.trial.left + search.trials.explained_before
-    part = sum(sizes.values()) / max(explained, 1e-9)
-    is_seen = len(sizes) < SLOW_DRIFTS or part >= search.criteria.of_size
-    return is_seen and part <= 1.0 / search.criteria.of_size
+    return search.criteria.of_size <= sum(sizes.values()) / max(explained, 1e-9) <= 1.0 / search.criteria.of_size
 
 
 def _sizes(search: Search, node: Node) -> dict[Known, float]:

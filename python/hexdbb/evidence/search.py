@@ -135,9 +135,8 @@ class Search:
             if size == 0 and best.trial.left > self.criteria.refined_to:
                 together = self._or_known_together(best)
                 beam = [together, *beam] if len(together.members) > 1 else beam
-                # Several that leave something may stand in for what nobody knows: what is learned may be better.
-                leaves = together.trial.left > self.criteria.leaves_structure
-                best = together if self._is_complete(together) and not leaves else best
+                # Several that leave something stand in for what nobody knows: what is learned may still be better.
+                best = together if self._is_complete(together) else best
             if not beam:
                 break
             if self._is_complete(best):

@@ -31,7 +31,7 @@ def changed(rows: list[str], place: int, row: str) -> list[str]:
         ),
         ("german.csv", {"plan": "standard", "circle": 7}, "german.csv: circle: 7 (expected the id of a circle"),
         ("german.csv", {"plan": "standard", "circle": 0}, "the feed is not stated; standard has 753.98, 3000 mm/min"),
-        ("german.csv", {"encoding": "utf-8"}, "german.csv: byte 19 is not utf-8 (expected text"),
+        ("german.csv", {"encoding": "utf-8"}, "german.csv: byte 18 is not utf-8 (expected text"),
         ("german.csv", {"encoding": "latin-99"}, 'german.csv: encoding: "latin-99" (expected one that Python has'),
         ("german.csv", {"columns": {"angle": "Ort"}}, 'column angle: "Ort" is not there (expected one of "Winkel [°]"'),
         ("german.csv", {"columns": {"angle": 9}}, "column angle: 9 (expected at most 3, the number of columns)"),
