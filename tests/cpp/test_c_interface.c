@@ -71,7 +71,7 @@ static const hexdbb_value kValues[] = {
 
 static hexdbb_constants constants(void) {
   const hexdbb_dimensions machine = HEXDBB_DIMENSIONS_INIT;
-  const hexdbb_constants out = {sizeof(hexdbb_constants), 6, machine, 1.0, 0.01, NAN, kValues, 0, 0, NULL};
+  const hexdbb_constants out = {sizeof(hexdbb_constants), 6, machine, 1.0, 0.01, NAN, kValues, 0, 0, NULL, NULL};
   return out;
 }
 
