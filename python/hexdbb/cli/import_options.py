@@ -18,7 +18,7 @@ from hexdbb.importing import Mapping, load_mapping, mapping_of
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 KEY = "hexdbb.importing"
-"""Of the context's dictionary."""
+"""Key of the options in click's `Context.meta`."""
 DIRECTIONS = {"ccw": 1, "cw": -1}
 Option = tuple[str, str, dict[str, Any]]
 """Key of the mapping, option, and what click is told of it."""

@@ -11,7 +11,7 @@ import click
 from hexdbb.cli.consoles import end_output, message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option, own_effects
 from hexdbb.cli.existing_model import existing_model
-from hexdbb.cli.shared_options import json_option, print_pictures, stem_of
+from hexdbb.cli.shared_options import json_option, model_option, print_pictures, stem_of
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
 from hexdbb.logbook import Logbook
@@ -22,13 +22,8 @@ from hexdbb.trend.text import trend_text
 
 @click.command("trend")
 @click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    metavar="MODEL",
-    type=click.Path(path_type=Path),
-    help="Model whose free effects are fitted; default: the newest of the logbook, else the thesis' geometric errors.",
+@model_option(
+    "Model whose free effects are fitted; default: the newest of the logbook, else the thesis' geometric errors.", False
 )
 @effects_option
 @click.option("--since", help="Leave out records measured before this date.")

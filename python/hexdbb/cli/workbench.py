@@ -10,7 +10,7 @@ import click
 from hexdbb.cli.consoles import say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.import_options import wanted_mapping
-from hexdbb.cli.shared_options import records_argument
+from hexdbb.cli.shared_options import model_option, records_argument
 from hexdbb.errors import InputError
 from hexdbb.pages import MISSING
 from hexdbb.workbench import Session
@@ -19,13 +19,8 @@ from hexdbb.workbench.own_code import COMPUTING_S
 
 @click.command("workbench")
 @records_argument
-@click.option(
-    "-m",
-    "--model",
-    "model_path",
-    metavar="MODEL",
-    type=click.Path(path_type=Path),
-    help="Model file; made by the first step where it is not there. Without it the model is in memory until saved.",
+@model_option(
+    "Model file; made by the first step where it is not there. Without it the model is in memory until saved.", False
 )
 @effects_option
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port on 127.0.0.1; a free one where 0.")

@@ -41,8 +41,8 @@ class Workspace(StrictModel):
     centre_mm: Vector3
     """Middle of the cylinder (x, y, z), base frame."""
     radius_mm: Positive
-    """Of the cylinder."""
+    """Radius of the cylinder."""
     height_mm: NotNegativeLength = 0.0
-    """Of the cylinder; 0 is a disc."""
+    """Height of the cylinder; 0 is a disc."""
     tilt_deg: Tilt = 0.0
     """Largest tilt from level, to all sides, everywhere in it."""

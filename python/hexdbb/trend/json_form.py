@@ -42,11 +42,11 @@ class ExceededJson(JsonPart):
     what: str
     """Quantity, or effect and element."""
     parameter: str
-    """Of the effect; empty for a quantity."""
+    """Parameter of the effect; empty for a quantity."""
     limit: float
     """In `unit`."""
     unit: str
-    """Of the limit."""
+    """Unit of the limit."""
     since: str
     """Time of the record from which on it is beyond the limit."""
     until: str
@@ -76,9 +76,9 @@ class SeriesJson(JsonPart):
     what: str
     """Quantity, or effect and element."""
     parameter: str
-    """Of the effect; empty for a quantity."""
+    """Parameter of the effect; empty for a quantity."""
     unit: str
-    """Of all its numbers."""
+    """Unit of all numbers of this value."""
     changing: bool
     """Whether the readings ask for it to change between records."""
     identifiable: bool

@@ -22,7 +22,7 @@ def trend_text(found: Trend) -> Group:
 
 
 def exceeded_sentence(found: Trend, each: Exceeded) -> str:
-    """Say what is beyond its limit, since when, and where it stands now."""
+    """Return what is beyond its limit, since when, and its value now."""
     unit, series = readable_unit(each.series.unit), each.series
     what = f"change of {series.name}" if each.watch.change else series.name
     grade = f"ALARM, beyond {each.watch.alarm:g} {unit}" if each.is_alarm else "beyond its limit"

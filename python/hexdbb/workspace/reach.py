@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -54,11 +55,7 @@ def require_reach(machine: MachineFile, workspace: Workspace, origin: str) -> No
         wanted = getattr(workspace, key)
         grown = point.model_copy(update={key: wanted})
         if not _is_reached(machine, grown):
-            largest = _largest(
-                lambda part, key=key, wanted=wanted, point=point: _is_reached(  # type: ignore[misc]
-                    machine, point.model_copy(update={key: part * wanted})
-                )
-            )
+            largest = _largest(partial(_is_reached_in_part, machine, point, key, wanted))
             raise InputError(
                 f"{origin}: workspace.{key}: {format_value(wanted)} (expected at most"
                 f" {_down(largest * wanted):.1f}: more is out of reach {what})"
@@ -98,6 +95,10 @@ def suggested_workspace(machine: MachineFile) -> Workspace:
         f" that reaches a level circle of {RADII_MM[-1]:g} mm over its base centre; its home is {low_mm:.0f} to"
         f" {high_mm:.0f} mm high)"
     )
+
+
+def _is_reached_in_part(machine: MachineFile, point: Workspace, key: str, wanted: float, part: float) -> bool:
+    return _is_reached(machine, point.model_copy(update={key: part * wanted}))
 
 
 def _is_reached(machine: MachineFile, workspace: Workspace) -> bool:
