@@ -44,7 +44,7 @@ $(VENV)/.dependencies: pyproject.toml .ci/scripts/requirements.py | system
 # is in them needs nothing.
 .PHONY: ALWAYS
 $(VENV)/.python-files: ALWAYS | $(VENV)/.dependencies
-	@find python/hexdbb python/hexdbb_start -name '*.py' | LC_ALL=C sort > $@.new
+	@find python/hexdbb python/hexdbb_start python/hexdbb_truth -name '*.py' | LC_ALL=C sort > $@.new
 	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
 
 # Without build isolation the build directory and the pybind11 of the environment are used again: a change compiles
@@ -111,8 +111,11 @@ closed-loop: setup  ## compensation judged on unseen circles of machines of know
 
 .PHONY: calibration
 calibration: setup  ## verdicts judged on machines with forms: hours, resumable; rewrites docs/discovery-calibration.md
-	@$(BIN)/python -m tests.truth.calibration build/calibration.jsonl --half judge
-	@$(BIN)/python -m tests.truth.calibration_page build/calibration.jsonl -o docs/discovery-calibration.md
+	@$(BIN)/hexdbb study verdicts --cases 2000 -o build/verdicts --page docs/discovery-calibration.md
+
+.PHONY: coverage
+coverage: setup  ## stated uncertainties compared with the truth of 200 machines; rewrites docs/uncertainty.md
+	@$(BIN)/hexdbb study coverage -o build/coverage --page docs/uncertainty.md
 
 .PHONY: faults
 faults: setup  ## every fault on the bus and in the rig, in lockstep and real time; rewrites docs/fault-table.md

@@ -51,7 +51,7 @@ at most four inverse solutions (`kMaxIterations`), each in closed form. Each cla
 ## Time of a call
 Machine: {processor}. Compiler: {compiler}, `-O3` for any x86-64, AVX2 chosen at load time.
 A circle of 90 mm at 3000 mm/min, one pose per millisecond, platform tilted; single calls timed, the time of the clock
-subtracted. Medians of {repetitions} repetitions; made by `make bench`. Goal: 300 ns, and 99.9 % of calls within five
+subtracted. Medians of {repetitions} repetitions; made by `make bench`. Goal: 200 ns, and 99.9 % of calls within three
 times the median.
 
 | work | median | 99.9 % within | tail / median | most iterations |

@@ -5,12 +5,11 @@ from __future__ import annotations
 import statistics
 import time
 
-from tests.truth.cases import case
-from tests.truth.simulate import Pace
-
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.simulate import Pace
 
 PACE = Pace(rate_hz=11.5, instants_per_sample=15, travel_s=10.0)
 """About 20,000 samples on the standard plan."""

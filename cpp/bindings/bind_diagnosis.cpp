@@ -33,6 +33,8 @@ void bind_diagnosis(py::module_& module) {
   module.def("normal_equations", &normal_equations, py::arg("model"), py::arg("samples"), py::arg("measured_mm"),
              py::call_guard<py::gil_scoped_release>(),
              "Compute the normal equations for all values of a model in one pass. ValueError where lengths differ.");
+  module.def("limit_threads", &limit_threads, py::arg("most"),
+             "Limit the threads that fits use, in the whole process; 0: as many as cores. ValueError where negative.");
   py::class_<Identifiability>(module, "Identifiability", "Singular values and directions of a scaled Jacobian.")
       .def_readonly("singular_values", &Identifiability::singular_values)
       .def_readonly("directions", &Identifiability::directions)
@@ -69,6 +71,11 @@ void bind_diagnosis(py::module_& module) {
              "    solution at the start.");
   module.def("prior_sigmas", &prior_sigmas, py::arg("model"),
              "Return the prior standard deviation of each value of a model, (size,).");
+  module.def(
+      "autocorrelation_time", &autocorrelation_time, py::arg("residual"), py::arg("sweep"),
+      "Return the integrated autocorrelation time of a residual within sweeps, rows, at least 1 (Geyer 1992).\n\n"
+      "Parameters\n----------\nresidual : ndarray, shape (n,)\nsweep : ndarray of int, shape (n,)\n"
+      "    Capture of each row.\n\nRaises\n------\nValueError\n    Lengths that differ.");
   module.def("identifiability", &identifiability, py::arg("scaled_jacobian"), py::kw_only(), py::arg("relative"),
              py::arg("absolute") = 0.0,
              "Compute rank, condition and directions of a scaled Jacobian.\n\n"

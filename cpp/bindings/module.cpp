@@ -10,5 +10,7 @@ PYBIND11_MODULE(_core, module) {
   bind_effects(module);
   bind_prediction(module);
   bind_diagnosis(module);
+  bind_chance(module);
+  bind_grouped(module);
   bind_compensation(module);
 }

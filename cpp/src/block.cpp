@@ -83,24 +83,41 @@ inline void solve_lanes(const NominalGeometry& nominal, Block& block, Eigen::Ind
   store(residual_mm, &block.residual_mm(row));
 }
 
+/// Interleave numbers of two rows of lanes as the masks say, and add.
+template <class Mask>
+inline Lanes folded(const Lanes& a, const Lanes& b, const Mask& first, const Mask& second) {
+  return __builtin_shuffle(a, b, first) + __builtin_shuffle(a, b, second);
+}
+
+/// Return the sums of eight rows of lanes.
+inline Lanes sums_of(const Lanes (&row)[8]) {
+  typedef long long Order __attribute__((vector_size(sizeof(Lanes))));
+  Lanes pair[4], four[2];
+  for (int i = 0; i < 4; ++i) {
+    pair[i] = folded(row[2 * i], row[2 * i + 1], Order{0, 8, 2, 10, 4, 12, 6, 14}, Order{1, 9, 3, 11, 5, 13, 7, 15});
+  }
+  for (int i = 0; i < 2; ++i) {
+    four[i] = folded(pair[2 * i], pair[2 * i + 1], Order{0, 1, 8, 9, 4, 5, 12, 13}, Order{2, 3, 10, 11, 6, 7, 14, 15});
+  }
+  return folded(four[0], four[1], Order{0, 1, 2, 3, 8, 9, 10, 11}, Order{4, 5, 6, 7, 12, 13, 14, 15});
+}
+
 /// Accumulate columns i, i+1 against j .. j+3: eight running sums stay in registers.
 inline void add_tile(const double* a, Eigen::Index rows, Eigen::Index i, Eigen::Index j, Eigen::Index columns,
                      double* information) {
-  Lanes sum[2][4] = {};
+  Lanes sum[8] = {};  // of (i, j), (i + 1, j), (i, j + 1), ...
   for (Eigen::Index row = 0; row < rows; row += kLanes) {
     const Lanes first = load(a + i * Block::kRows + row), second = load(a + (i + 1) * Block::kRows + row);
     for (int t = 0; t < 4; ++t) {
       const Lanes other = load(a + (j + t) * Block::kRows + row);
-      sum[0][t] += first * other;
-      sum[1][t] += second * other;
+      sum[2 * t] += first * other;
+      sum[2 * t + 1] += second * other;
     }
   }
-  for (int u = 0; u < 2; ++u) {
-    for (int t = 0; t < 4; ++t) {
-      double total = 0.0;
-      for (int lane = 0; lane < kLanes; ++lane) total += sum[u][t][lane];
-      information[(j + t) * columns + i + u] += total;
-    }
+  const Lanes total = sums_of(sum);
+  for (int t = 0; t < 4; ++t) {
+    information[(j + t) * columns + i] += total[2 * t];
+    information[(j + t) * columns + i + 1] += total[2 * t + 1];
   }
 }
 

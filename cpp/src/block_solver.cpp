@@ -36,7 +36,10 @@ RssrAngles angles_of(const Block& block, Eigen::Index row) {
 
 BlockSolver::BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory)
     : model_(model), samples_(samples), memory_(memory), block_(std::make_unique<Block>()) {
-  for (const Term& term : model.terms) term.effect->require(samples);
+  for (const Term& term : model.terms) {
+    term.effect->require(samples);
+    settled_.push_back(term.effect->settled(term.values));
+  }
 }
 
 void BlockSolver::load(const SampleBlock& rows) {
@@ -51,7 +54,9 @@ void BlockSolver::load(const SampleBlock& rows) {
     block.bar_length_mm(row) = set_up.bar_length_mm;
   }
   block.ports.setZero();
-  for (const Term& term : model_.terms) term.effect->push(rows, term.values, block.ports.topRows(rows.count));
+  for (std::size_t term = 0; term < settled_.size(); ++term) {
+    effect_of(term).push(rows, model_.terms[term].values, block.ports.topRows(rows.count));
+  }
   for (Eigen::Index row = rows.count; row < Block::kRows; ++row) block.ports.row(row) = block.ports.row(rows.count - 1);
 }
 
@@ -116,12 +121,13 @@ Status status_of(const Block& block, Eigen::Index row) {
   return is_solved(block, row) ? Status::kOk : static_cast<Status>(static_cast<int>(-block.residual_mm(row)));
 }
 
-void chain(const Model& model, const SampleBlock& rows, const Block& block, Eigen::MatrixXd& jacobian) {
+void BlockSolver::chain(const SampleBlock& rows, Eigen::MatrixXd& jacobian) const {
   Eigen::Index column = 0;
-  for (const Term& term : model.terms) {
-    term.effect->chain(rows, term.values, block.sensitivity.topRows(rows.count),
-                       jacobian.block(0, column, rows.count, term.values.size()));
-    column += term.values.size();
+  for (std::size_t term = 0; term < settled_.size(); ++term) {
+    const Eigen::VectorXd& values = model_.terms[term].values;
+    effect_of(term).chain(rows, values, block_->sensitivity.topRows(rows.count),
+                          jacobian.block(0, column, rows.count, values.size()));
+    column += values.size();
   }
 }
 

@@ -32,7 +32,13 @@ class BlockSolver {
     }
   }
 
+  /// Apply the chain rule to the block visited for every term of the model: columns of `jacobian`, one per value.
+  void chain(const SampleBlock& rows, Eigen::MatrixXd& jacobian) const;
+
  private:
+  const Effect& effect_of(std::size_t term) const {
+    return settled_[term] ? *settled_[term] : *model_.terms[term].effect;
+  }
   void solve(const SampleBlock& rows, bool want_sensitivity, bool fresh);
   void load(const SampleBlock& rows);
   Start start(const SampleBlock& rows, bool fresh);
@@ -40,6 +46,7 @@ class BlockSolver {
 
   const Model& model_;
   const Samples& samples_;
+  std::vector<EffectPtr> settled_;  // of each term; null where it is as in the model
   AngleMemory* memory_;
   std::unique_ptr<Block> block_;
   RssrAngles last_;  // of the sample before the block
@@ -48,8 +55,5 @@ class BlockSolver {
 /// Return the status of a row after solve: a residual below the tolerance is a solution, otherwise it holds the number
 /// of the status, negative.
 Status status_of(const Block& block, Eigen::Index row);
-
-/// Apply the chain rule for every term of a model: columns of `jacobian`, one per value.
-void chain(const Model& model, const SampleBlock& rows, const Block& block, Eigen::MatrixXd& jacobian);
 
 }  // namespace hexdbb

@@ -89,10 +89,10 @@ TableSet::TableSet(const std::vector<CompensationTable>& tables) {
       element = each.element;
       legs_[static_cast<std::size_t>(variable)] |= 1u << element;
       legs_[static_cast<std::size_t>(times.variable)] |= 1u << element;
-      pushes_.push_back({first_port + each.column, each.weight});
+      pushes_.push_back({LegPorts::place(first_port + each.column), each.weight});
       lookups_.back().last_push = place + 1;
       if (variable != TableVariable::kSliders) {
-        is_pushed_.push_back(first_port + each.column);
+        is_pushed_.push_back(pushes_.back().place);
       } else {
         steepest[element] += times.usual * std::abs(each.weight) * functions_.back().steepest();
         sharpest[element] += times.usual * std::abs(each.weight) * functions_.back().sharpest();
@@ -108,15 +108,15 @@ TableSet::TableSet(const std::vector<CompensationTable>& tables) {
   is_pushed_.erase(std::unique(is_pushed_.begin(), is_pushed_.end()), is_pushed_.end());
 }
 
-void TableSet::push(const Lookup& lookup, double value_mm, Ports& out) const noexcept {
+void TableSet::push(const Lookup& lookup, double value_mm, LegPorts& out) const noexcept {
   for (int at = lookup.first_push; at < lookup.last_push; ++at) {
     const Push& each = pushes_[static_cast<std::size_t>(at)];
-    out.value[each.port] += each.weight * value_mm;
+    out.value[each.place] += each.weight * value_mm;
   }
 }
 
 void TableSet::settle(const TableState& state) noexcept {
-  for (const int port : is_pushed_) settled_.value[port] = 0.0;
+  for (const int place : is_pushed_) settled_.value[place] = 0.0;
   for (std::size_t at = 0; at < lookups_.size(); ++at) {
     Lookup& each = lookups_[at];
     const double factor = state[each.times][each.element];
@@ -127,11 +127,11 @@ void TableSet::settle(const TableState& state) noexcept {
   }
 }
 
-void TableSet::add(const Vector6& sliders_mm, Ports& out) noexcept {
-  for (const int port : is_pushed_) out.value[port] += settled_.value[port];
+void TableSet::add(const LegRow& sliders_mm, LegPorts& out) noexcept {
+  for (const int place : is_pushed_) out.value[place] += settled_.value[place];
   for (std::size_t at = 0; at < of_position_; ++at) {
     Lookup& each = lookups_[at];
-    push(each, each.factor * functions_[each.function].at(sliders_mm[each.element], each.interval), out);
+    push(each, each.factor * functions_[each.function].at(sliders_mm.of[each.element], each.interval), out);
   }
 }
 

@@ -3,7 +3,10 @@
 
 #include "hexdbb/compensation.hpp"
 #include "kernel_types.hpp"
+#include "leg_kernel.hpp"
+#include "multiversion.hpp"
 #include "slider_dependence.hpp"
+#include "travel_limits.hpp"
 
 namespace hexdbb {
 
@@ -37,20 +40,21 @@ bool needs_platform(const TableSet& tables) {
           tables.legs(Variable::kSwingAngle) | tables.legs(Variable::kSwingRate)) != 0u;
 }
 
-double largest(const Vector6& v) { return v.cwiseAbs().maxCoeff(); }
-
 }  // namespace
 
-Compensator::Compensator(const Machine& machine) : model_(machine), polynomials_(machine), now_(one_row()) {
+Compensator::Compensator(const Machine& machine)
+    : model_(machine), polynomials_(machine), waves_(machine), legs_(model_.nominal), now_(one_row()) {
   prepare();
 }
 
 Compensator::Compensator(const CompensationData& data, const std::string& source)
     : model_(compensation_model(data, source)),
       polynomials_(data.machine),
+      waves_(data.machine),
       tables_(data.tables),
       limits_(data.limits),
       reference_temperature_c_(data.reference_temperature_c),
+      legs_(model_.nominal),
       now_(one_row()) {
   try {
     for (const Term& term : model_.terms) term.effect->require(now_);
@@ -70,8 +74,10 @@ void Compensator::prepare() {
   for (const Term& term : all) {
     contraction_ += kLever * steepness(term, machine());
     needs_leg_force_ = needs_leg_force_ || needs(*term.effect, "leg_force");
-    if (needs(*term.effect, "temperature_c") || !polynomials_.fold(term)) model_.terms.push_back(term);
+    const bool is_known_alone = needs(*term.effect, "temperature_c");
+    if (is_known_alone || !(polynomials_.fold(term) || waves_.fold(term))) model_.terms.push_back(term);
   }
+  is_folded_ = model_.terms.empty() && tables_.empty();
   contraction_ += kLever * tables_.steepest();
   bend_ = kLever * tables_.sharpest();
   needs_leg_force_ = needs_leg_force_ || tables_.legs(TableVariable::kLegForce) != 0u;
@@ -84,56 +90,105 @@ void Compensator::reset() noexcept {
   joint_direction_.setZero();
   followed_mm_.setConstant(kUnknown);
   checked_mm_.setConstant(kUnknown);
-  last_correction_mm_.setZero();
-  correction_step_mm_.setZero();
+  last_correction_mm_ = correction_step_mm_ = LegRow();
   has_last_ = false;
   angles_ = nominal_angles_ = RssrAngles();
   last_pose_ = home_pose(model_.nominal);
 }
 
-const Ports& Compensator::push_at(const Vector6& sliders_mm) noexcept {
-  polynomials_.evaluate(sliders_mm, push_);
-  if (!model_.terms.empty()) {
-    now_.sliders_mm.row(0) = sliders_mm.transpose();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>> row(
-        push_.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
-    for (const Term& term : model_.terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
-  }
-  if (!tables_.empty()) tables_.add(sliders_mm, push_);
-  if (part_ != 1.0) push_.value *= part_;
+HEXDBB_MULTIVERSION_WIDE
+const LegPorts& Compensator::push_at(const LegRow& sliders_mm) noexcept {
+  rssr::push_folded(polynomials_, waves_, rssr::load(sliders_mm), push_);
+  push_beside(sliders_mm);
   return push_;
 }
 
-/// Solve the fixed point, starting where the last two corrections lead in a straight line. A slider's coordinate depends almost only on itself: two steps
-/// determine the ratio r at which they shrink, and the sum of all that follow is step r / (1 - r) (Aitken). The
-/// remaining error is of second order in the steps.
-bool Compensator::solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept {
-  Vector6 at = nominal_mm + last_correction_mm_ + correction_step_mm_, step_before;
+/// Add what is not folded, and take the part that is in force.
+void Compensator::push_beside(const LegRow& sliders_mm) noexcept {
+  if (!model_.terms.empty()) {
+    now_.sliders_mm.row(0) = sliders_mm.legs().transpose();
+    Ports pushed;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, port::kCount>, 0, Eigen::OuterStride<>> row(
+        pushed.value.data(), 1, int{port::kCount}, Eigen::OuterStride<>(1));
+    for (const Term& term : model_.terms) term.effect->push(SampleBlock{now_, 0, 1}, term.values, row);
+    for (int column = 0; column < port::kBall; ++column) {
+      push_.value[LegPorts::place(column)] += pushed.value[column];
+    }
+  }
+  if (!tables_.empty()) tables_.add(sliders_mm, push_);
+  push_.repeat();
+  if (part_ == 1.0) return;
+  for (double& each : push_.value) each *= part_;
+}
+
+/// Compute the nominal coordinates of a pose. Return the first leg that is too short, or -1.
+HEXDBB_MULTIVERSION_WIDE
+int Compensator::reach(const Pose& pose) noexcept {
+  const rssr::Vec<Lanes> reach_mm = rssr::reach_of(pose, rssr::load3(legs_.platform_joint), rssr::load3(legs_.vertex));
+  const rssr::LegSolution<Lanes> found = rssr::solve_nominal(legs_, reach_mm);
+  rssr::store3(reach_mm, reach_mm_);
+  store(found.slider_mm, nominal_mm_.of);
+  return rssr::too_short(found);
+}
+
+/// Solve the fixed point, starting where the last two corrections lead in a straight line. A slider's coordinate depends
+/// almost only on itself: two steps determine the ratio r at which they shrink, and the sum of all that follow is
+/// step r / (1 - r) (Aitken). The remaining error is of second order in the steps.
+HEXDBB_MULTIVERSION_WIDE
+bool Compensator::solve(const Pose& pose, SliderTargets& out) noexcept {
+  const Lanes nominal_mm = rssr::load(nominal_mm_);
+  const rssr::Vec<Lanes> reach_mm = rssr::load3(reach_mm_);
+  Lanes at = nominal_mm + rssr::load(last_correction_mm_) + rssr::load(correction_step_mm_), step_before = {}, solved;
   double left_mm = 0.0, largest_before = 0.0;
   for (out.iterations = 1;; ++out.iterations) {
-    const InverseResult result = inverse(model_.nominal, pose, push_at(at));
-    out.status = result.status;
-    out.slider = result.leg;
-    out.sliders_mm = result.sliders_mm;
-    if (result.status == Status::kUnreachable) return false;
-    const Vector6 step = result.sliders_mm - at;
-    const double largest_step = largest(step);
+    rssr::push_folded(polynomials_, waves_, at, push_);
+    if (!is_folded_ || part_ != 1.0) {
+      LegRow sliders_mm;
+      store(at, sliders_mm.of);
+      push_beside(sliders_mm);
+    }
+    const rssr::LegSolution<Lanes> found = rssr::solve_pushed(legs_, pose.rotation, reach_mm, push_);
+    out.slider = rssr::too_short(found);
+    out.status = Status::kUnreachable;
+    if (out.slider >= 0) return false;
+    solved = found.slider_mm;
+    const Lanes step = solved - at;
+    const double largest_step = rssr::largest_magnitude(step);
+    Lanes further = solved;
     left_mm = contraction_ * largest_step;
     if (out.iterations > 1) {
       left_mm *= std::min(kCurvature_mm * largest_before, 1.0);
       left_mm += bend_ * largest_step;
-      const auto one = step_before.array();
-      const auto two = step.array();
-      out.sliders_mm.array() += (two.abs() < 0.5 * one.abs()).select(two.square() / (one - two), 0.0);
+      const Lanes rest = step * step / (step_before - step);
+      further += rssr::magnitude(step) < 0.5 * rssr::magnitude(step_before) ? rest : Lanes{};
     }
+    at = further;
     if (left_mm <= kTolerance_mm || out.iterations == kMaxIterations) break;
-    at = out.sliders_mm;
     step_before = step;
     largest_before = largest_step;
   }
-  if (!(left_mm <= kLargestError_mm)) out.status = Status::kIterationLimit;
-  out.correction_mm = out.sliders_mm - nominal_mm;
+  InverseResult last;
+  LegRow row;
+  store(solved, row.of);
+  last.sliders_mm = row.legs();
+  check_limits(machine(), last);
+  out.status = left_mm <= kLargestError_mm ? last.status : Status::kIterationLimit;
+  out.slider = last.leg;
+  store(at, row.of);
+  out.sliders_mm = row.legs();
+  store(at - nominal_mm, correction_mm_.of);
+  out.correction_mm = correction_mm_.legs();
   return out.status == Status::kOk;
+}
+
+/// Make a call's corrections the start of the next.
+HEXDBB_MULTIVERSION_WIDE
+void Compensator::remember(const SliderTargets& out) noexcept {
+  const Lanes correction_mm = rssr::load(correction_mm_);
+  store(has_last_ ? correction_mm - rssr::load(last_correction_mm_) : Lanes{}, correction_step_mm_.of);
+  last_correction_mm_ = correction_mm_;
+  last_targets_mm_ = out.sliders_mm;
+  has_last_ = true;
 }
 
 SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction) noexcept {
@@ -141,7 +196,7 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   const auto refuse = [&](Status status) {
     out.status = status;
     out.sliders_mm = last_targets_mm_;
-    out.correction_mm = last_correction_mm_;
+    out.correction_mm = last_correction_mm_.legs();
     return out;
   };
   if (!pose.position.allFinite() || !pose.rotation.allFinite() || !direction.velocity_mm_s.allFinite()) {
@@ -150,23 +205,18 @@ SliderTargets Compensator::sliders(const Pose& pose, const Direction& direction)
   const double fade = 1.0 / kFadeCalls;
   part_ = part_ < wanted_part_ ? std::min(part_ + fade, wanted_part_) : std::max(part_ - fade, wanted_part_);
 
-  const InverseResult nominal = inverse(model_.nominal, pose, none_);
-  out.slider = nominal.leg;
-  if (nominal.status == Status::kUnreachable) return refuse(nominal.status);
-  const bool is_followed = follow(nominal.sliders_mm, direction);
-  const Vector6 force = needs_leg_force_ ? leg_force(pose, nominal.sliders_mm) : Vector6::Zero();
+  out.slider = reach(pose);
+  if (out.slider >= 0) return refuse(Status::kUnreachable);
+  const Vector6 nominal_mm = nominal_mm_.legs();
+  const bool is_followed = follow(nominal_mm, direction);
+  const Vector6 force = needs_leg_force_ ? leg_force(pose, nominal_mm) : Vector6::Zero();
   set_state(direction, travel_direction_, force);
-  set_tables(direction, travel_direction_, force, pose, nominal.sliders_mm);
-  if (!solve(pose, nominal.sliders_mm, out)) return refuse(out.status);
+  set_tables(direction, travel_direction_, force, pose, nominal_mm);
+  if (!solve(pose, out)) return refuse(out.status);
   out.largest_correction_mm = out.correction_mm.cwiseAbs().maxCoeff(&out.slider);
   if (!(out.largest_correction_mm <= limits_.max_correction_mm)) return refuse(Status::kCorrectionLimit);
   out.slider = -1;
-  if (is_followed) {
-    correction_step_mm_ = has_last_ ? Vector6(out.correction_mm - last_correction_mm_) : Vector6(Vector6::Zero());
-    has_last_ = true;
-    last_targets_mm_ = out.sliders_mm;
-    last_correction_mm_ = out.correction_mm;
-  }
+  if (is_followed) remember(out);
   return out;
 }
 
@@ -184,7 +234,7 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
   Vector6 force = Vector6::Zero();
   Pose nominal_pose = last_pose_;
   if (needs_pose_) {
-    const Mechanism nominal = assemble(model_.nominal, sliders_mm, none_);
+    const Mechanism nominal = assemble(model_.nominal, sliders_mm, Ports());
     const ForwardResult standing = forward(nominal, nominal_triangle_, nominal_angles_);
     if (standing.status == Status::kOk) {
       nominal_pose = standing.pose;
@@ -193,7 +243,7 @@ PoseEstimate Compensator::pose(const Vector6& sliders_mm, const Direction& direc
   }
   set_state(direction, travel_direction, force);
   set_tables(direction, travel_direction, force, nominal_pose, sliders_mm);
-  const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(sliders_mm));
+  const Mechanism mechanism = assemble(model_.nominal, sliders_mm, push_at(LegRow(sliders_mm)).ports());
   const ForwardResult found =
       joints_are_shared(mechanism) ? forward(mechanism, angles_) : forward_six(mechanism, last_pose_);
   out.residual_mm = found.residual_mm;

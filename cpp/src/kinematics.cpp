@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "kernel_types.hpp"
+#include "leg_kernel.hpp"
 #include "multiversion.hpp"
 #include "six_kernel.hpp"
+#include "travel_limits.hpp"
 
 namespace hexdbb {
 
@@ -154,6 +156,26 @@ Status track(const Mechanism& target, const PlatformTriangle& triangle, LoopStat
 
 InverseResult failed(Status status, int leg) { return {Vector6::Zero(), status, leg}; }
 
+/// Return the largest magnitude; NaN where there is one.
+double largest_magnitude(const double (&values)[kLegs]) {
+  double out = 0.0;
+  for (const double each : values) {
+    if (!(std::abs(each) <= out || std::isnan(out))) out = std::abs(each);
+  }
+  return out;
+}
+
+/// Shorten a long step to half a radian or 200 mm, so that a search from a distant start stays on its branch.
+rssr::Six<double> shortened(const rssr::Six<double>& step) {
+  constexpr double kLongestTurn_rad = 0.5, kLongestMove_mm = 200.0, kTiny = 1e-300;
+  const double turn_rad = std::sqrt(rssr::dot(step.moment, step.moment)) / rssr::kLever_mm;
+  const double move_mm = std::sqrt(rssr::dot(step.force, step.force));
+  return std::min({1.0, kLongestTurn_rad / std::max(turn_rad, kTiny), kLongestMove_mm / std::max(move_mm, kTiny)}) *
+         step;
+}
+
+}  // namespace
+
 void check_limits(const Machine& machine, InverseResult& out) {
   for (int k = 0; k < kLegs; k += 2) {
     const double low = out.sliders_mm[k], high = out.sliders_mm[k + 1];
@@ -174,26 +196,6 @@ void check_limits(const Machine& machine, InverseResult& out) {
     }
   }
 }
-
-/// Return the largest magnitude; NaN where there is one.
-double largest_magnitude(const double (&values)[kLegs]) {
-  double out = 0.0;
-  for (const double each : values) {
-    if (!(std::abs(each) <= out || std::isnan(out))) out = std::abs(each);
-  }
-  return out;
-}
-
-/// Shorten a long step to half a radian or 200 mm, so that a search from a distant start stays on its branch.
-rssr::Six<double> shortened(const rssr::Six<double>& step) {
-  constexpr double kLongestTurn_rad = 0.5, kLongestMove_mm = 200.0, kTiny = 1e-300;
-  const double turn_rad = std::sqrt(rssr::dot(step.moment, step.moment)) / rssr::kLever_mm;
-  const double move_mm = std::sqrt(rssr::dot(step.force, step.force));
-  return std::min({1.0, kLongestTurn_rad / std::max(turn_rad, kTiny), kLongestMove_mm / std::max(move_mm, kTiny)}) *
-         step;
-}
-
-}  // namespace
 
 const char* status_name(Status status) {
   switch (status) {
@@ -222,15 +224,14 @@ InverseResult inverse(const NominalGeometry& nominal, const Pose& pose, const Po
   InverseResult out;
   const Machine& machine = nominal.machine;
   for (int k = 0; k < kLegs; ++k) {
-    const Vector3 joint = nominal.platform_joint.col(k) + push.platform_joint(k);
-    const Vector3 base = nominal.vertex.col(k) + push.slider_joint(k);
-    const Vector3 from_base = pose.rotation * joint + (pose.position - base);
-    const double leg = machine.leg_length_mm[k] + push.leg()[k];
-    const double foot = from_base.dot(nominal.direction.col(k));
-    const double half_span_squared = leg * leg - (from_base.squaredNorm() - foot * foot);
-    if (!(half_span_squared > 0.0)) return failed(Status::kUnreachable, k);
-    const double half_span = std::sqrt(half_span_squared);
-    out.sliders_mm[k] = (k % 2 == 0 ? foot - half_span : foot + half_span) - push.slider()[k];
+    const rssr::Vec<double> nominal_reach =
+        rssr::reach_of(pose, vec(nominal.platform_joint.col(k)), vec(nominal.vertex.col(k)));
+    const rssr::Vec<double> reach =
+        nominal_reach + rssr::turned(pose.rotation, vec(push.platform_joint(k))) - vec(push.slider_joint(k));
+    const double length = machine.leg_length_mm[k] + push.leg()[k], side = k % 2 == 0 ? -1.0 : 1.0;
+    const rssr::LegSolution<double> found = rssr::solve_leg(reach, vec(nominal.direction.col(k)), length, side);
+    if (!(found.half_span_squared > 0.0)) return failed(Status::kUnreachable, k);
+    out.sliders_mm[k] = found.slider_mm - push.slider()[k];
   }
   check_limits(machine, out);
   return out;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hexdbb/leg_ports.hpp"
 #include "kernel_types.hpp"
 
 namespace hexdbb {
@@ -11,6 +12,18 @@ NominalGeometry::NominalGeometry(const Machine& machine_in) : machine(machine_in
     vertex.col(k) = guideway_vertex(machine, guideway_of(k));
     direction.col(k) = guideway_direction(machine, guideway_of(k));
     platform_joint.col(k) = hexdbb::platform_joint(machine, guideway_of(k));
+  }
+}
+
+NominalLegs::NominalLegs(const NominalGeometry& nominal) {
+  Vector6 outward;
+  for (int k = 0; k < kLegs; ++k) outward[k] = k % 2 == 0 ? -1.0 : 1.0;
+  side = LegRow(outward);
+  length = LegRow(Eigen::Map<const Vector6>(nominal.machine.leg_length_mm.data()));
+  for (int axis = 0; axis < 3; ++axis) {
+    platform_joint[axis] = LegRow(nominal.platform_joint.row(axis).transpose());
+    vertex[axis] = LegRow(nominal.vertex.row(axis).transpose());
+    direction[axis] = LegRow(nominal.direction.row(axis).transpose());
   }
 }
 

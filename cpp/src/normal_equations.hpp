@@ -32,6 +32,8 @@ class Accumulator {
 
  private:
   NormalEquations sum(const Model& model);
+  bool takes_all(const Model& model) const;
+  Eigen::Index width(const Model& model) const;
   void chunk(const Model& model, Eigen::Index first, Eigen::Index last, NormalEquations& out);
 
   const Samples& samples_;

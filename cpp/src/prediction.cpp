@@ -46,16 +46,16 @@ Prediction predict(const Model& model, const Samples& samples, bool want_jacobia
   out.status.setZero(samples.size());
   if (want_jacobian) out.jacobian.setZero(samples.size(), model.size());
   Eigen::MatrixXd columns(Block::kRows, model.size());
-  BlockSolver(model, samples)
-      .each_block(0, samples.size(), want_jacobian, [&](const SampleBlock& rows, const Block& block) {
-        out.reading_mm.segment(rows.first, rows.count) = block.reading_mm.head(rows.count);
-        for (Eigen::Index row = 0; row < rows.count; ++row) {
-          out.status[rows.first + row] = static_cast<int>(status_of(block, row));
-        }
-        if (!want_jacobian) return;
-        chain(model, rows, block, columns);
-        out.jacobian.middleRows(rows.first, rows.count) = columns.topRows(rows.count);
-      });
+  BlockSolver solver(model, samples);
+  solver.each_block(0, samples.size(), want_jacobian, [&](const SampleBlock& rows, const Block& block) {
+    out.reading_mm.segment(rows.first, rows.count) = block.reading_mm.head(rows.count);
+    for (Eigen::Index row = 0; row < rows.count; ++row) {
+      out.status[rows.first + row] = static_cast<int>(status_of(block, row));
+    }
+    if (!want_jacobian) return;
+    solver.chain(rows, columns);
+    out.jacobian.middleRows(rows.first, rows.count) = columns.topRows(rows.count);
+  });
   for (Eigen::Index row = 0; row < samples.size(); ++row) {
     if (out.status[row] != 0) out.reading_mm[row] = 0.0;
   }

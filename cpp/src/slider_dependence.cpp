@@ -7,7 +7,8 @@ namespace hexdbb {
 
 namespace {
 
-constexpr int kTrials = 24;  // more than the 15 coefficients a port may have
+constexpr int kTrials = 24;         // more than the 15 coefficients a port may have
+constexpr double kSame_mm = 1e-11;  // rounding of pushes of some mm
 
 /// Return numbers in -1 to 1 without a period: multiples of the golden ratio, with a phase per column.
 double spread(int row, int column) {
@@ -76,6 +77,19 @@ Pushes pushes_of(const Term& term, const SliderTable& sliders_mm, const State& s
   Pushes out = Pushes::Zero(sliders_mm.rows(), int{port::kCount});
   term.effect->push(SampleBlock{samples, 0, samples.size()}, term.values, out);
   return out;
+}
+
+bool agrees_with(const Term& term, const Machine& machine, const Folded& folded) {
+  const SliderTable positions = trial_positions(machine);
+  const std::vector<InstantState> instants = trial_instants();
+  const Pushes pushed = pushes_of(term, positions, state_of(instants));
+  for (std::size_t row = 0; row < instants.size(); ++row) {
+    const auto at = static_cast<Eigen::Index>(row);
+    const Ports expected = folded(positions.row(at).transpose(), instants[row]).ports();
+    const auto given = pushed.row(at).transpose();
+    if (!((given - expected.value).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kSame_mm)) return false;
+  }
+  return true;
 }
 
 double steepness(const Term& term, const Machine& machine) {

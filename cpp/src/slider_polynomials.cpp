@@ -1,5 +1,8 @@
 #include "hexdbb/slider_polynomials.hpp"
 
+#include <algorithm>
+
+#include "leg_kernel.hpp"
 #include "multiversion.hpp"
 #include "slider_dependence.hpp"
 
@@ -7,20 +10,8 @@ namespace hexdbb {
 
 namespace {
 
-using PortVector = Eigen::Matrix<double, SliderPolynomials::kPorts, 1>;
-
-constexpr double kSame_mm = 1e-11;  // rounding of pushes of some mm
-
-/// Assign each slider's number to every port that belongs to it.
-PortVector of_ports(const Vector6& of_sliders) {
-  PortVector out;
-  for (int k = 0; k < kLegs; ++k) {
-    out[port::kSlider + k] = out[port::kLeg + k] = of_sliders[k];
-    for (int axis = 0; axis < 3; ++axis) {
-      out[port::kSliderJoint + 3 * k + axis] = out[port::kPlatformJoint + 3 * k + axis] = of_sliders[k];
-    }
-  }
-  return out;
+bool is_zero(const double* row) {
+  return std::all_of(row, row + kLegLanes, [](double each) { return each == 0.0; });
 }
 
 /// Return a state with one factor at one and the others at zero.
@@ -36,85 +27,89 @@ State unit_state(int factor, Eigen::Index rows) {
 }  // namespace
 
 SliderPolynomials::SliderPolynomials(const Machine& machine) : machine_(machine) {
+  Vector6 middle_mm, per_half;
   for (int k = 0; k < kLegs; ++k) {
     const Travel travel = slider_travel(machine, k);
-    middle_mm_[k] = travel.middle_mm;
-    half_mm_[k] = travel.half_mm;
+    middle_mm[k] = travel.middle_mm;
+    per_half[k] = 1.0 / travel.half_mm;
   }
-  for (Coefficients& each : of_factor_) each.setZero();
-  settled_.setZero();
+  middle_mm_ = LegRow(middle_mm);
+  per_half_ = LegRow(per_half);
 }
 
 SliderPolynomials::Coefficients SliderPolynomials::coefficients_of(const Term& term, int factor) const {
   SliderTable positions(3, int{kLegs});
-  for (int row = 0; row < 3; ++row) positions.row(row) = (middle_mm_ + (row - 1) * half_mm_).transpose();
+  for (int row = 0; row < 3; ++row) {
+    positions.row(row) = (middle_mm_.legs() + (row - 1) * per_half_.legs().cwiseInverse()).transpose();
+  }
   const Pushes known = pushes_of(term, positions, unit_state(factor, 3));
   Coefficients out;
-  out.col(0) = known.row(1).head<kPorts>();
-  out.col(1) = 0.5 * (known.row(2) - known.row(0)).head<kPorts>();
-  out.col(2) = 0.5 * (known.row(2) + known.row(0)).head<kPorts>() - known.row(1).head<kPorts>();
+  for (int column = 0; column < kPorts; ++column) {
+    const int place = LegPorts::place(column);
+    const double before = known(0, column), middle = known(1, column), after = known(2, column);
+    out[0].value[place] = middle;
+    out[1].value[place] = 0.5 * (after - before);
+    out[2].value[place] = 0.5 * (after + before) - middle;
+  }
+  for (LegPorts& each : out) each.repeat();
   return out;
 }
 
 bool SliderPolynomials::fold(const Term& term) {
   SliderPolynomials alone(machine_);
   for (int factor = 0; factor < kFactors; ++factor) {
-    Coefficients& found = alone.of_factor_[factor];
-    found = coefficients_of(term, factor);
-    if (factor > 0) found -= alone.of_factor_[0];
-    for (int power = 0; power < 3; ++power) alone.is_used_[factor][power] = !found.col(power).isZero(0.0);
-  }
-  alone.varies_ = {true, true, true};
-  const SliderTable positions = trial_positions(machine_);
-  const std::vector<InstantState> instants = trial_instants();
-  const Pushes pushed = pushes_of(term, positions, state_of(instants));
-  for (std::size_t row = 0; row < instants.size(); ++row) {
-    Ports expected;
-    alone.settle(instants[row]);
-    alone.evaluate(positions.row(static_cast<Eigen::Index>(row)).transpose(), expected);
-    const auto given = pushed.row(static_cast<Eigen::Index>(row)).transpose();
-    if (!((given - expected.value).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= kSame_mm)) return false;
-  }
-  for (int factor = 0; factor < kFactors; ++factor) {
-    of_factor_[factor] += alone.of_factor_[factor];
-    for (int power = 0; power < 3; ++power) {
-      is_used_[factor][power] |= alone.is_used_[factor][power];
-      varies_[power] |= factor > 0 && alone.is_used_[factor][power];
+    alone.of_factor_[factor] = coefficients_of(term, factor);
+    if (factor == 0) continue;
+    for (int power = 0; power < kPowers; ++power) {
+      for (int at = 0; at < LegPorts::kQuantities * kLegLanes; ++at) {
+        alone.of_factor_[factor][power].value[at] -= alone.of_factor_[0][power].value[at];
+      }
     }
   }
-  settled_ = of_factor_[0];
+  alone.find_varying();
+  const bool is_sum = agrees_with(term, machine_, [&](const Vector6& sliders_mm, const InstantState& instant) {
+    LegPorts out;
+    alone.settle(instant);
+    rssr::push_folded(alone, SliderWaves(machine_), rssr::load(LegRow(sliders_mm)), out);
+    return out;
+  });
+  if (!is_sum) return false;
+  for (int factor = 0; factor < kFactors; ++factor) {
+    for (int power = 0; power < kPowers; ++power) {
+      for (int at = 0; at < LegPorts::kQuantities * kLegLanes; ++at) {
+        of_factor_[factor][power].value[at] += alone.of_factor_[factor][power].value[at];
+      }
+    }
+  }
+  find_varying();
   return true;
 }
 
-// Plain loops, which the compiler vectorizes for each processor the function is compiled for.
-HEXDBB_MULTIVERSION
-void SliderPolynomials::settle(const InstantState& state) noexcept {
-  const Vector6 warming = Vector6::Constant(state.warming_k);
-  const Vector6* const factors[] = {nullptr, &state.velocity_mm_s, &state.travel_direction, &state.leg_force, &warming};
-  for (int power = 0; power < 3; ++power) {
-    if (varies_[power]) settled_.col(power) = of_factor_[0].col(power);
-  }
+void SliderPolynomials::find_varying() {
+  settled_ = of_factor_[0];
+  varying_.clear();
   for (int factor = 1; factor < kFactors; ++factor) {
-    const auto& used = is_used_[factor];
-    if (!used[0] && !used[1] && !used[2]) continue;
-    const PortVector times = of_ports(*factors[factor]);
-    const double* x = times.data();
-    for (int power = 0; power < 3; ++power) {
-      if (!used[power]) continue;
-      const double* c = of_factor_[factor].col(power).data();
-      double* out = settled_.col(power).data();
-      for (int p = 0; p < kPorts; ++p) out[p] += x[p] * c[p];
+    for (int power = 0; power < kPowers; ++power) {
+      for (int quantity = 0; quantity < LegPorts::kQuantities; ++quantity) {
+        if (!is_zero(of_factor_[factor][power].row(quantity))) varying_.push_back({factor, power, quantity});
+      }
     }
   }
 }
 
-HEXDBB_MULTIVERSION
-void SliderPolynomials::evaluate(const Vector6& sliders_mm, Ports& push) const noexcept {
-  const PortVector place = of_ports((sliders_mm - middle_mm_).cwiseQuotient(half_mm_));
-  const double *u = place.data(), *c = settled_.data();
-  double* out = push.value.data();
-  for (int p = 0; p < kPorts; ++p) out[p] = c[p] + u[p] * (c[kPorts + p] + u[p] * c[2 * kPorts + p]);
-  for (int p = kPorts; p < port::kCount; ++p) out[p] = 0.0;
+HEXDBB_MULTIVERSION_WIDE
+void SliderPolynomials::settle(const InstantState& state) noexcept {
+  if (varying_.empty()) return;
+  const LegRow factors[] = {LegRow(), LegRow(state.velocity_mm_s), LegRow(state.travel_direction),
+                            LegRow(state.leg_force), LegRow(Vector6::Constant(state.warming_k))};
+  for (const Varying& each : varying_) {
+    store(load(of_factor_[0][each.power].row(each.quantity)), settled_[each.power].row(each.quantity));
+  }
+  for (const Varying& each : varying_) {
+    double* const out = settled_[each.power].row(each.quantity);
+    store(load(out) + load(factors[each.factor].of) * load(of_factor_[each.factor][each.power].row(each.quantity)),
+          out);
+  }
 }
 
 }  // namespace hexdbb

@@ -44,8 +44,11 @@ void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, con
       Eigen::Map<const Vector6>(leg_length_mm.data()).transpose().replicate(sliders_mm.rows(), 1);
   const SliderTable slider_arc_mm = poses.slider_joint_angle_rad.cwiseProduct(length_mm);
   const SliderTable platform_arc_mm = poses.platform_joint_angle_rad.cwiseProduct(length_mm);
+  SliderTable position_mm = SliderTable::Zero(sliders_mm.rows(), kLegs);
+  position_mm.leftCols<3>() = poses.position_mm;
   std::vector<Motion> all =
-      motions(state.time_s, state.sweep, {{sliders_mm, kMostDerivatives}, {slider_arc_mm, 1}, {platform_arc_mm, 1}});
+      motions(state.time_s, state.sweep,
+              {{sliders_mm, kMostDerivatives}, {slider_arc_mm, 1}, {platform_arc_mm, 1}, {position_mm, 1}});
   Motion& slider = all[0];
   state.velocity_mm_s = std::move(slider.velocity_mm_s);
   state.acceleration_mm_s2 = std::move(slider.acceleration_mm_s2);
@@ -59,6 +62,7 @@ void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, con
   state.slider_joint_direction = std::move(all[1].travel_direction);
   state.slider_joint_since_reversal_rad = (turned_mm < kLongAgo).select(turned_mm / length_mm.array(), kLongAgo);
   state.platform_joint_rate_rad_s = all[2].velocity_mm_s.cwiseQuotient(length_mm);
+  state.speed_mm_s = all[3].velocity_mm_s.rowwise().norm();
 }
 
 double wrapped(double angle_rad) {

@@ -6,19 +6,21 @@
 
 namespace hexdbb {
 
+template <class T>
 struct CosSin {
-  double cosine, sine;
+  T cosine, sine;
 };
 
-/// Compute cosine and sine of 2 pi turns, for |turns| below 2^50.
-inline CosSin cos_sin_of_turns(double turns) {
+/// Compute cosine and sine of 2 pi turns, for |turns| below 2^50; T is double or lanes of doubles.
+template <class T>
+inline CosSin<T> cos_sin_of_turns(const T& turns) {
   // Adding and subtracting 1.5 * 2^52 rounds to a whole number (round-to-nearest mode, as everywhere here).
   constexpr double kRound = 6755399441055744.0;
-  const double half_turns = (2.0 * turns + kRound) - kRound;
-  const double odd = half_turns - 2.0 * ((0.5 * half_turns + kRound) - kRound);  // -1, 0 or 1
-  const double sign = 1.0 - 2.0 * odd * odd;
-  const double angle = 6.283185307179586476925 * (turns - 0.5 * half_turns), u = angle * angle;
-  const double s =
+  const T half_turns = (2.0 * turns + kRound) - kRound;
+  const T odd = half_turns - 2.0 * ((0.5 * half_turns + kRound) - kRound);  // -1, 0 or 1
+  const T sign = 1.0 - 2.0 * odd * odd;
+  const T angle = 6.283185307179586476925 * (turns - 0.5 * half_turns), u = angle * angle;
+  const T s =
       1.0 + u * (-1.0 / 6.0 +
                  u * (1.0 / 120.0 +
                       u * (-1.0 / 5040.0 +
@@ -27,7 +29,7 @@ inline CosSin cos_sin_of_turns(double turns) {
                                      u * (1.0 / 6227020800.0 +
                                           u * (-1.0 / 1307674368000.0 +
                                                u * (1.0 / 355687428096000.0 + u * (-1.0 / 121645100408832000.0)))))))));
-  const double c =
+  const T c =
       1.0 + u * (-1.0 / 2.0 +
                  u * (1.0 / 24.0 +
                       u * (-1.0 / 720.0 +

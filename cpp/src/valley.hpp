@@ -35,6 +35,10 @@ class FewReadings {
   FewReadings(const FewReadings&) = delete;
   FewReadings& operator=(const FewReadings&) = delete;
 
+  Eigen::Index stride() const { return stride_; }
+  double noise_mm() const { return noise_mm_; }
+  Accumulator& accumulator() { return accumulator_; }
+
   Posterior at(const Eigen::VectorXd& z) { return posterior_at(model_, accumulator_, unknowns_, noise_mm_, z); }
 
   /// Compute J' r_vv / noise^2 for predictions r along v.

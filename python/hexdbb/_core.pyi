@@ -30,20 +30,26 @@ __all__: list[str] = [
     "SetUp",
     "StateColumn",
     "TABLE_VARIABLES",
+    "autocorrelation_time",
+    "chi_square_tail",
     "compensation_of",
     "effect_info",
     "effect_names",
     "effect_pushes",
+    "f_tail",
     "fit",
     "forward_one",
     "forward_six_one",
     "forward_table",
+    "grouped_sums",
     "guideway_axes",
     "guideway_direction",
     "guideway_midpoint",
     "guideway_vertex",
     "identifiability",
     "inverse_table",
+    "limit_threads",
+    "log_normal_below",
     "normal_equations",
     "platform_joint",
     "port_sensitivity",
@@ -665,6 +671,32 @@ class Compensator:
             Slider at fault from 0, or -1.
         """
 
+def autocorrelation_time(
+    residual: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"],
+) -> float:
+    """
+    Return the integrated autocorrelation time of a residual within sweeps, rows, at least 1 (Geyer 1992).
+
+    Parameters
+    ----------
+    residual : ndarray, shape (n,)
+    sweep : ndarray of int, shape (n,)
+        Capture of each row.
+
+    Raises
+    ------
+    ValueError
+        Lengths that differ.
+    """
+
+def chi_square_tail(
+    freedom: typing.SupportsFloat | typing.SupportsIndex, value: typing.SupportsFloat | typing.SupportsIndex
+) -> float:
+    """
+    Return the probability that chi-square with these degrees of freedom (above 0) exceeds a value.
+    """
+
 def compensation_of(
     model: Model,
     *,
@@ -751,6 +783,15 @@ def effect_pushes(
         An unknown effect, values of another length, or samples without a column that the effect needs.
     """
 
+def f_tail(
+    numerator: typing.SupportsFloat | typing.SupportsIndex,
+    denominator: typing.SupportsFloat | typing.SupportsIndex,
+    value: typing.SupportsFloat | typing.SupportsIndex,
+) -> float:
+    """
+    Return the probability that F with these degrees of freedom (above 0) exceeds a value.
+    """
+
 def fit(
     model: Model,
     samples: Samples,
@@ -819,6 +860,29 @@ def forward_table(
     Compute the platform's poses, (n, 12) as x, y, z in mm and the rotation row by row, and their status, (n,).
     """
 
+def grouped_sums(
+    group: typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, n]", "flags.c_contiguous"],
+    weight: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    table: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    groups: typing.SupportsInt | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    Return the sums of a table's weighted rows by group, W'T, shape (groups, k).
+
+    Parameters
+    ----------
+    group : ndarray of int32, shape (n, parts)
+        Group of each row and part, from 0.
+    weight : ndarray, shape (n, parts)
+    table : ndarray, shape (n, k)
+    groups : int
+
+    Raises
+    ------
+    ValueError
+        Shapes that differ, or a group out of range.
+    """
+
 def guideway_axes(
     machine: Machine, guideway: typing.SupportsInt | typing.SupportsIndex
 ) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[3, 3]"]:
@@ -880,6 +944,16 @@ def inverse_table(
         0: reached; see status_name.
     leg : ndarray of int, shape (n,)
         Leg at fault from 0, or -1.
+    """
+
+def limit_threads(most: typing.SupportsInt | typing.SupportsIndex) -> None:
+    """
+    Limit the threads that fits use, in the whole process; 0: as many as cores. ValueError where negative.
+    """
+
+def log_normal_below(value: typing.SupportsFloat | typing.SupportsIndex) -> float:
+    """
+    Return the logarithm of the probability that a standard normal value lies below a value.
     """
 
 def normal_equations(

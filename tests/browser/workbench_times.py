@@ -18,10 +18,10 @@ import numpy as np
 from playwright.sync_api import Page, sync_playwright
 from tests.browser.chromium import HEIGHT, arguments, executable
 from tests.python.workbench.served import drawn, marked, served
-from tests.truth.cases import case
-from tests.truth.simulate import Pace
 
 import hexdbb as hx
+from hexdbb_truth.cases import case
+from hexdbb_truth.simulate import Pace
 
 RATES_HZ = {35_000: 20.0, 100_000: 57.0}
 """Readings a second that give about so many readings of the standard plan."""

@@ -68,6 +68,32 @@ TEST(Compensation, OfTheNominalMachineIsItsInverse) {
   EXPECT_EQ(compensator.enabled_part(), 0.0);
 }
 
+TEST(LegPorts, HoldEveryPortOfTheLegsOnce) {
+  LegPorts ports;
+  for (int column = 0; column < port::kBall; ++column) ports.value[LegPorts::place(column)] = column + 1.0;
+  ports.repeat();
+  const Ports back = ports.ports();
+  for (int column = 0; column < port::kCount; ++column) {
+    EXPECT_EQ(back.value[column], column < port::kBall ? column + 1.0 : 0.0);
+  }
+  for (int quantity = 0; quantity < LegPorts::kQuantities; ++quantity) {
+    EXPECT_EQ(ports.row(quantity)[6], ports.row(quantity)[4]);
+    EXPECT_EQ(ports.row(quantity)[7], ports.row(quantity)[5]);
+  }
+}
+
+TEST(SliderWaves, TakeWhatRepeatsWithTheScrewAndNothingElse) {
+  const Machine machine;
+  for (const std::string name :
+       {"pitch_cyclic", "leg_length", "lead_error", "backlash", "guideway_rotation_xy", "gravity_sag"}) {
+    Model model(machine);
+    model.add(find_effect(machine, 1, name));
+    model.terms[0].values.setConstant(1e-3);
+    EXPECT_EQ(SliderWaves(machine).fold(model.terms[0]), name == "pitch_cyclic") << name;
+    EXPECT_EQ(SliderPolynomials(machine).fold(model.terms[0]), name != "pitch_cyclic") << name;
+  }
+}
+
 TEST(Compensation, OfGeometryIsExact) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Model truth = wrong_machine(kGeometricNames, seed);

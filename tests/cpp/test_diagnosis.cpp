@@ -148,6 +148,27 @@ TEST_F(Diagnosis, StartDoesNotMatter) {
   EXPECT_LT((second.values - first.values).cwiseQuotient(scale).cwiseAbs().maxCoeff(), 1e-3);
 }
 
+TEST_F(Diagnosis, CoarseToFineEndsAtTheMinimumOfAllReadings) {
+  // 12,600 readings: the way is on a part of them. A loss that is linear beyond 1 m is least squares too, and goes by
+  // Ceres on all readings from the start.
+  samples = circle_samples(machine, seven_circles(), 1800);
+  const Eigen::VectorXd measured = measure(draw_truth(21), 121);
+  const FitResult result = fit(model, samples, measured, options);
+  FitOptions on_all = options;
+  on_all.robust_mm = 1e3;
+  const FitResult expected = fit(model, samples, measured, on_all);
+  ASSERT_TRUE(result.usable && expected.usable);
+  EXPECT_LT(result.iterations, expected.iterations);
+  const auto& free = result.free_columns;
+  const Eigen::VectorXd sigma = expected.covariance(free, free).diagonal().cwiseSqrt();
+  EXPECT_LT((result.values - expected.values)(free).cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 2e-3);
+  EXPECT_LT((result.covariance(free, free).diagonal().cwiseSqrt().cwiseQuotient(sigma).array() - 1.0).abs().maxCoeff(),
+            1e-4);
+  EXPECT_EQ(result.machine.rank, expected.machine.rank);
+  EXPECT_NEAR(result.machine.condition, expected.machine.condition, 1e-9 * expected.machine.condition);
+  EXPECT_LT((result.residual_mm - residual(result, measured)).cwiseAbs().maxCoeff(), 10 * kResidualTolerance_mm);
+}
+
 TEST_F(Diagnosis, MisfitStretchesTheUncertainty) {
   Eigen::VectorXd measured = measure(draw_truth(10), 110);
   const FitResult clean = fit(model, samples, measured, options);

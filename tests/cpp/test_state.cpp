@@ -230,11 +230,18 @@ TEST(State, EveryColumnIsDescribed) {
     const int expected = info.of == ColumnOf::kSample ? 1 : info.of == ColumnOf::kAxis ? 3 : 6;
     EXPECT_EQ(width, expected) << info.name;
   });
-  EXPECT_EQ(names.size(), 28U);
+  EXPECT_EQ(names.size(), 29U);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   const std::vector<std::string> given_by_a_record = {"row",      "lap", "direction", "angle_rad", "angle_wrapped_rad",
                                                       "feed_mm_s"};
   EXPECT_EQ(filled.size() + given_by_a_record.size(), names.size());
+}
+
+TEST(State, SpeedIsThatOfTheCircle) {
+  constexpr double kLap_s = 20.0, kRadius_mm = 100.0;
+  const Samples samples = moving_samples(Machine(), {CircleSpec()}, 400, kLap_s);
+  const double fed_mm_s = 2.0 * M_PI * kRadius_mm / kLap_s;
+  EXPECT_LT((samples.state.speed_mm_s.array() - fed_mm_s).abs().maxCoeff(), 2e-3 * fed_mm_s);
 }
 
 TEST(State, ColumnOfAnotherLengthIsNamed) {

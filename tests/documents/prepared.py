@@ -6,9 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tests.documents.shown import blocks
-from tests.truth.months import Year
+from tests.fleet.made import Fleet, write_model
 
 from hexdbb.record import write_record
+from hexdbb_truth.months import Year
 
 Run = Callable[[str, Path], str]
 ROOT = Path(__file__).parents[2]
@@ -83,6 +84,14 @@ def _logbook(folder: Path, run: Run) -> None:
     (folder / "watch.toml").write_text(f"\n{_block('docs/logbook.md', 'toml')}", encoding="utf-8")
 
 
+def _fleet(folder: Path, run: Run) -> None:
+    """Write the records of nine machines, and the model that the page fits to them."""
+    fleet = Fleet(machines=9, records=54)
+    for number in range(fleet.records):
+        fleet.write(folder / "records", number)
+    write_model(folder / "model.toml")
+
+
 def _how_to_embed(folder: Path, run: Run) -> None:
     run("hexdbb model new sp120 -o model.toml --effects leg_length", folder)
 
@@ -128,6 +137,7 @@ PREPARED: dict[str, Callable[[Path, Run], None]] = {
     "docs/how-to-judge.md": _how_to_judge,
     "docs/how-to-measure.md": _measuring,
     "docs/ledger.md": _today,
+    "docs/fleet.md": _fleet,
     "docs/logbook.md": _logbook,
     "docs/planning.md": _planning,
     "docs/measuring.md": _measuring,

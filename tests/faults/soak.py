@@ -1,7 +1,7 @@
 """Runs in real time without any fault, while this computer compiles: does the controller stop itself?
 
 Every run should end with a complete record. One that does not is put down to its cause: the controller's own message,
-beside how late this computer woke a thread that sleeps at that very time, measured by another process.
+beside how late this computer woke threads that slept on each of its processors at that very time.
 """
 
 from __future__ import annotations
@@ -63,11 +63,11 @@ process of its own: real nodes do not wait for a compiler ({granted}).
 Load average {before:.1f} before the compilation began, {after:.1f} at the end: what is above {cores} is work that
 waits, that of others on this computer included.
 
-- *Lateness*: how much later than asked a thread of the same scheduling wakes that sleeps 4 ms, measured during all runs
-  of a rate. It is what this computer does to any program. A cycle lasts 20 ms at 50 Hz and 4 ms at 250 Hz; a SYNC later
-  than half a cycle is left out and counted as *missed*.
+- *Lateness*: how much later than asked a thread of the same scheduling wakes that sleeps 4 ms, one bound to each
+  processor, measured during all runs of a rate. It is what this computer does to any program. A cycle lasts 20 ms at
+  50 Hz and 4 ms at 250 Hz; a SYNC later than half a cycle is left out and counted as *missed*.
 - *Missing*: samples planned and not in a record said to be complete, at most 1 %.
-- *Put down to this computer*: of the runs that did not end complete, those in which the independent thread was late by
+- *Put down to this computer*: of the runs that did not end complete, those in which one of these threads was late by
   more than half a cycle **at the time of the fault** (the {looked_back:.0f} ms and {syncs} SYNCs before the controller
   said that it stopped), or late so often while the axes moved that this explains every sample missing from a short
   record (a delay of n cycles costs at most n + {cost}). Otherwise the run is *unexplained*.
@@ -106,7 +106,7 @@ class Soaked:
     missing, missed : int
         Samples missing from a complete record, and SYNCs left out.
     woken : ndarray
-        When a sleeping thread of this process woke (monotonic, s) and how late (s) during the run, shape (n, 2).
+        When sleeping threads of this process, one a processor, woke (monotonic, s) and how late (s), shape (n, 2).
     lines : tuple of (float, str)
         What the controller printed on stderr, each line with its time (monotonic, s).
     """
@@ -263,10 +263,14 @@ def _real_time(pid: int) -> None:
 
 @contextmanager
 def _lateness() -> Iterator[list[tuple[float, float]]]:
-    """Measure in a thread when it wakes and how late, s, for the length of the context."""
+    """Measure on every processor when a thread wakes and how late, s, for the length of the context.
+
+    A hypervisor suspends processors one by one: a thread that may move says nothing of the one that the rig waits for.
+    """
     end, late_s = threading.Event(), list[tuple[float, float]]()
 
-    def measure() -> None:
+    def measure(processor: int) -> None:
+        os.sched_setaffinity(0, {processor})
         with suppress(PermissionError):
             _real_time(0)
         while not end.is_set():
@@ -275,13 +279,15 @@ def _lateness() -> Iterator[list[tuple[float, float]]]:
             now_s = time.monotonic()
             late_s.append((now_s, now_s - due_s))
 
-    thread = threading.Thread(target=measure, daemon=True)
-    thread.start()
+    threads = [threading.Thread(target=measure, args=(each,), daemon=True) for each in os.sched_getaffinity(0)]
+    for thread in threads:
+        thread.start()
     try:
         yield late_s
     finally:
         end.set()
-        thread.join()
+        for thread in threads:
+            thread.join()
 
 
 def report(runs: int, table: Path | None) -> int:

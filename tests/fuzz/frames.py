@@ -15,6 +15,7 @@ import can
 from hexdbb.capture.boot import add_devices
 from hexdbb.capture.checks import find_fault
 from hexdbb.capture.exchange import Exchange
+from hexdbb.capture.frames import GuardedBus
 from hexdbb.capture.link import Link
 from hexdbb.capture.supervision import NMT_OPERATIONAL, Supervision
 from hexdbb.capture.watch import watch_over
@@ -85,7 +86,7 @@ def read(path: Path) -> object:
     """Decode the frames of a file cycle by cycle and return the messages of the faults they are."""
     bus, nodes = ScriptedBus(frames_of(path.read_text(errors="replace"))), list(range(1, 8))
     supervision = Supervision(nodes, link().notify, 0.3)
-    exchange = Exchange(bus, nodes[:6], 7, supervision.on_frame)  # type: ignore[arg-type]
+    exchange = Exchange(GuardedBus(bus), nodes[:6], 7, supervision.on_frame)
     machine, gauge = shipped_machine(), load_plan("thesis").gauge
     watch = watch_over(
         exchange, supervision, LABELS, machine, gauge, cycle_s=0.004, ball_mm_s=12.5, expected=[100_000] * 6

@@ -1,6 +1,6 @@
 """Write the files of `tests/data/imports`: one simulated test in the habits of many programs.
 
-``python -m tests.imports.make`` simulates the thesis' circle on a machine with backlash (`tests.truth`), writes it in
+``python -m tests.imports.make`` simulates the thesis' circle on a machine with backlash (`hexdbb_truth`), writes it in
 text form (`source.csv`), and then as others would write it. Tests compare every import with the source.
 """
 
@@ -14,11 +14,11 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 from openpyxl import Workbook
-from tests.truth.cases import case
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb.plan import load_plan
 from hexdbb.record import SLIDER_COLUMNS, Record, read_record, write_record
+from hexdbb_truth.cases import case
+from hexdbb_truth.simulate import Pace, simulate
 
 FOLDER = Path(__file__).parents[1] / "data" / "imports"
 CASE = "backlash-x10-s3"

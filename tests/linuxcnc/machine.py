@@ -10,8 +10,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from tests.truth.plans import PACE, discovery_plan
-from tests.truth.simulate import simulate
 
 from hexdbb import compensation
 from hexdbb.diagnosis import Diagnosis, diagnose
@@ -19,6 +17,8 @@ from hexdbb.model import default_effects, new_model
 from hexdbb.rig.mechanisms import MECHANISMS, MechanismTable
 from hexdbb.rig.truth import TruthFile, random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.plans import PACE, discovery_plan
+from hexdbb_truth.simulate import simulate
 
 SEED = 5
 EFFECTS = ("backlash", "pitch_cyclic", "gravity_sag")

@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 import pytest
-from tests.truth.cases import case
 
 from hexdbb.model import load_model
 from hexdbb.record import read_record, write_record
+from hexdbb_truth.cases import case
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "python" / "examples"

@@ -1,8 +1,8 @@
 """Who may import whom: the directions of docs/architecture.md, read from the sources' own import statements.
 
-The lines machine -> ... -> report and rig -> capture -> record meet in the commands only. The simulated rig holds the
-truth that predictions are judged by and shares no code path with them; the C++ engine knows neither Python nor, outside
-the diagnosis, Ceres.
+The lines machine -> ... -> report and rig -> capture -> record meet in the commands only. The simulated rig and the
+truth simulator hold the truth that predictions are judged by and share no code path with them; the C++ engine knows
+neither Python nor, outside the diagnosis, Ceres.
 """
 
 from __future__ import annotations
@@ -17,7 +17,10 @@ import pytest
 from hexdbb import _core
 
 ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "python" / "hexdbb"
+SOURCES = ROOT / "python"
+PACKAGE = SOURCES / "hexdbb"
+TRUTH = "hexdbb_truth"
+"""The package of the truth simulator, beside hexdbb; a part of the table like those of hexdbb."""
 
 # Each part of the package (a package with all that is in it) and the parts it may import.
 ALLOWED: dict[str, set[str]] = {
@@ -26,6 +29,8 @@ ALLOWED: dict[str, set[str]] = {
     "_core": set(),
     "threads": set(),
     "files": {"errors"},
+    # many tasks on Dask, whatever they compute
+    "cluster": {"errors", "files", "_core"},
     # what is measured on, and what is asked of it
     "machine": {"errors", "files"},
     "kinematics": {"errors", "machine", "_core"},
@@ -102,6 +107,7 @@ ALLOWED: dict[str, set[str]] = {
         "identifiability",
         "diagnosis",
         "comparison",
+        "_core",
     },
     # every error's part in the circular deviation
     "contributions": {
@@ -157,6 +163,24 @@ ALLOWED: dict[str, set[str]] = {
         "contributions",
         "charts",
     },
+    # the records of many machines
+    "fleet": {
+        "errors",
+        "files",
+        "threads",
+        "units",
+        "machine",
+        "record",
+        "importing",
+        "model",
+        "samples",
+        "diagnosis",
+        "discovery",
+        "comparison",
+        "trend",
+        "reporting",
+        "cluster",
+    },
     # what a controller does about it
     "trajectory": {"errors", "machine", "plan", "kinematics"},
     "compensation": {"errors", "files", "machine", "record", "kinematics", "model", "trajectory", "_core"},
@@ -176,10 +200,12 @@ ALLOWED: dict[str, set[str]] = {
     },
     # where a machine is wanted to go: reach, limits, singular poses
     "workspace": {"errors", "files", "machine", "kinematics", "identifiability", "plan"},
-    # the thesis' own way, beside ours
+    # the thesis' own way, beside ours; the estimator judged on true machines
     "studies": {
+        TRUTH,
         "errors",
         "files",
+        "threads",
         "units",
         "machine",
         "plan",
@@ -188,7 +214,14 @@ ALLOWED: dict[str, set[str]] = {
         "model",
         "samples",
         "identifiability",
+        "diagnosis",
+        "ledger",
+        "evidence",
+        "discovery",
+        "planning",
         "plots",
+        "rig",
+        "cluster",
         "_core",
     },
     # the public face, beside the commands
@@ -242,6 +275,8 @@ ALLOWED: dict[str, set[str]] = {
     # the rig's line
     "rig": {"errors", "files", "machine"},
     "capture": {"errors", "files", "machine", "plan", "record", "trajectory"},
+    # what the estimator is judged by: none of these parts computes a prediction
+    TRUTH: {"errors", "files", "machine", "plan", "record", "rig"},
 }
 COMMANDS = "cli"
 """The part that may import all others; none may import it."""
@@ -254,7 +289,7 @@ CPP_RULES = [
 
 
 def module_name(path: Path) -> str:
-    parts = ("hexdbb", *path.relative_to(PACKAGE).with_suffix("").parts)
+    parts = path.relative_to(SOURCES).with_suffix("").parts
     return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
 
 
@@ -272,8 +307,10 @@ def imported_names(source: str, package: str) -> set[str]:
 
 
 def part_of(name: str) -> str | None:
-    """Part of the package a dotted name lies in; None outside the package, and for its root (the version)."""
+    """Part of the table a dotted name lies in; None outside the packages, and for the root of hexdbb (the version)."""
     top, _, rest = name.partition(".")
+    if top == TRUTH:
+        return TRUTH
     first = rest.partition(".")[0]
     return first if top == "hexdbb" and first in {*ALLOWED, COMMANDS} else None
 
@@ -303,7 +340,7 @@ def cpp_violations(place: str, source: str) -> list[str]:
     ]
 
 
-PYTHON_FILES = sorted(PACKAGE.rglob("*.py"))
+PYTHON_FILES = sorted([*PACKAGE.rglob("*.py"), *(SOURCES / TRUTH).rglob("*.py")])
 CPP_FILES = sorted(path for path in (ROOT / "cpp").rglob("*") if path.suffix in {".hpp", ".cpp", ".h"})
 
 
@@ -345,6 +382,11 @@ def test_the_table_has_no_cycle_and_no_part_that_is_gone() -> None:
         ("hexdbb.comparison.tables", "from hexdbb.cli.exits import reports_errors"),
         ("hexdbb", "from hexdbb.machine import load_machine"),
         ("hexdbb.new_module", ""),
+        ("hexdbb.diagnosis.fit", "from hexdbb_truth.simulate import simulate"),
+        ("hexdbb.discovery", "import hexdbb_truth"),
+        ("hexdbb.rig.truth", "from hexdbb_truth import plans"),
+        ("hexdbb_truth.forms.fit", "from hexdbb.diagnosis import diagnose"),
+        ("hexdbb_truth.cases", "from hexdbb import _core"),
     ],
 )
 def test_a_forbidden_import_is_caught(module: str, source: str) -> None:
@@ -393,6 +435,7 @@ NAME_BLIND = (
     "evidence",
     "discovery",
     "workbench",
+    "fleet",
 )
 """Parts that work on any list of effects and know none by name."""
 
@@ -420,6 +463,12 @@ def test_samples_alone_give_the_engine_its_form_of_a_record() -> None:
     makers = {
         module_name(path) for path in PYTHON_FILES if re.search(r"\b_core\.Samples\(", path.read_text(encoding="utf-8"))
     }
-    # Poses without a state: bare kinematics, the ball's position read by far cups, the thesis' nominal circle.
-    bare = {"hexdbb.kinematics.poses", "hexdbb.diagnosis.place_uncertainty", "hexdbb.studies.thesis.circular_test"}
+    # Poses without a state: bare kinematics, the ball's position read by far cups or computed by a model, the thesis'
+    # nominal circle.
+    bare = {
+        "hexdbb.kinematics.poses",
+        "hexdbb.diagnosis.place_uncertainty",
+        "hexdbb.studies.thesis.circular_test",
+        "hexdbb.studies.measured",
+    }
     assert makers == {"hexdbb.samples.whole", *bare}

@@ -63,7 +63,7 @@ hexdbb compensate model.toml --max-correction-um {most_um:g} -o sp120.hexcomp
 hexdbb-run --plan held-out.toml --compensation sp120.hexcomp -o after.parquet
 hexdbb compare after.parquet -m model.toml
 ```
-The machines are those of the [truth simulator](../tests/truth), which shares no code with the engine: errors of
+The machines are those of the [truth simulator](../python/hexdbb_truth), which shares no code with the engine: errors of
 geometry of 50 µm and 0.2 mrad, cup and ball misplaced by 0.1 and 0.03 mm, in every drive play of 5 to 20 µm and a
 pitch error of 2 to 6 µm (second harmonic 0.5 to 2 µm), legs with a compliance of 0.4 µm/N; gauge noise 0.5 µm. Fitted:
 [best-7](plans/best-7.toml), seven circles about one cup, one radius of 100 mm. Held out: {circles} circles, each about

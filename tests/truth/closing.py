@@ -17,8 +17,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 from tests.truth.held_out import held_out_plans
-from tests.truth.simulate import Pace, simulate
-from tests.truth.timeline import Drive
 
 from hexdbb.comparison.circles import compare_circles
 from hexdbb.compensation import CompensatedTargets, make_compensation
@@ -32,6 +30,8 @@ from hexdbb.record import Record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import GaugeTruth, TruthFile, random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.simulate import Pace, simulate
+from hexdbb_truth.timeline import Drive
 
 Floats = NDArray[np.float64]
 ReportStep = Callable[[str], None]

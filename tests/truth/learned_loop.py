@@ -13,10 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from tests.truth.closing import circle_errors, drive_of
-from tests.truth.forms import cases as forms
-from tests.truth.forms.history import History
-from tests.truth.forms.measure import Measured
-from tests.truth.timeline import Drive
 
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import discover
@@ -26,6 +22,10 @@ from hexdbb.model import Model, new_model
 from hexdbb.record import Record
 from hexdbb.rig.truth import Setup
 from hexdbb.samples import Samples
+from hexdbb_truth.forms import cases as forms
+from hexdbb_truth.forms.history import History
+from hexdbb_truth.forms.measure import Measured
+from hexdbb_truth.timeline import Drive
 
 LEFT_OUT = (2, 4)
 """Places of the circles that take no part in the fit, of the plan's nine."""

@@ -24,6 +24,7 @@
 #include "hexdbb/compensation_file.hpp"
 #include "hexdbb/kinematics.hpp"
 #include "hexdbb/slider_polynomials.hpp"
+#include "hexdbb/slider_waves.hpp"
 
 namespace hexdbb {
 
@@ -93,29 +94,36 @@ class Compensator {
   void set_tables(const Direction& direction, const Vector6& travel_direction, const Vector6& leg_force,
                   const Pose& nominal_pose, const Vector6& nominal_mm) noexcept;
   Vector6 leg_force(const Pose& pose, const Vector6& nominal_mm) const noexcept;
-  const Ports& push_at(const Vector6& sliders_mm) noexcept;
-  bool solve(const Pose& pose, const Vector6& nominal_mm, SliderTargets& out) noexcept;
+  const LegPorts& push_at(const LegRow& sliders_mm) noexcept;
+  void push_beside(const LegRow& sliders_mm) noexcept;
+  int reach(const Pose& pose) noexcept;
+  bool solve(const Pose& pose, SliderTargets& out) noexcept;
+  void remember(const SliderTargets& out) noexcept;
 
   Model model_;                    // effects evaluated in every iteration
   SliderPolynomials polynomials_;  // all others, folded
+  SliderWaves waves_;
   TableSet tables_;
   CompensationLimits limits_;
   double reference_temperature_c_ = std::numeric_limits<double>::quiet_NaN();
-  bool has_effects_ = false, needs_leg_force_ = false, needs_pose_ = false;
+  bool has_effects_ = false, is_folded_ = false, needs_leg_force_ = false, needs_pose_ = false;
   double direction_per_mm_ = 0.0;
   double contraction_ = 0.0;  // bound of the change of targets per change of the coordinates at which effects are taken
   double bend_ = 0.0;         // bound of the change of that from one side of a table's knot to the other
+  NominalLegs legs_;
   PlatformTriangle nominal_triangle_;
 
   Samples now_;  // one row: the state in which the effects are evaluated
   TableState table_state_;
-  Ports none_, push_;
+  LegPorts push_;
+  LegRow reach_mm_[3], nominal_mm_;  // at the present pose: nominal ball joints from the vertices, nominal coordinates
   Vector6 travel_direction_ = Vector6::Zero();  // -1 .. 1
   Vector6 joint_direction_ = Vector6::Zero();   // -1 .. 1
   Vector6 followed_mm_, checked_mm_;            // nominal coordinates; NaN where there are none
-  Vector6 last_targets_mm_ = Vector6::Zero(), last_correction_mm_ = Vector6::Zero();
-  Vector6 correction_step_mm_ = Vector6::Zero();  // from the last correction but one to the last
-  bool has_last_ = false;                         // any of them
+  Vector6 last_targets_mm_ = Vector6::Zero();
+  LegRow correction_mm_, last_correction_mm_;  // at the present pose, and of the last call that counted
+  LegRow correction_step_mm_;                  // from the last correction but one to the last
+  bool has_last_ = false;                      // any of them
   double part_ = 1.0, wanted_part_ = 1.0;
   RssrAngles angles_, nominal_angles_;
   Pose last_pose_;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "hexdbb/mechanism.hpp"
+#include "hexdbb/leg_ports.hpp"
 
 namespace hexdbb {
 
@@ -134,8 +134,8 @@ class TableSet {
   /// Set the state for the following calls of add().
   void settle(const TableState& state) noexcept;
 
-  /// Add the pushes with the sliders at these coordinates.
-  void add(const Vector6& sliders_mm, Ports& push) noexcept;
+  /// Add the pushes with the sliders at these coordinates; `push` has to be repeated() then.
+  void add(const LegRow& sliders_mm, LegPorts& push) noexcept;
 
  private:
   /// A function of one element's variable, and what it pushes: [first_push, last_push) of pushes_.
@@ -147,11 +147,11 @@ class TableSet {
     double factor = 0.0;
   };
   struct Push {
-    int port;
+    int place;  // of LegPorts
     double weight;
   };
 
-  void push(const Lookup& lookup, double value_mm, Ports& out) const noexcept;
+  void push(const Lookup& lookup, double value_mm, LegPorts& out) const noexcept;
 
   std::vector<TableFunction> functions_;
   std::vector<Lookup> lookups_;  // those of slider positions first
@@ -159,8 +159,8 @@ class TableSet {
   std::vector<Push> pushes_;
   std::array<unsigned, static_cast<std::size_t>(TableVariable::kCount)> legs_{};
   double steepest_ = 0.0, sharpest_ = 0.0;
-  Ports settled_;               // what does not depend on slider positions
-  std::vector<int> is_pushed_;  // ports of settled_ that may be pushed
+  LegPorts settled_;            // what does not depend on slider positions
+  std::vector<int> is_pushed_;  // places of settled_ that may be pushed
 };
 
 }  // namespace hexdbb

@@ -11,6 +11,8 @@
 //
 // Two optimisers. A diagnosis is minimized by Levenberg-Marquardt in Ceres with analytic derivatives, the full fit of a
 // hypothesis by Levenberg-Marquardt with geodesic acceleration (src/valley.hpp, with the measurement behind this).
+// Of many readings, Ceres takes a diagnosis to the minimum of about a thousand of them; the end, on all readings, is a
+// few steps with geodesic acceleration. Where these do not come to rest, Ceres starts again on all.
 // Ceres supports Huber's loss, on which a diagnosis of readings with glitches depends, and converges to 1e-9; the
 // geodesic method is three times faster on the incomplete models of which a discovery fits many. Neither is the more
 // robust: each ends in the worse minimum in about a sixth of the incomplete models.
@@ -51,7 +53,7 @@ struct FitResult {
   double rms_after_mm = 0.0;
   double noise_mm = 0.0;     // used for the covariance: the larger of the given noise and the residuals' own
   double correlation = 1.0;  // integrated autocorrelation time of the residuals, in samples
-  int iterations = 0;
+  int iterations = 0;        // on all readings
   bool usable = false;
   std::string termination;
 };
@@ -63,6 +65,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
 
 /// Compute the integrated autocorrelation time of residuals within sweeps, in samples: 1 + 2 sum of autocorrelations,
 /// summed while pairs of them stay positive (initial positive sequence, Geyer 1992); at least 1.
+/// Throws std::invalid_argument where lengths differ.
 double autocorrelation_time(const Eigen::VectorXd& residual, const Eigen::VectorXi& sweep);
 
 /// Return the prior standard deviation of each value of a model.

@@ -58,6 +58,9 @@ using ConstPortBlock = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, po
 using JacobianBlock = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 using Values = Eigen::Ref<const Eigen::VectorXd>;
 
+class Effect;
+using EffectPtr = std::shared_ptr<const Effect>;
+
 class Effect {
  public:
   explicit Effect(EffectInfo info) : info_(std::move(info)) {}
@@ -75,11 +78,13 @@ class Effect {
   virtual void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
                      JacobianBlock jacobian) const = 0;
 
+  /// Return the effect for many blocks at the same values, with what the values alone determine computed once; null
+  /// where that is nothing worth while.
+  virtual EffectPtr settled(Values) const { return nullptr; }
+
  private:
   EffectInfo info_;
 };
-
-using EffectPtr = std::shared_ptr<const Effect>;
 
 /// Return the effect of that name; `mounts` is the number of fixings of the tool cup that the model distinguishes.
 /// Throws std::invalid_argument, listing the known names, where there is none.

@@ -17,4 +17,9 @@ struct NormalEquations {
 /// Compute the normal equations for all values of a model. Throws std::invalid_argument where shapes disagree.
 NormalEquations normal_equations(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm);
 
+/// Limit the threads that sum normal equations, for the whole process; 0: as many as cores. Sums are added in another
+/// order by another number of threads, so that values may differ in their last digits.
+/// Throws std::invalid_argument for a negative number.
+void limit_threads(int most);
+
 }  // namespace hexdbb

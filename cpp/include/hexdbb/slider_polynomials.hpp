@@ -3,12 +3,14 @@
 // Model: push_p = sum over x of x (c0 + c1 u + c2 u^2), u the coordinate of slider k(p) from mid-travel per half
 // travel, k(p) the slider or leg to which port p belongs, x one of: 1, the slider's velocity, its direction of travel,
 // its leg's force, the warming. All geometric errors of the thesis, and all effects of the catalogue that a controller
-// can correct except the pitch error of the screws, have this form. Whether an effect has it is determined by
-// evaluating it: some positions and states determine the coefficients, others verify them.
+// can correct except the pitch error of the screws (slider_waves.hpp), have this form. Whether an effect has it is
+// determined by evaluating it: some positions and states determine the coefficients, others verify them.
 #pragma once
 
 #include <array>
+#include <vector>
 
+#include "hexdbb/leg_ports.hpp"
 #include "hexdbb/prediction.hpp"
 
 namespace hexdbb {
@@ -24,29 +26,38 @@ struct InstantState {
 class SliderPolynomials {
  public:
   static constexpr int kPorts = port::kBall;  // slider, leg, slider_joint, platform_joint
+  static constexpr int kPowers = 3;
 
   explicit SliderPolynomials(const Machine& machine);
 
   /// Add an effect. Return false, and add nothing, where it does not have this form.
   bool fold(const Term& term);
 
-  /// Set the state for the following calls of evaluate().
+  /// Set the state for the following evaluations.
   void settle(const InstantState& state) noexcept;
 
-  /// Compute the push at the first kPorts ports; the others become zero.
-  void evaluate(const Vector6& sliders_mm, Ports& push) const noexcept;
+  /// Coefficients of each power of u in the state set.
+  const std::array<LegPorts, kPowers>& settled() const noexcept { return settled_; }
+
+  const LegRow& middle_mm() const noexcept { return middle_mm_; }
+  const LegRow& per_half() const noexcept { return per_half_; }  // 1 / mm
 
  private:
   static constexpr int kFactors = 5;  // 1, velocity, direction of travel, leg force, warming
-  using Coefficients = Eigen::Matrix<double, kPorts, 3>;
+  using Coefficients = std::array<LegPorts, kPowers>;
+
+  /// One row of coefficients that a factor other than 1 multiplies.
+  struct Varying {
+    int factor, power, quantity;
+  };
 
   Coefficients coefficients_of(const Term& term, int factor) const;
+  void find_varying();
 
   Machine machine_;
-  Vector6 middle_mm_, half_mm_;
+  LegRow middle_mm_, per_half_;
   std::array<Coefficients, kFactors> of_factor_;
-  std::array<std::array<bool, 3>, kFactors> is_used_{};  // of factor and power
-  std::array<bool, 3> varies_{};                         // of power: any factor but 1
+  std::vector<Varying> varying_;
   Coefficients settled_;
 };
 

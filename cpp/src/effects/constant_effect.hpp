@@ -1,9 +1,11 @@
 // An effect in which every value pushes ports by a constant factor, whatever the state of the sample.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "columns.hpp"
 #include "hexdbb/effect.hpp"
 
 namespace hexdbb::effects {
@@ -17,15 +19,27 @@ struct Link {
 
 class ConstantEffect : public Effect {
  public:
-  ConstantEffect(EffectInfo info, std::vector<Link> links) : Effect(std::move(info)), links_(std::move(links)) {}
+  ConstantEffect(EffectInfo info, std::vector<Link> links) : Effect(std::move(info)), links_(std::move(links)) {
+    std::stable_sort(links_.begin(), links_.end(),
+                     [](const Link& one, const Link& other) { return one.value < other.value; });
+  }
 
   void push(const SampleBlock&, Values values, PortBlock ports) const override {
-    for (const Link& link : links_) ports.col(link.port).array() += link.factor * values[link.value];
+    for (const Link& link : links_) {
+      const double pushed = link.factor * values[link.value];
+      if (pushed != 0.0) ports.col(link.port).array() += pushed;
+    }
   }
 
   void chain(const SampleBlock&, Values, ConstPortBlock sensitivity, JacobianBlock jacobian) const override {
-    jacobian.setZero();
-    for (const Link& link : links_) jacobian.col(link.value) += link.factor * sensitivity.col(link.port);
+    auto link = links_.begin();
+    for (Eigen::Index value = 0; value < jacobian.cols(); ++value) {
+      auto add = &set_scaled;
+      if (link == links_.end() || link->value != value) jacobian.col(value).setZero();
+      for (; link != links_.end() && link->value == value; ++link, add = &add_scaled) {
+        add(jacobian.rows(), link->factor, sensitivity.col(link->port).data(), jacobian.col(value).data());
+      }
+    }
   }
 
  private:

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "columns.hpp"
 #include "elements.hpp"
 #include "geometric_sizes.hpp"
 #include "hexdbb/effect.hpp"
@@ -38,10 +39,11 @@ class GuidewayRotation : public Effect {
     for (int k = 0; k < kLegs; ++k) {
       const Lever& lever = levers_[guideway_of(k)];
       const double angle = values[guideway_of(k)];
+      if (angle == 0.0) continue;
       const Affine move = lever.at(std::sin(angle), 1.0 - std::cos(angle));
       for (int axis = 0; axis < 3; ++axis) {
-        ports.col(port::kSliderJoint + 3 * k + axis).array() +=
-            move.constant[axis] + move.slope[axis] * block.slider_mm(k).array();
+        add_affine(block.count, move.constant[axis], move.slope[axis], block.slider_mm(k).data(),
+                   ports.col(port::kSliderJoint + 3 * k + axis).data());
       }
     }
   }
@@ -54,8 +56,9 @@ class GuidewayRotation : public Effect {
       const double angle = values[guideway_of(k)];
       const Affine rate = lever.at(std::cos(angle), std::sin(angle));
       for (int axis = 0; axis < 3; ++axis) {
-        jacobian.col(guideway_of(k)).array() += sensitivity.col(port::kSliderJoint + 3 * k + axis).array() *
-                                                (rate.constant[axis] + rate.slope[axis] * block.slider_mm(k).array());
+        add_affine_times(block.count, rate.constant[axis], rate.slope[axis], block.slider_mm(k).data(),
+                         sensitivity.col(port::kSliderJoint + 3 * k + axis).data(),
+                         jacobian.col(guideway_of(k)).data());
       }
     }
   }

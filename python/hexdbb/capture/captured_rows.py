@@ -40,3 +40,7 @@ class CapturedRows:
         else:
             self._samples.drop()
         self._progress.samples = self._samples.count
+
+    def pause(self) -> None:
+        """Append what was accepted to the journal."""
+        self._samples.flush()

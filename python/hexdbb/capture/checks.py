@@ -161,20 +161,20 @@ def _modes(watch: Watch) -> Fault | None:
 
 def _status_bits(watch: Watch) -> Fault | None:
     for slot, word in enumerate(watch.feedback.statusword):
-        for bit, meaning in ((FOLLOWING_ERROR, "following error"), (INTERNAL_LIMIT, "internal limit active")):
-            if word & bit:
-                return Fault(watch.labels[slot], f"object 6041:00 is {word:04X}h, {meaning} (expected that bit clear)")
+        if word & (FOLLOWING_ERROR | INTERNAL_LIMIT):
+            meaning = "following error" if word & FOLLOWING_ERROR else "internal limit active"
+            return Fault(watch.labels[slot], f"object 6041:00 is {word:04X}h, {meaning} (expected that bit clear)")
     return None
 
 
 def _lasting_bits(watch: Watch) -> Fault | None:
     for slot, word in enumerate(watch.feedback.statusword):
-        for bit, meaning in ((HOMED, "no longer homed"), (FOLLOWS_COMMAND, "does not follow its target")):
-            if not word & bit:
-                number = bit.bit_length() - 1
-                return Fault(
-                    watch.labels[slot], f"object 6041:00 is {word:04X}h, {meaning} (expected bit {number} set)"
-                )
+        if not (word & HOMED and word & FOLLOWS_COMMAND):
+            bit, meaning = (
+                (FOLLOWS_COMMAND, "does not follow its target") if word & HOMED else (HOMED, "no longer homed")
+            )
+            what = f"object 6041:00 is {word:04X}h, {meaning} (expected bit {bit.bit_length() - 1} set)"
+            return Fault(watch.labels[slot], what)
     return None
 
 

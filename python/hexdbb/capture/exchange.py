@@ -4,6 +4,8 @@ Pairing: at a SYNC every node samples its values and sends them, then acts on th
 The answers to one SYNC therefore belong together, and the positions sampled at SYNC k are the result of the target of
 SYNC k-1: they are recorded with row k-1 of the table of targets.
 
+Frames of a cycle leave together where the bus permits it. Answers are taken one by one: what arrives after the last
+answer to a SYNC is too late or one too many, also where it was read together with that answer.
 An answer carries nothing that tells its SYNC, so answers are counted: exactly one of every node between two SYNCs. One
 that is missing may still come and is waited for before the next SYNC (`Loop`); one too many makes the answers doubtful.
 Source: CiA 301, synchronous PDOs of transmission type 1.
@@ -16,7 +18,9 @@ from collections.abc import Callable, Iterable, Sequence
 
 import can
 
+from hexdbb.capture.frames import GuardedBus
 from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID
+from hexdbb.capture.socketcand import Frame
 
 GAUGE_SLOT = 6
 SLOTS = 7
@@ -85,7 +89,7 @@ class Exchange:
 
     Parameters
     ----------
-    bus : can.BusABC
+    bus : GuardedBus
         An open bus that nothing else reads.
     drive_nodes : sequence of int
         Node ids of the drives of sliders 1 to 6.
@@ -113,16 +117,17 @@ class Exchange:
 
     def __init__(
         self,
-        bus: can.BusABC,
+        bus: GuardedBus,
         drive_nodes: Sequence[int],
         gauge_node: int,
-        other: Callable[[int, bytearray, float], None],
+        other: Callable[[int, bytes | bytearray, float], None],
         sync_overflow: int = 0,
     ) -> None:
         self._bus, self._other = bus, other
         self._sync_overflow = sync_overflow
         self._targets = [_message(DRIVE_RPDO.cob_id(node), DRIVE_RPDO.bytes) for node in drive_nodes]
         self._sync = _message(SYNC_ID, 1 if sync_overflow else 0)
+        self._sync_alone, self._sync_after_targets = [self._sync], [*self._targets, self._sync]
         self._slots = {DRIVE_TPDO.cob_id(node): slot for slot, node in enumerate(drive_nodes)}
         self._slots[GAUGE_TPDO.cob_id(gauge_node)] = GAUGE_SLOT
         self._rpdo, self._drive, self._gauge = DRIVE_RPDO.struct, DRIVE_TPDO.struct, GAUGE_TPDO.struct
@@ -136,8 +141,8 @@ class Exchange:
         self._owed = [0] * SLOTS
         self.sync_s = 0.0
 
-    def send_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
-        """Send the six RPDOs, which take effect at the next SYNC.
+    def set_targets(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
+        """Pack the six RPDOs, which take effect at the SYNC after they were sent.
 
         Parameters
         ----------
@@ -145,23 +150,21 @@ class Exchange:
             Object 6040h of each drive, shape (6,).
         counts : sequence of int
             Object 607Ah of each drive, shape (6,).
-
-        Raises
-        ------
-        can.CanError
-            The bus cannot send.
         """
-        pack, send = self._rpdo.pack_into, self._bus.send
+        pack = self._rpdo.pack_into
         for message, controlword, count in zip(self._targets, controlwords, counts, strict=True):
             pack(message.data, 0, controlword, count)
-            send(message)
 
-    def send_sync(self) -> None:
-        """Send the SYNC; raises `can.CanError` if the bus cannot send."""
+    def send_targets(self) -> None:
+        """Send the RPDOs as packed last; raises `can.CanError` if the bus cannot send."""
+        self._bus.send_all(self._targets)
+
+    def send_sync(self, with_targets: bool = False) -> None:
+        """Send the SYNC, the RPDOs before it if asked for; raises `can.CanError` if the bus cannot send."""
         if self._sync_overflow:
             self._sync.data[0] = self._sync.data[0] % self._sync_overflow + 1
         self.feedback.settled = not any(self._owed)
-        self._bus.send(self._sync)
+        self._bus.send_all(self._sync_after_targets if with_targets else self._sync_alone)
         self.sync_s = time.monotonic()
         self.feedback.cycle += 1
         self._outstanding = set(range(SLOTS))
@@ -180,13 +183,13 @@ class Exchange:
             The same object in every cycle; `missing` names the slots without an answer.
         """
         end_s = time.monotonic() + timeout_s
-        recv, outstanding, given_up, backlog = self._bus.recv, self._outstanding, self._given_up, MAX_BACKLOG
+        take, outstanding, given_up, backlog = self._bus.take, self._outstanding, self._given_up, MAX_BACKLOG
         while backlog and not outstanding <= given_up:
             left_s = end_s - time.monotonic()
             backlog -= left_s <= 0.0
-            message = recv(max(left_s, 0.0))
-            if message is not None:
-                self._take(message)
+            frame = take(left_s if left_s > 0.0 else 0.0)
+            if frame is not None:
+                self._take(frame)
             elif left_s <= 0.0:
                 break
         self.feedback.missing = tuple(sorted(outstanding))
@@ -199,20 +202,20 @@ class Exchange:
         Answers among them come late, to be paired no more, or are one too many.
         """
         for _ in range(MAX_BACKLOG):
-            message = self._bus.recv(quiet_s)
-            if message is None:
+            frame = self._bus.take(quiet_s)
+            if frame is None:
                 self.feedback.flooded = 0
                 return
-            self._take(message, late=True)
+            self._take(frame, late=True)
         self.feedback.flooded += 1
 
     def await_late(self, timeout_s: float) -> None:
         """Wait for the missing answers to the last SYNC; after that they count as lost and may come no more."""
         end_s = time.monotonic() + timeout_s
         while self.is_waiting() and (left_s := end_s - time.monotonic()) > 0.0:
-            message = self._bus.recv(left_s)
-            if message is not None:
-                self._take(message, late=True)
+            frame = self._bus.take(left_s)
+            if frame is not None:
+                self._take(frame, late=True)
 
     def is_waiting(self) -> bool:
         """Return whether an answer to the last SYNC may still come."""
@@ -241,15 +244,16 @@ class Exchange:
         """Receive frames for `timeout_s` seconds while no SYNC is being answered."""
         end_s = time.monotonic() + timeout_s
         while (left_s := end_s - time.monotonic()) > 0.0:
-            message = self._bus.recv(left_s)
-            if message is not None:
-                self._take(message, late=True)
+            frame = self._bus.take(left_s)
+            if frame is not None:
+                self._take(frame, late=True)
 
-    def _take(self, message: can.Message, late: bool = False) -> None:
+    def _take(self, frame: Frame, late: bool = False) -> None:
         """Take in one frame: an answer, one too many or too late, or a frame of another service."""
-        slot = self._slots.get(message.arbitration_id)
+        can_id, data, _ = frame
+        slot = self._slots.get(can_id)
         if slot is None:
-            self._other(message.arbitration_id, message.data, message.timestamp)
+            self._other(*frame)
         elif slot not in self._outstanding:
             self.doubtful = True
             if self._owed[slot]:
@@ -260,10 +264,10 @@ class Exchange:
         elif late:
             self._outstanding.discard(slot)
             self.late_s[slot] = time.monotonic() - self.sync_s
-        elif self._decode(slot, message.data):
+        elif self._decode(slot, data):
             self._outstanding.discard(slot)
 
-    def _decode(self, slot: int, data: bytearray) -> bool:
+    def _decode(self, slot: int, data: bytes | bytearray) -> bool:
         """Decode one answer; return False if its length is not the configured one, so that it counts as missing."""
         feedback = self.feedback
         layout = self._gauge if slot == GAUGE_SLOT else self._drive

@@ -11,10 +11,12 @@ from __future__ import annotations
 import struct
 import time
 from collections import deque
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import can
 
+from hexdbb.capture.socketcand import Frame, SocketcandBus, as_frame, as_message
 from hexdbb.capture.transport import one_line
 
 NODE_MASK = 0x7F
@@ -47,6 +49,8 @@ class FrameSource(Protocol):
 class GuardedBus:
     """A bus of which nothing but data frames with 11-bit identifiers is seen, and that raises `can.CanError` only.
 
+    From and to a socketcand server frames come without an object for each of them, and several leave together.
+
     Parameters
     ----------
     bus : can.BusABC
@@ -60,9 +64,14 @@ class GuardedBus:
 
     def __init__(self, bus: FrameSource) -> None:
         self._bus = bus
+        self._next: Callable[[float | None], Frame | can.Message | None] = self._next_of_any
+        self._send_all: Callable[[Sequence[can.Message]], None] = self._send_each
+        self._received: deque[Frame | can.Message] = deque()
+        if isinstance(bus, SocketcandBus):
+            self._next, self._send_all, self._received = bus.receive, bus.send_all, bus.received
         self.foreign: deque[str] = deque(maxlen=KEPT_FOREIGN)
 
-    def recv(self, timeout: float | None = None) -> can.Message | None:
+    def take(self, timeout: float | None = None) -> Frame | None:
         """Return the next data frame with an 11-bit identifier, or None after `timeout` seconds.
 
         Raises
@@ -70,22 +79,30 @@ class GuardedBus:
         can.CanError
             The bus cannot receive.
         """
+        frame = self._received.popleft() if self._received else self._receive(timeout)
+        if frame is None or isinstance(frame, tuple):
+            return frame
         end_s = None if timeout is None else time.monotonic() + timeout
-        left_s = timeout
         for _ in range(MAX_FOREIGN):
-            message = self._receive(left_s)
-            if message is None:
-                return None
-            if not (message.is_extended_id or message.is_error_frame or message.is_remote_frame or message.is_fd):
-                return message
-            self.foreign.append(str(message).strip())
-            left_s = None if end_s is None else max(end_s - time.monotonic(), 0.0)
+            self.foreign.append(str(frame).strip())
+            frame = self._receive(None if end_s is None else max(end_s - time.monotonic(), 0.0))
+            if frame is None or isinstance(frame, tuple):
+                return frame
         return None
+
+    def recv(self, timeout: float | None = None) -> can.Message | None:
+        """Return what `take` returns as python-can represents it."""
+        frame = self.take(timeout)
+        return None if frame is None else as_message(frame)
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send a frame; raises `can.CanError` if the bus cannot."""
+        self.send_all([msg])
+
+    def send_all(self, messages: Sequence[can.Message]) -> None:
+        """Send frames in order; raises `can.CanError` if the bus cannot."""
         try:
-            self._bus.send(msg, timeout)
+            self._send_all(messages)
         except (can.CanError, OSError):
             raise
         except Exception as error:
@@ -98,9 +115,18 @@ class GuardedBus:
         skipped["message that cannot be parsed"] = getattr(self._bus, "dropped", deque())
         return [f"bus: skipped, {what}: {last[-1]}" for what, last in skipped.items() if last]
 
-    def _receive(self, timeout: float | None) -> can.Message | None:
+    def _next_of_any(self, timeout: float | None) -> Frame | can.Message | None:
+        """Return the next frame of a bus of python-can; a message where it is no data frame of 11 bits."""
+        message = self._bus.recv(timeout)
+        return None if message is None else as_frame(message)
+
+    def _send_each(self, messages: Sequence[can.Message]) -> None:
+        for message in messages:
+            self._bus.send(message)
+
+    def _receive(self, timeout: float | None) -> Frame | can.Message | None:
         try:
-            return self._bus.recv(timeout)
+            return self._next(timeout)
         except (can.CanError, OSError):
             raise
         except Exception as error:

@@ -2,14 +2,14 @@
 
 A position loop follows a smooth path with a following error e = tau v. Answers that come one SYNC late shift the error
 by v times the cycle, which shows as a lag longer by one cycle, whatever the counts of answers say.
+Six numbers a cycle are plain numbers: an array of six costs more than what is computed with it.
 Source: least squares of e on v with exponential forgetting (Ljung, System Identification, section 11.2).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-
-import numpy as np
 
 MEMORY = 25
 """SYNCs over which an estimate forgets: reversals with stiction (some SYNCs) do not move it by half a cycle."""
@@ -36,34 +36,35 @@ class LagWatch:
 
     def __init__(self, counts_per_mm: float) -> None:
         self._least = (LEAST_STEP_MM * counts_per_mm) ** 2
-        self._squares = np.zeros(6)
-        self._products = np.zeros(6)
+        self._squares = [0.0] * 6
+        self._products = [0.0] * 6
         self._weight = 0.0
-        self._told = np.zeros(6, np.intp)
-        self._first = np.full(6, np.nan)
+        self._told = [0] * 6
+        self._first = [math.nan] * 6
 
     def update(self, steps: Sequence[int], errors: Sequence[int]) -> None:
         """Take in the targets' steps and the following errors of a SYNC, counts, shape (6,)."""
         keep = 1.0 - 1.0 / MEMORY
-        step = np.asarray(steps, dtype=np.float64)
-        self._squares = keep * self._squares + step * step
-        self._products = keep * self._products + step * np.asarray(errors, dtype=np.float64)
+        self._squares = [keep * square + step * step for square, step in zip(self._squares, steps, strict=True)]
+        each = zip(self._products, steps, errors, strict=True)
+        self._products = [keep * product + step * error for product, step, error in each]
         self._weight = keep * self._weight + 1.0
-        seen = self._squares > self._least * self._weight
-        self._told = np.where(seen, self._told + 1, 0)
+        least = self._least * self._weight
+        self._told = [told + 1 if square > least else 0 for told, square in zip(self._told, self._squares, strict=True)]
 
     def pause(self) -> None:
         """Leave a circle: what was estimated at first is kept."""
-        self._told[:] = 0
+        self._told = [0] * 6
 
     def shifted(self) -> tuple[int, float, float] | None:
         """Return an axis whose answers are another SYNC's: its slot, its lag and the one at first (cycles); or None."""
-        if self._told.max() < SETTLING or self._told.max() % EVERY:
+        longest = max(self._told)
+        if longest < SETTLING or longest % EVERY:
             return None
-        lag = np.where(self._told >= SETTLING, self._products / np.maximum(self._squares, 1.0), np.nan)
-        self._first = np.where(np.isnan(self._first), lag, self._first)
-        off = np.flatnonzero(np.abs(lag - self._first) > CYCLES)
-        if not len(off):
-            return None
-        slot = int(off[0])
-        return slot, float(lag[slot]), float(self._first[slot])
+        certain = [slot for slot, told in enumerate(self._told) if told >= SETTLING]
+        lags = {slot: self._products[slot] / max(self._squares[slot], 1.0) for slot in certain}
+        for slot, lag in lags.items():
+            if math.isnan(self._first[slot]):
+                self._first[slot] = lag
+        off = [slot for slot, lag in lags.items() if abs(lag - self._first[slot]) > CYCLES]
+        return (off[0], lags[off[0]], self._first[off[0]]) if off else None

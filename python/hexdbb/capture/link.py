@@ -64,7 +64,7 @@ class Link(canopen.Network):
             self.flush()
             self._outbox = None
 
-    def notify(self, can_id: int, data: bytearray, timestamp: float) -> None:
+    def notify(self, can_id: int, data: bytes | bytearray, timestamp: float) -> None:
         """Process a frame: keep what is wrong with it, or pass an SDO answer on to `canopen`.
 
         `canopen` is given nothing else: its consumers of EMCY, NMT and heartbeat raise for frames cut short and keep
@@ -101,9 +101,9 @@ class Link(canopen.Network):
     def _receive(self, finished: threading.Event) -> None:
         while not finished.is_set():
             try:
-                message = self.bus.recv(READ_S)
+                frame = self._guard.take(READ_S)
             except (can.CanError, OSError) as error:
                 self._lost = error  # raised where the next frame is sent: nobody waits for this thread
                 return
-            if message is not None:
-                self.notify(message.arbitration_id, message.data, message.timestamp)
+            if frame is not None:
+                self.notify(*frame)

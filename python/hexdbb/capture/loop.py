@@ -115,13 +115,15 @@ class Loop:
         can.CanError
             The bus is lost.
         """
-        self._send(controlwords, counts)
+        # In lockstep nothing passes between targets and SYNC unless answers are awaited: they leave together.
+        together = not (self.clock.real_time or self._incomplete)
+        self._send(controlwords, counts, with_targets=not together)
         self.last_missed = self.clock.wait()
         self.missed += self.last_missed
         self._exchange.drain()
         self._settle_answers()
         self.cycle_index += 1 + self.last_missed
-        self._exchange.send_sync()
+        self._exchange.send_sync(with_targets=together)
         self.times.take(self._exchange.sync_s, self.last_missed)
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
         self.times.latency.late.take(self.clock.late_s)
@@ -239,9 +241,12 @@ class Loop:
         self.cycle_index = cycle_index
         return future.result()
 
-    def _send(self, controlwords: Sequence[int], counts: Sequence[int]) -> None:
+    def _send(self, controlwords: Sequence[int], counts: Sequence[int], with_targets: bool = True) -> None:
+        """Set the targets, and send them but where the SYNC takes them along; send what else is due."""
         self.counts = list(counts)
-        self._exchange.send_targets(controlwords, counts)
+        self._exchange.set_targets(controlwords, counts)
+        if with_targets:
+            self._exchange.send_targets()
         self._link.flush()
         now_s = time.monotonic()
         if now_s >= self._heartbeat_due_s:

@@ -60,6 +60,9 @@ class Rows(Protocol):
     def settle(self, paired: bool, held: int) -> None:
         """Accept all but the last `held` rows taken, or drop all not accepted yet if not `paired`."""
 
+    def pause(self) -> None:
+        """Let nothing that was accepted wait for more: none comes for a while."""
+
 
 class MotionFaultError(RunError):
     """A fault was found while axes were enabled.
@@ -194,6 +197,8 @@ class AxisGroup:
         for row in chain(rows, [None]):
             if row is not None and row.index in pauses:
                 watch.expected = loop.counts
+                self._settle(kept)
+                kept.pause()
                 loop.hold_while(pauses[row.index], enabled, self._check)
             # The answers to this SYNC belong to the targets sent before it.
             watch.expected = loop.counts
@@ -204,10 +209,14 @@ class AxisGroup:
                 kept.keep(sent, feedback)
             sent = row
             if loop.clock.real_time:
-                kept.settle(loop.confirm(), held=1)  # an answer too many to the last SYNC may still come
+                self._settle(kept)
             elif feedback.cycle % VERIFY_SYNCS == 0 or time.monotonic() - verified_s > VERIFY_S:
-                kept.settle(loop.confirm(), held=0)
+                self._settle(kept)
                 verified_s = time.monotonic()
+
+    def _settle(self, kept: Rows) -> None:
+        """Accept what is certain: in real time an answer too many to the last SYNC may still come."""
+        kept.settle(self._loop.confirm(), held=1 if self._loop.clock.real_time else 0)
 
     def _check(self) -> None:
         """Check the answers to the last SYNC; raises `MotionFaultError` if a check finds a fault."""

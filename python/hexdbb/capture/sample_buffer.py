@@ -21,9 +21,9 @@ from hexdbb.record import SLIDER_COLUMNS, TARGET_COLUMNS, Journal
 from hexdbb.trajectory import Programme
 
 BLOCK_S = 0.25
-"""Machine time of one block, and longest time that its oldest sample waits by the clock, s: on a busy computer lockstep
-is slower than the machine. At worst a block and the journal's writing period (0.2 s) are lost when the controller is
-killed: half of the second that is allowed."""
+"""Time by the clock that the oldest sample of a block waits, s: in lockstep machine time passes faster or slower. At
+worst a block and the journal's writing period (0.2 s) are lost when the controller is killed: half of the second that
+is allowed."""
 MISSED_BEFORE = 1 << 8
 """Bit of the status column: cycles were missed just before this sample. Bits 0-7 are the gauge's status 6150h."""
 
@@ -59,7 +59,6 @@ class SampleBuffer:
         self._feed_mm_min = np.array([run.feed_mm_min for run in runs])
         self._held: list[tuple[float, ...]] = []
         self._block: list[tuple[float, ...]] = []
-        self._block_size = max(1, round(BLOCK_S / programme.cycle_s))
         self._oldest_s = 0.0
         self.count = self.dropped = 0
         self.until_s = math.inf
@@ -84,7 +83,7 @@ class SampleBuffer:
         self._held.append((cycle_index, status, feedback.reading_um, *feedback.position, *columns))
 
     def confirm(self, held: int = 0) -> None:
-        """Accept the samples collected, but for the last ones.
+        """Accept the samples collected, but for the last ones; append a block that has waited long enough.
 
         Parameters
         ----------
@@ -97,12 +96,11 @@ class SampleBuffer:
             Earlier samples could not be written.
         """
         end = len(self._held) - held
-        if end <= 0:
-            return
-        self._block += self._held[:end]
-        del self._held[:end]
-        self.count += end
-        if len(self._block) >= self._block_size or time.monotonic() - self._oldest_s >= BLOCK_S:
+        if end > 0:
+            self._block += self._held[:end]
+            del self._held[:end]
+            self.count += end
+        if self._block and time.monotonic() - self._oldest_s >= BLOCK_S:
             self.flush()
 
     def drop(self) -> None:

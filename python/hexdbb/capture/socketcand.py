@@ -2,17 +2,24 @@
 
 python-can's own client parses the same text again after a message it cannot parse, so that one such message ends the
 connection for good; it takes a closed connection for silence, and expects each answer of the handshake in a read of
-its own.
+its own. It also makes an object of every frame and a system call of every frame sent, which costs more than the rest of
+a cycle: here all messages that have arrived are read and parsed together, and several frames are sent together.
 Source: socketcand protocol description (github.com/linux-can/socketcand), raw mode.
 """
 
 from __future__ import annotations
 
+import math
 import select
 import socket
+from binascii import unhexlify
 from collections import deque
+from collections.abc import Sequence
 
 import can
+
+Frame = tuple[int, bytes | bytearray, float]
+"""A data frame with an 11-bit identifier: identifier, data, timestamp (s)."""
 
 SEND_TIMEOUT_S = 1.0
 """Longest time until the server takes a frame, s. A server that reads nothing for a second has lost its bus: the drives
@@ -24,6 +31,12 @@ LONGEST_MESSAGE = 200
 RECEIVE_BYTES = 65536
 KEPT_DROPPED = 16
 """Number of dropped messages that are kept as text: enough to recognise their cause, and memory does not grow."""
+IDENTIFIERS = {f"{can_id:03X}".encode(): can_id for can_id in range(0x800)}
+"""11-bit identifiers as a server writes them."""
+WORDS = 5
+"""Words of a message up to the one that the next begins with: ``<``, ``frame``, identifier, seconds, data."""
+MAX_BYTES = 8
+"""Data bytes of a classical frame."""
 
 
 class SocketcandBus(can.BusABC):
@@ -38,6 +51,8 @@ class SocketcandBus(can.BusABC):
 
     Attributes
     ----------
+    received : deque of Frame or can.Message
+        Frames that were read and not taken yet; messages where they are no data frames of 11 bits.
     dropped : deque of str
         The last messages that were dropped because they cannot be parsed.
 
@@ -49,7 +64,7 @@ class SocketcandBus(can.BusABC):
 
     def __init__(self, connection: socket.socket, channel: str) -> None:
         self._connection, self._text = connection, b""
-        self._received: deque[can.Message] = deque()
+        self.received: deque[Frame | can.Message] = deque()
         self.dropped: deque[str] = deque(maxlen=KEPT_DROPPED)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._expect(b"< hi >")
@@ -63,16 +78,26 @@ class SocketcandBus(can.BusABC):
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send a frame; raises `can.CanOperationError` if the server does not take it."""
-        data = " ".join(f"{byte:x}" for byte in msg.data)
-        identifier = f"{msg.arbitration_id:08X}" if msg.is_extended_id else f"{msg.arbitration_id:03X}"
+        self.send_all([msg])
+
+    def send_all(self, messages: Sequence[can.Message]) -> None:
+        """Send frames in order, in one segment; raises `can.CanOperationError` if the server does not take them."""
+        text = "".join([_sent(message) for message in messages])
         try:
-            self._connection.sendall(f"< send {identifier} {msg.dlc:X} {data} >".encode("ascii"))
+            self._connection.sendall(text.encode("ascii"))
             self._acknowledge_at_once()
         except OSError as error:
             raise can.CanOperationError(f"cannot send: {error.strerror or error}") from None
 
-    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
-        if not self._received:
+    def receive(self, timeout: float | None) -> Frame | can.Message | None:
+        """Return the next frame, or None after `timeout` seconds; a message where it is no data frame of 11 bits.
+
+        Raises
+        ------
+        can.CanOperationError
+            The connection is lost.
+        """
+        if not self.received:
             try:
                 ready, _, _ = select.select([self._connection], [], [], timeout)
                 if ready:
@@ -80,7 +105,11 @@ class SocketcandBus(can.BusABC):
                     self._acknowledge_at_once()
             except OSError as error:
                 raise can.CanOperationError(f"cannot receive: {error.strerror or error}") from None
-        return (self._received.popleft(), False) if self._received else (None, False)
+        return self.received.popleft() if self.received else None
+
+    def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
+        frame = self.receive(timeout)
+        return as_message(frame, self.channel_info) if isinstance(frame, tuple) else frame, False
 
     def shutdown(self) -> None:
         """Close the connection."""
@@ -108,16 +137,66 @@ class SocketcandBus(can.BusABC):
         """Append the frames of whole messages to those received; keep the beginning of the next message."""
         if not received:
             raise can.CanOperationError("the socketcand server closed the connection")
-        *messages, self._text = (self._text + received).split(b">")
+        text = self._text + received
+        frames = parse_frames(text)
+        if frames is not None:
+            self.received += frames
+            self._text = b""
+            return
+        *messages, self._text = text.split(b">")
         for message in messages:
             frame = parse_frame(message, self.channel_info)
             if frame is None:
                 self.dropped.append(_shown(message))
             else:
-                self._received.append(frame)
+                self.received.append(as_frame(frame))
         if len(self._text) > LONGEST_MESSAGE:
             self.dropped.append(_shown(self._text))
             self._text = b""
+
+
+def parse_frames(text: bytes) -> list[Frame] | None:
+    """Parse whole messages of data frames with 11-bit identifiers, as a server writes them, all at once.
+
+    Parameters
+    ----------
+    text : bytes
+        ``< frame ID SECONDS DATA >`` any number of times, without anything between them.
+
+    Returns
+    -------
+    list of Frame, or None
+        None where a single character differs: then `parse_frame` decides, message by message.
+    """
+    words = text.split(b" ")
+    count, rest = divmod(len(words), WORDS)
+    if rest != 1 or words[0] != b"<" or words[-1] != b">" or words[WORDS:-1:WORDS] != [b"><"] * (count - 1):
+        return None
+    if words[1::WORDS] != [b"frame"] * count:
+        return None
+    try:
+        can_ids = [IDENTIFIERS[word] for word in words[2::WORDS]]
+        data = [unhexlify(word) for word in words[4::WORDS]]
+        times_s = [float(word) for word in words[3::WORDS]]
+    except (KeyError, ValueError):
+        return None
+    # A sum is not below infinity where one of its terms is infinite or no number.
+    if max(map(len, data)) > MAX_BYTES or min(times_s) < 0.0 or not sum(times_s) < math.inf:
+        return None
+    return list(zip(can_ids, data, times_s, strict=True))
+
+
+def as_frame(message: can.Message) -> Frame | can.Message:
+    """Return a message of python-can as a frame; the message itself where it is no data frame of 11 bits."""
+    if message.is_extended_id or message.is_error_frame or message.is_remote_frame or message.is_fd:
+        return message
+    return message.arbitration_id, message.data, message.timestamp
+
+
+def as_message(frame: Frame, channel: str | None = None) -> can.Message:
+    """Return a frame as python-can represents it."""
+    can_id, data, time_s = frame
+    return can.Message(timestamp=time_s, arbitration_id=can_id, is_extended_id=False, data=data, channel=channel)
 
 
 def parse_frame(message: bytes, channel: str) -> can.Message | None:
@@ -139,6 +218,12 @@ def parse_frame(message: bytes, channel: str) -> can.Message | None:
         )
     except (ValueError, IndexError):
         return None
+
+
+def _sent(message: can.Message) -> str:
+    """Return the request to send a frame."""
+    identifier = f"{message.arbitration_id:08X}" if message.is_extended_id else f"{message.arbitration_id:03X}"
+    return f"< send {identifier} {message.dlc:X} {message.data.hex(' ')} >"
 
 
 def _shown(message: bytes) -> str:

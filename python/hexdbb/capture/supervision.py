@@ -91,7 +91,7 @@ class Supervision:
     """
 
     nodes: Sequence[int]
-    passed_on: Callable[[int, bytearray, float], None]
+    passed_on: Callable[[int, bytes | bytearray, float], None]
     heartbeat_limit_s: float
     silent_after: int = SILENT_AFTER
     emergencies: dict[int, Emergency] = field(default_factory=dict)
@@ -103,7 +103,7 @@ class Supervision:
     foreign_syncs: int = 0
     foreign_number: int | None = None
 
-    def on_frame(self, can_id: int, data: bytearray, timestamp: float) -> None:
+    def on_frame(self, can_id: int, data: bytes | bytearray, timestamp: float) -> None:
         """Process a frame that is not process data."""
         if can_id == SYNC_ID:
             self.foreign_syncs += 1
@@ -164,7 +164,7 @@ class Supervision:
         age_s = time.monotonic() - heard_s
         return (self.nodes.index(node), age_s) if age_s > self.heartbeat_limit_s else None
 
-    def _emergency(self, node: int, data: bytearray) -> None:
+    def _emergency(self, node: int, data: bytes | bytearray) -> None:
         code = emergency_code(data)
         if code is None:
             return
@@ -173,7 +173,7 @@ class Supervision:
         elif node in self.emergencies:
             self.emergencies[node] = replace(self.emergencies[node], reset=True)
 
-    def _heartbeat(self, node: int, data: bytearray) -> None:
+    def _heartbeat(self, node: int, data: bytes | bytearray) -> None:
         if data:
             if self.nmt_states.get(node, NMT_OPERATIONAL) == NMT_OPERATIONAL:
                 self.nmt_states[node] = data[0] & 0x7F

@@ -8,7 +8,7 @@ import click
 
 from hexdbb import __version__
 from hexdbb.cli.exits import Program, reports_errors
-from hexdbb_start import ends_at_once
+from hexdbb_start import ends_at_once, keeps_all
 
 COMMANDS = {
     "demo": "find a fault hidden in a simulated machine, step by step",
@@ -29,7 +29,9 @@ COMMANDS = {
     "plan": "check, propose and compare plans: reach, limits, identifiability",
     "log": "keep the logbook of a machine: records, models, verdicts, compensation files",
     "trend": "what changes over the records of a logbook; limits, change points, pictures",
+    "fleet": "judge the records of many machines on many cores; what they say of the fleet",
     "workbench": "see and play with records and a model in a page of the browser",
+    "study": "simulate many machines: power, coverage, verdicts, plans, tolerances",
     "thesis": "the method of the thesis: reference contours, linear estimator, tables",
     "convert": "make records of files of other programs; convert records between formats",
     "recover": "write the record of an interrupted capture",
@@ -45,7 +47,7 @@ class _LazyGroup(Program, click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        with ends_at_once():
+        with ends_at_once(), keeps_all():
             command: click.Command = importlib.import_module(f"hexdbb.cli.{cmd_name.replace('-', '_')}").command
         return command
 

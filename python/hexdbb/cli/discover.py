@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 
 import click
@@ -13,6 +14,7 @@ from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.discovery_text import print_discovery
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.import_options import given_options
 from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, plot_option, print_pictures, records_argument
 from hexdbb.discovery import (
@@ -110,7 +112,7 @@ def command(
         shown = found.to_json([each.diagnosis for each in steps], closing)
         say(json.dumps(shown, indent=2, allow_nan=False))
     else:
-        print_discovery(found, output_console(), " ".join(map(str, records)), model_path)
+        print_discovery(found, output_console(), shlex.join([*map(str, records), *given_options()]), model_path)
     if closing is not None and not as_json:
         output_console().print(closing, style="bold", highlight=False, soft_wrap=True)
     if folder is not None:

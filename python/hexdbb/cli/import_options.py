@@ -98,6 +98,12 @@ def wanted_mapping() -> Mapping:
     return wanted if path is None else wanted.over(load_mapping(Path(path)))
 
 
+def given_options() -> list[str]:
+    """Return the words with which this command was told how readings are read, for a command that follows it."""
+    given: dict[str, Any] = click.get_current_context().meta.get(KEY, {})
+    return [word for key, option, _ in OF_RECORDS if key in given for word in (option, str(given[key]))]
+
+
 def _keep(key: str) -> Callable[[click.Context, click.Parameter, Any], None]:
     def keep(context: click.Context, _: click.Parameter, value: Any) -> None:
         if value not in (None, ()):

@@ -17,6 +17,7 @@ from hexdbb.diagnosis.json_form import DiagnosisJson
 from hexdbb.discovery.json_form import DiscoveryJson
 from hexdbb.errors import InputError
 from hexdbb.files.results import JsonResult
+from hexdbb.fleet.json_form import FleetReportJson
 from hexdbb.ledger.json_form import AddedJson, HistoryJson, UndoneJson
 from hexdbb.logbook.json_form import LogJson
 from hexdbb.machine import shipped
@@ -34,6 +35,7 @@ DECLARED: dict[str, type[JsonResult]] = {
     "report": ReportJson,
     "log": LogJson,
     "trend": TrendJson,
+    "fleet": FleetReportJson,
 }
 """Declared result of each command that has a schema."""
 COMMANDS = tuple(DECLARED)

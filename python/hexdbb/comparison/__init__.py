@@ -9,6 +9,7 @@
 from hexdbb.comparison.circles import CircleComparison, DirectionComparison
 from hexdbb.comparison.commanded import compare_commanded
 from hexdbb.comparison.comparison import Comparison, compare, compare_readings
+from hexdbb.comparison.largest import largest_quantities
 from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantities, Quantity
 from hexdbb.comparison.radial import RadialError
 from hexdbb.comparison.worst_arcs import WorstArc
@@ -26,4 +27,5 @@ __all__ = [
     "compare",
     "compare_commanded",
     "compare_readings",
+    "largest_quantities",
 ]

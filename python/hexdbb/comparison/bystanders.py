@@ -10,14 +10,17 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.comparison.iso230 import FloatArray
-from hexdbb.discovery import LikelyCause
 from hexdbb.predictors import LEAST_SHARE, Predictor, Pushes, rank_predictors
 from hexdbb.samples import Samples
+
+if TYPE_CHECKING:
+    from hexdbb.discovery import LikelyCause
 
 EXPLAINED = 0.75
 """Part of the mean square beyond the noise that the cause must explain of some samples for their common circumstance to

@@ -32,6 +32,8 @@ import numpy.typing as npt
 from hexdbb.errors import InputError, RunError
 
 FloatArray = npt.NDArray[np.float64]
+Contacts = npt.NDArray[np.int64]
+"""Numbers of the four columns of the dual that are the basis."""
 
 _RELATIVE_TOLERANCE = 1e-12
 """Step or promised gain, as part of the radius, at which repetitions end: 0.1 pm of 100 mm, some times the rounding."""
@@ -79,12 +81,10 @@ def least_squares_circle(points_mm: FloatArray) -> FittedCircle:
     _require_plane_points(points_mm)
     origin = points_mm.mean(axis=0)
     centred = points_mm - origin
-    algebraic = np.column_stack([2.0 * centred, np.ones(len(centred))])
-    kasa = np.linalg.lstsq(algebraic, (centred**2).sum(axis=1), rcond=None)[0]
-    centre = kasa[:2]
+    centre = 0.5 * _plane(centred, (centred**2).sum(axis=1))
     for _ in range(_MAX_REPETITIONS):
         rho, direction = _polar(centred, centre)
-        step = np.linalg.lstsq(np.column_stack([direction, np.ones(len(rho))]), rho, rcond=None)[0][:2]
+        step = _plane(direction, rho)
         centre = centre + step
         if np.hypot(*step) <= _RELATIVE_TOLERANCE * rho.mean():
             break
@@ -108,8 +108,9 @@ def minimum_zone(points_mm: FloatArray) -> Zone:
     centre = least_squares_circle(points_mm).centre_mm
     rho, direction = _polar(points_mm, centre)
     tolerance_mm = _RELATIVE_TOLERANCE * float(rho.mean())
+    contacts: Contacts | None = None
     for _ in range(_MAX_REPETITIONS):
-        step, promised_mm = _linear_zone(direction, rho)
+        step, promised_mm, contacts = _linear_zone(direction, rho, contacts)
         width_mm = float(np.ptp(rho))
         while True:
             candidate, candidate_direction = _polar(points_mm, centre + step)
@@ -130,6 +131,17 @@ def _require_plane_points(points_mm: FloatArray) -> None:
         raise InputError("a circle cannot be fitted: all points lie on one line")
 
 
+def _plane(places: FloatArray, values: FloatArray) -> FloatArray:
+    """Return the slopes (2,) of the plane through values (n,) at places (n, 2), least squares.
+
+    By normal equations: a circle's places are nearly orthogonal columns, and on a short arc what they round is repaired
+    by the next repetition.
+    """
+    centred = places - places.mean(axis=0)
+    slopes: FloatArray = np.linalg.solve(centred.T @ centred, centred.T @ (values - values.mean()))
+    return slopes
+
+
 def _polar(points_mm: FloatArray, centre_mm: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return distances (n,) from the centre and unit directions (n, 2)."""
     offset = points_mm - centre_mm
@@ -137,30 +149,42 @@ def _polar(points_mm: FloatArray, centre_mm: FloatArray) -> tuple[FloatArray, Fl
     return rho, offset / rho[:, None]
 
 
-def _linear_zone(direction: FloatArray, rho_mm: FloatArray) -> tuple[FloatArray, float]:
-    """Solve ``min Ro - Ri, Ri <= rho_i - u_i . s <= Ro``: the step ``s`` (2,) and the separation it promises.
+def _linear_zone(
+    direction: FloatArray, rho_mm: FloatArray, near: Contacts | None
+) -> tuple[FloatArray, float, Contacts]:
+    """Solve ``min Ro - Ri, Ri <= rho_i - u_i . s <= Ro``: the step ``s`` (2,), the separation it promises, contacts.
+
+    The search begins at the contacts of a centre `near` this one, where they still touch from both sides.
 
     Dual: ``max sum l_i rho_i - sum m_i rho_i`` with ``sum l = sum m = 1``, ``sum l_i u_i = sum m_i u_i``, all >= 0.
     Column ``i`` is point i touching the outer circle, column ``n + i`` point i touching the inner one.
     """
     n = len(rho_mm)
     rho = rho_mm - rho_mm.mean()
-    ones, zeros = np.ones(n), np.zeros(n)
-    columns = np.vstack(
-        [np.column_stack([ones, zeros, direction]), np.column_stack([zeros, ones, -direction])],
-    )
+    columns = np.zeros((2 * n, 4))
+    columns[:n, 0] = columns[n:, 1] = 1.0
+    columns[:n, 2:], columns[n:, 2:] = direction, -direction
     gain = np.concatenate([rho, -rho])
     tolerance = 1e-12 * float(np.ptp(rho)) + 1e-15 * float(rho_mm.max())
-    basis = _first_basis(direction)
+    basis = near if near is not None and _is_balanced(columns[near]) else _first_basis(direction)
     for _ in range(100 + 2 * n):
-        inverse = np.linalg.inv(columns[basis].T)
+        inverse: FloatArray = np.linalg.inv(columns[basis].T).astype(np.float64)
         multipliers = gain[basis] @ inverse
         violation = gain - columns @ multipliers
         entering = int(np.argmax(violation))
         if violation[entering] <= tolerance:
-            return multipliers[2:], float(multipliers[0] + multipliers[1])
+            return multipliers[2:], float(multipliers[0] + multipliers[1]), basis
         basis[_leaving_row(inverse, inverse @ columns[entering])] = entering
     raise RunError(f"the minimum zone of {n} points was not found within the iteration limit")
+
+
+def _is_balanced(contacts: FloatArray) -> bool:
+    """Check whether four contacts, columns of the dual (4, 4), have weights above zero: a basis to begin from."""
+    try:
+        weights = np.linalg.solve(contacts.T, np.array([1.0, 1.0, 0.0, 0.0]))
+    except np.linalg.LinAlgError:
+        return False
+    return bool((weights > _ZERO_WEIGHT).all())
 
 
 def _leaving_row(inverse: FloatArray, change: FloatArray) -> int:
@@ -175,12 +199,12 @@ def _leaving_row(inverse: FloatArray, change: FloatArray) -> int:
     return int(falling[np.lexsort(ratios.T[::-1])[0]])
 
 
-def _first_basis(direction: FloatArray) -> npt.NDArray[np.int64]:
+def _first_basis(direction: FloatArray) -> Contacts:
     """Return four contacts a quarter of the points apart, outer and inner in turn, so that the two chords cross."""
     angle = np.arctan2(direction[:, 1], direction[:, 0])
     _, distinct = np.unique(np.round(angle, 9), return_index=True)
     if len(distinct) < 4:
         raise InputError(f"a minimum zone needs points at 4 angles or more, got {len(distinct)}")
-    basis: npt.NDArray[np.int64] = distinct[(np.arange(4) * len(distinct)) // 4]
+    basis: Contacts = distinct[(np.arange(4) * len(distinct)) // 4]
     basis[1::2] += len(direction)
     return basis

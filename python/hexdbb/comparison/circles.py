@@ -22,6 +22,7 @@ from hexdbb.plan import Circle
 from hexdbb.predictors import record_names
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows
 
 IndexArray = npt.NDArray[np.intp]
 
@@ -137,12 +138,10 @@ def compare_circles(samples: Samples, predicted_mm: FloatArray) -> list[CircleCo
         Predicted reading of each sample.
     """
     names = record_names(samples.records)
-    keys = np.column_stack([samples["record"], samples["circle"], samples["feed_mm_s"]])
-    parts, member = np.unique(keys, axis=0, return_inverse=True)
-    member = member.ravel()
+    first, member = distinct_rows(samples["record"], samples["circle"], samples["feed_mm_s"])
     return [
         _compare_circle(samples, predicted_mm, np.flatnonzero(member == number), names[int(record)])
-        for number, (record, _, _) in enumerate(parts)
+        for number, record in enumerate(samples["record"][first])
     ]
 
 

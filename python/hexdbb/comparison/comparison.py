@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from hexdbb.comparison.tables import comparison_text
 from hexdbb.comparison.worst_arcs import WorstArc, worst_arcs
 from hexdbb.comparison.worst_samples import WorstSamples, worst_samples
 from hexdbb.diagnosis import fit_mounts, noise_of
-from hexdbb.discovery import LikelyCause, likely_cause
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
 from hexdbb.files.plain_text import plain_text
@@ -26,6 +25,9 @@ from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
 from hexdbb.samples import Samples, predict
 from hexdbb.threads import one_thread
+
+if TYPE_CHECKING:
+    from hexdbb.discovery import LikelyCause
 
 WORST_COUNT = 5
 """Number of worst arcs listed: as many as are read."""
@@ -127,7 +129,11 @@ def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Compa
     _require_samples(samples)
     known, fitted = fit_mounts(samples, model)
     predicted = predict(samples, known)
-    cause = likely_cause(samples, known, predicted.residual_mm) if find_cause else None
+    cause = None
+    if find_cause:
+        from hexdbb.discovery import likely_cause  # a quarter of the start of a comparison without
+
+        cause = likely_cause(samples, known, predicted.residual_mm)
     noise_mm = noise_of(samples).sigma_mm
     return compare_readings(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, cause)
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES
 from hexdbb.comparison.quantities import UM_PER_MM
-from hexdbb.discovery.words import capital
 from hexdbb.files.frames import html_table
+from hexdbb.files.plain_text import capital
 from hexdbb.predictors import sentence
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ was cut short) is None, never 0.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -115,7 +115,7 @@ QUANTITIES: tuple[Quantity, ...] = (
 )
 
 
-def evaluate_quantities(paths: Mapping[int, Path]) -> dict[int, Quantities]:
+def evaluate_quantities(paths: Mapping[int, Path], chosen: Sequence[Quantity] = QUANTITIES) -> dict[int, Quantities]:
     """Evaluate the quantities of each direction of one circle at one feed.
 
     Parameters
@@ -123,20 +123,22 @@ def evaluate_quantities(paths: Mapping[int, Path]) -> dict[int, Quantities]:
     paths : mapping
         Mean path by direction, +1 counter-clockwise and -1 clockwise; one of them may be missing. A path that is not a
         full circle counts as missing for the other direction, and has no quantities itself.
+    chosen : sequence of Quantity
+        Those that are evaluated.
 
     Returns
     -------
     dict
-        For each direction given, every key of `QUANTITIES`; those of both directions are evaluated once.
+        For each direction given, every key of `chosen`; those of both directions are evaluated once.
     """
     full = {direction: path for direction, path in paths.items() if path.is_full_circle}
-    values: dict[int, Quantities] = dict.fromkeys(paths, MappingProxyType(dict.fromkeys(q.key for q in QUANTITIES)))
+    values: dict[int, Quantities] = dict.fromkeys(paths, MappingProxyType(dict.fromkeys(q.key for q in chosen)))
     if full:
         centre_mm = iso230.set_up_centre_mm(*full.values())
         of_both: dict[str, float | None] = {}
         for direction, own in full.items():
             measurand = Measurand(own, full.get(-direction), centre_mm)
-            of_both = of_both or {q.key: q.evaluate(measurand) for q in QUANTITIES if q.of_both}
-            of_own = {q.key: q.evaluate(measurand) for q in QUANTITIES if not q.of_both}
-            values[direction] = MappingProxyType({q.key: (of_both | of_own)[q.key] for q in QUANTITIES})
+            of_both = of_both or {q.key: q.evaluate(measurand) for q in chosen if q.of_both}
+            of_own = {q.key: q.evaluate(measurand) for q in chosen if not q.of_both}
+            values[direction] = MappingProxyType({q.key: (of_both | of_own)[q.key] for q in chosen})
     return values

@@ -14,7 +14,7 @@ from hexdbb.comparison import iso230
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES, CircleComparison, DirectionComparison
 from hexdbb.comparison.quantities import QUANTITIES, UM_PER_MM, Quantity
 from hexdbb.comparison.residual_tables import residual_text
-from hexdbb.discovery.words import capital
+from hexdbb.files.plain_text import capital
 from hexdbb.samples.unmeasured import not_measured_sentences
 
 if TYPE_CHECKING:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +23,14 @@ from hexdbb.comparison.bystanders import goes_along, is_elsewhere
 from hexdbb.comparison.circles import DIRECTION_NAMES, SECONDS_PER_MINUTE
 from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.comparison.quantities import UM_PER_MM
-from hexdbb.discovery import LikelyCause
 from hexdbb.files.results import JsonPart, Share
 from hexdbb.predictors import record_names
 from hexdbb.predictors.variable import SLIDERS, TRAVEL_DIRECTION
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows
+
+if TYPE_CHECKING:
+    from hexdbb.discovery import LikelyCause
 
 ARC_DEG = 10.0
 """Width of an arc, as of the worst arcs listed."""
@@ -153,8 +157,7 @@ def _over(in_worst: float, in_all: float) -> bool:
 def _worst(samples: Samples, residual_um: FloatArray) -> Mask:
     """Return the samples of the arcs with the largest root mean square: `AS_BAD` as the worst, up to `WORST_PART`."""
     arc = np.floor(_angle_deg(samples) / ARC_DEG + 1e-9).astype(np.int64)
-    keys = np.column_stack([samples["record"], samples["sweep"], samples["lap"], arc])
-    arc_of = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
+    arc_of = distinct_rows(samples["record"], samples["sweep"], samples["lap"], arc)[1]
     size = np.bincount(arc_of)
     squared = np.bincount(arc_of, residual_um**2) / size
     order = np.argsort(-squared, kind="stable")
@@ -189,7 +192,8 @@ def _circles(samples: Samples) -> Iterator[tuple[str, Mask]]:
     """Yield the circles one by one: each has its height, tilt and set-up."""
     names, record, circle = record_names(samples.records), samples["record"], samples["circle"]
     several = len(np.unique(record)) > 1
-    for which, number in np.unique(np.column_stack([record, circle]), axis=0):
+    for row in distinct_rows(record, circle)[0]:
+        which, number = record[row], circle[row]
         words = f"circle {number}" + (f" of {names[which]}" if several else "")
         yield words, (record == which) & (circle == number)
 

@@ -26,6 +26,7 @@ from hexdbb.comparison.iso230 import Path
 from hexdbb.contributions.groups import Group
 from hexdbb.model import Model
 from hexdbb.samples import Samples, linearise, predict
+from hexdbb.samples.distinct import distinct_rows
 
 Floats = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -57,9 +58,8 @@ class Centring:
     @classmethod
     def of(cls, samples: Samples) -> Centring:
         """Prepare for the circles of samples of one record."""
-        keys = np.column_stack([samples["circle"], samples["feed_mm_s"]])
-        parts, member = np.unique(keys, axis=0, return_inverse=True)
-        rows = [np.flatnonzero(member.ravel() == number) for number in range(len(parts))]
+        first, member = distinct_rows(samples["circle"], samples["feed_mm_s"])
+        rows = [np.flatnonzero(member == number) for number in range(len(first))]
         angle_rad = samples["angle_rad"]
         bases = [
             np.linalg.qr(np.column_stack([np.ones(len(own)), np.cos(angle_rad[own]), np.sin(angle_rad[own])]))[0]

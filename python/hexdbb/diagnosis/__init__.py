@@ -1,7 +1,7 @@
 """Diagnosis: the values that explain measured readings best, how well they are known, what is not identifiable."""
 
 from hexdbb.diagnosis.extrapolation import ExpectedError, expected_error
-from hexdbb.diagnosis.fit import diagnose, evaluate_fit, refitter
+from hexdbb.diagnosis.fit import Fit, diagnose, evaluate_fit, fit_free, refitter
 from hexdbb.diagnosis.heldout import HeldOut, Refit, as_it_is, held_out
 from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
@@ -16,6 +16,7 @@ from hexdbb.diagnosis.whiteness import is_white
 __all__ = [
     "Diagnosis",
     "ExpectedError",
+    "Fit",
     "FitTest",
     "HeldOut",
     "JudgingNoise",
@@ -29,6 +30,7 @@ __all__ = [
     "diagnose",
     "evaluate_fit",
     "expected_error",
+    "fit_free",
     "fit_mounts",
     "held_out",
     "is_white",

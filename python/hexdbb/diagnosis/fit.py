@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis.extrapolation import expected_error
 from hexdbb.diagnosis.heldout import Refit, as_it_is, held_out
+from hexdbb.diagnosis.judging import judging_noise
 from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import Diagnosis, unknown_directions
@@ -87,6 +90,49 @@ def evaluate_fit(
     return _with_spread(model.with_values(np.where(shaped(model), model.values, result.values)), result)
 
 
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A model's free values fitted, before anything is said of them.
+
+    Attributes
+    ----------
+    known : Model
+        The start, with the mounts of the samples.
+    model : Model
+        With the fitted values.
+    noise : Noise
+        Of one reading.
+    first, result : FitResult
+        Of the engine: from the start; from where the signs that the readings leave open were settled.
+    either_sign : tuple of str
+        Values that are as good with the other sign, in sentences.
+    """
+
+    known: Model
+    model: Model
+    noise: Noise
+    first: _core.FitResult
+    result: _core.FitResult
+    either_sign: tuple[str, ...]
+
+
+def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
+    """Fit a model's free effects to samples and say no more of it; parameters and errors are those of `diagnose`."""
+    model = with_judged_free(samples.unmeasured, model)
+    if not model.free.any():
+        raise InputError("the model has no free value (expected at least one to fit)")
+    _require_distinct(samples)
+    known = model.with_mounts(samples.mounts)
+    noise = noise_of(samples)
+    first = evaluate_fit(samples, known, known.free, noise, robust=robust)
+    (fitted, result), either_sign = settle_signs(
+        first, lambda start: evaluate_fit(samples, start, start.free, noise, robust=robust), noise.sigma_mm
+    )
+    fitted = with_bands(fitted, result.covariance, samples)
+    _require_determined(fitted, result, samples)
+    return Fit(known, fitted, noise, first[1], result, tuple(either_sign))
+
+
 def diagnose(
     samples: Samples,
     model: Model,
@@ -119,22 +165,12 @@ def diagnose(
     RunError
         Where the fit did not end in a usable solution.
     """
-    model = with_judged_free(samples.unmeasured, model)
-    if not model.free.any():
-        raise InputError("the model has no free value (expected at least one to fit)")
-    _require_distinct(samples)
-    known = model.with_mounts(samples.mounts)
-    noise = noise_of(samples)
-    first = evaluate_fit(samples, known, known.free, noise, robust=robust)
-    (fitted, result), either_sign = settle_signs(
-        first, lambda start: evaluate_fit(samples, start, start.free, noise, robust=robust), noise.sigma_mm
-    )
-    fitted = with_bands(fitted, result.covariance, samples)
-    _require_determined(fitted, result, samples)
+    fit = fit_free(samples, model, robust=robust)
+    known, fitted, noise, result = fit.known, fit.model, fit.noise, fit.result
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
-    enough = assess_sufficiency(samples, fitted, result.residual_mm)
+    enough = assess_sufficiency(samples, fitted, result.residual_mm, noise=judging_noise(samples, noise))
     parameters = known.parameters()
     judged = [column for column in result.free_columns if not parameters[column].is_coefficient]
     unknown = unknown_directions(result.covariance, known, judged)
@@ -142,7 +178,7 @@ def diagnose(
     return Diagnosis(
         samples=samples,
         model=fitted,
-        rms_before_um=first[1].rms_before_mm * 1e3,
+        rms_before_um=fit.first.rms_before_mm * 1e3,
         rms_after_um=result.rms_after_mm * 1e3,
         noise=noise,
         noise_um=result.noise_mm * 1e3,
@@ -159,7 +195,7 @@ def diagnose(
         unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
         warnings=(
             *not_measured_sentences(samples.records),
-            *either_sign,
+            *fit.either_sign,
             *warnings_of(fitted, result, enough, checked, expected),
         ),
         sufficiency=enough,

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hexdbb.model import Model
 from hexdbb.samples import Prediction, Samples, predict
+from hexdbb.samples.distinct import distinct_rows
 
 MAX_FOLDS = 7
 """Groups of circles at most: the thesis' plan has seven circles, and more would each cost a fit and add little."""
@@ -89,7 +90,7 @@ def as_it_is(_: Samples, model: Model) -> Model:
 
 def folds(samples: Samples, by: Grouping, most: int) -> list[NDArray[np.bool_]]:
     """Deal circles or sweeps into groups: a mask of the rows held out for each, shape (n,)."""
-    each_own = np.unique(np.column_stack([samples["record"], samples[by]]), axis=0, return_inverse=True)[1].ravel()
+    each_own = distinct_rows(samples["record"], samples[by])[1]
     count = min(int(each_own.max(initial=-1)) + 1, most)
     return [each_own % count == fold for fold in range(count)]
 

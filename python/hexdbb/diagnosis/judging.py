@@ -26,9 +26,16 @@ class JudgingNoise:
     is_steady: bool = True
 
 
-def judging_noise(samples: Samples) -> JudgingNoise:
-    """Choose the noise of one reading that a model of some records is judged by."""
-    repeated, stated = noise_of(samples), stated_noise(samples)
+def judging_noise(samples: Samples, estimated: Noise | None = None) -> JudgingNoise:
+    """Choose the noise of one reading that a model of some records is judged by.
+
+    Parameters
+    ----------
+    samples : Samples
+    estimated : Noise, optional
+        As `noise_of` estimates it, where that is known already.
+    """
+    repeated, stated = estimated or noise_of(samples), stated_noise(samples)
     if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
         return JudgingNoise(repeated)
     sizes = (

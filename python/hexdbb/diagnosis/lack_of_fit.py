@@ -12,12 +12,14 @@ harmonics of the angle
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
+from hexdbb import _core
+from hexdbb.diagnosis.harmonics import orthonormal_harmonics
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.samples import Samples
 
@@ -28,6 +30,9 @@ LEAST_ROWS = 40
 """A sweep needs this many samples for its harmonics and a rest to compare them with."""
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from."""
+MAX_PREPARED = 400_000
+"""Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
+test, sweep by sweep, so that memory does not grow by them."""
 LEVEL_SIGMAS = 4.0
 SHAPE_P = 1e-4
 
@@ -67,7 +72,7 @@ class LackOfFit:
 
 
 class FitTest:
-    """Tests residuals of some records, again and again: the Fourier bases of the sweeps are prepared once.
+    """Tests residuals of some records, again and again: up to `MAX_PREPARED` rows, the Fourier bases are prepared once.
 
     Parameters
     ----------
@@ -78,8 +83,9 @@ class FitTest:
 
     def __init__(self, samples: Samples, noise: Noise) -> None:
         self._noise = noise
-        angle_rad = samples["angle_rad"]
-        self._sweeps = [(rows, _orthonormal(angle_rad[rows])) for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
+        self._angle_rad = samples["angle_rad"]
+        self._sweeps = [rows for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
+        self._prepared = list(self._bases()) if len(samples) <= MAX_PREPARED else None
 
     def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
         """Test a residual for anything but noise.
@@ -98,9 +104,12 @@ class FitTest:
         shape_p, smooth_mm = self._shape(residual_mm, fitted_values)
         return LackOfFit(rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), shape_p, smooth_mm * 1e3)
 
+    def _bases(self) -> Iterator[Floats]:
+        return (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in self._sweeps)
+
     def _shape(self, residual_mm: Floats, fitted_values: int) -> tuple[float, float]:
         smooth, rest, smooth_freedom, rest_freedom = 0.0, 0.0, -fitted_values, 0
-        for rows, basis in self._sweeps:
+        for rows, basis in zip(self._sweeps, self._prepared or self._bases(), strict=True):
             own = residual_mm[rows]
             taken = float(np.sum((own @ basis) ** 2))
             smooth += taken
@@ -110,15 +119,6 @@ class FitTest:
         if smooth_freedom <= 0 or rest_freedom <= 0:
             return 1.0, 0.0
         variance = rest / rest_freedom
-        chance = float(special.fdtrc(smooth_freedom, rest_freedom, smooth / smooth_freedom / variance))
+        chance = _core.f_tail(smooth_freedom, rest_freedom, smooth / smooth_freedom / variance)
         beyond = max(smooth - smooth_freedom * variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
-
-
-def _orthonormal(angle_rad: Floats) -> Floats:
-    """Fourier series of a sweep's angles as orthonormal columns: nearly orthogonal already, so by Cholesky."""
-    multiples = angle_rad[:, None] * np.arange(1, HARMONICS + 1)
-    basis = np.column_stack([np.ones(len(angle_rad)), np.cos(multiples), np.sin(multiples)])
-    factor = np.linalg.cholesky(basis.T @ basis + 1e-9 * len(angle_rad) * np.eye(basis.shape[1]))
-    orthonormal: Floats = np.linalg.solve(factor, basis.T).T
-    return orthonormal

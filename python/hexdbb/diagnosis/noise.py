@@ -17,12 +17,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
+from statistics import NormalDist
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
+from hexdbb.diagnosis.harmonics import orthonormal_harmonics
 from hexdbb.plan import LEAST_NOISE_MM
 from hexdbb.samples import Samples
 
@@ -38,9 +39,7 @@ READINGS_PER_VALUE = 5
 """Readings for each harmonic's coefficient at least: fewer harmonics are removed from a shorter sweep."""
 CLIP = 3.0
 """Standard deviations beyond which a difference is a jump: one in 370 of normal noise, see `KEPT_VARIANCE`."""
-KEPT_VARIANCE = 1.0 - 2.0 * CLIP * math.exp(-0.5 * CLIP**2) / math.sqrt(2.0 * math.pi) / (
-    2.0 * float(special.ndtr(CLIP)) - 1.0
-)
+KEPT_VARIANCE = 1.0 - 2.0 * CLIP * NormalDist().pdf(CLIP) / math.erf(CLIP / math.sqrt(2.0))
 """Variance of a standard normal value given that it is within `CLIP`."""
 MAX_JUMPS = 0.1
 """Share of jumps that the start of the iteration stands: more than any gauge seen, far below one half."""
@@ -82,7 +81,7 @@ def _robust_sigma(values: Floats) -> float:
     if not len(values):
         return LEAST_NOISE_MM
     size = np.abs(values)
-    sigma = float(np.quantile(size, 1.0 - MAX_JUMPS)) / float(special.ndtri(1.0 - MAX_JUMPS / 2.0))
+    sigma = float(np.quantile(size, 1.0 - MAX_JUMPS)) / NormalDist().inv_cdf(1.0 - MAX_JUMPS / 2.0)
     if sigma == 0.0:  # coarsely rounded readings are mostly alike
         sigma = float(np.sqrt(np.mean(values**2)))
     for _ in range(ROUNDS):
@@ -107,9 +106,8 @@ def lap_differences(samples: Samples) -> Iterator[Floats]:
 def _without_contour(angle_rad: Floats, reading_mm: Floats) -> Floats:
     """Remove the lowest harmonics from a sweep's readings, as many as their number allows."""
     highest = min(HARMONICS, len(angle_rad) // READINGS_PER_VALUE // 2)
-    turns = np.outer(angle_rad, np.arange(highest + 1))
-    basis = np.hstack([np.cos(turns), np.sin(turns[:, 1:])])
-    left: Floats = reading_mm - basis @ np.linalg.lstsq(basis, reading_mm, rcond=None)[0]
+    basis = orthonormal_harmonics(angle_rad, highest)
+    left: Floats = reading_mm - basis @ (reading_mm @ basis)
     return left
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
 
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.model import Model
@@ -43,7 +42,7 @@ class Projection:
         self.residual = here.residual_mm / noise.sigma_mm
         self._own = here.jacobian[:, free] * (prior / noise.sigma_mm)
         standing = (model.values - model.start)[free] / prior
-        self._factor = cho_factor(self._own.T @ self._own + np.eye(len(prior)))
+        self._total = self._own.T @ self._own + np.eye(len(prior))
         self._gradient = self._own.T @ self.residual - standing
         pushes = port_sensitivity(self.samples, model)
         self.ports = np.hstack([pushes[port].reshape(len(self.samples), -1) for port in PUSH_SHAPES])
@@ -53,6 +52,6 @@ class Projection:
         """Return A (k, k) and b (k,) of a signature, shape (n, k), mm of reading per unit."""
         scaled = signature_mm / self.noise_mm
         cross = self._own.T @ scaled
-        information = scaled.T @ scaled - cross.T @ cho_solve(self._factor, cross)
-        gradient = scaled.T @ self.residual - cross.T @ cho_solve(self._factor, self._gradient)
+        information = scaled.T @ scaled - cross.T @ np.linalg.solve(self._total, cross)
+        gradient = scaled.T @ self.residual - cross.T @ np.linalg.solve(self._total, self._gradient)
         return information, gradient

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 
 from hexdbb import _core
 from hexdbb.diagnosis.extrapolation import ExpectedError
@@ -82,12 +81,22 @@ def _correlated(model: Model, result: _core.FitResult) -> Iterator[str]:
     spread = np.sqrt(np.diag(result.covariance))[known]
     correlation = result.covariance[np.ix_(known, known)] / np.outer(spread, spread)
     parameters = model.parameters()
-    count, group = connected_components(np.abs(correlation) > TOGETHER, directed=False)
-    members = [np.flatnonzero(group == each) for each in range(count)]
-    said = [_together(correlation[np.ix_(own, own)], [parameters[known[i]] for i in own]) for own in members]
+    said = [
+        _together(correlation[np.ix_(own, own)], [parameters[known[i]] for i in own])
+        for own in _connected(np.abs(correlation) > TOGETHER)
+    ]
     groups = "; ".join(each for each in said if each)
     if groups:
         yield f"values are correlated beyond {TOGETHER:g}, only sums or differences are known: {groups}"
+
+
+def _connected(linked: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
+    """Return the members of each group of values that links connect, shape (n, n)."""
+    reached = linked | np.eye(len(linked), dtype=bool)
+    for _ in range(len(linked).bit_length()):  # each doubles the links that a path may have
+        reached = reached @ reached
+    first = reached.argmax(axis=1)
+    return [np.flatnonzero(first == each) for each in np.unique(first)]
 
 
 def _together(correlation: NDArray[np.float64], parameters: Sequence[Parameter]) -> str:

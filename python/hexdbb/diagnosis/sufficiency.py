@@ -116,7 +116,7 @@ def assess_sufficiency(
     judged = noise or judging_noise(samples)
     lack = (test or FitTest(samples, judged.noise)).of(residual_mm, int(model.free.sum()))
     if matters_um is None:
-        matters_um = default_matters_um(judged.noise.sigma_mm * 1e3, explained_um(samples, model))
+        matters_um = default_matters_um(judged.noise.sigma_mm * 1e3, explained_um(samples, model, residual_mm))
     return Sufficiency(lack, matters_um, judged.is_steady)
 
 
@@ -125,14 +125,15 @@ def default_matters_um(noise_um: float, explained_um: float) -> float:
     return max(MATTERS_OF_NOISE * noise_um, MATTERS_OF_EXPLAINED * explained_um)
 
 
-def explained_um(samples: Samples, model: Model) -> float:
+def explained_um(samples: Samples, model: Model, residual_mm: Floats) -> float:
     """Return the RMS of the reading error that a model's machine explains.
 
-    What the set-up could take as well, a constant and the first harmonic of each circle, does not count.
+    What the set-up could take as well, a constant and the first harmonic of each circle, does not count. `residual_mm`
+    is what the model leaves.
     """
     machine = np.array([not each.is_set_up for each in model.parameters()])
     nominal = model.with_values(np.where(machine, 0.0, model.values))
-    caused: Floats = predict(samples, model).reading_mm - predict(samples, nominal).reading_mm
+    caused: Floats = samples.reading_mm - residual_mm - predict(samples, nominal).reading_mm
     angle_rad, set_up = samples["angle_rad"], samples["set_up"]
     square = 0.0
     for each in np.unique(set_up):

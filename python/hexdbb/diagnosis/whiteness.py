@@ -11,7 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
+
+from hexdbb import _core
 
 Floats = NDArray[np.float64]
 
@@ -56,4 +57,4 @@ def _burst_chance(series: Sequence[Floats]) -> float:
     count = np.array([len(each) for each in series])
     level = np.log([float(each.var()) for each in series])
     deviation = level - np.average(level, weights=count)
-    return float(special.chdtrc(len(series) - 1, np.sum(0.5 * count * deviation**2))) if len(series) > 1 else 1.0
+    return _core.chi_square_tail(len(series) - 1, float(np.sum(0.5 * count * deviation**2))) if len(series) > 1 else 1.0

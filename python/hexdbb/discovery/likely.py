@@ -9,12 +9,13 @@ most of the residual, no effect is missing.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis import assess_sufficiency, evaluate_fit, judging_noise
+from hexdbb.diagnosis import FitTest, Noise, Sufficiency, assess_sufficiency, evaluate_fit, judging_noise
 from hexdbb.discovery.discover import LEAST_READINGS, LEAST_SWEEPS, discover
 from hexdbb.discovery.result import Cause
 from hexdbb.errors import RunError
@@ -24,6 +25,8 @@ from hexdbb.model import Choice, Model, new_model
 from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
+Judged = Callable[[Model, Floats], Sufficiency]
+"""Judges what a fitted model leaves."""
 
 QUICK = replace(
     DEFAULT,
@@ -95,47 +98,51 @@ def likely_cause(samples: Samples, model: Model, residual_mm: Floats) -> LikelyC
     """
     if len(samples) < LEAST_READINGS or len(samples.sweeps()) < LEAST_SWEEPS:
         return None
-    noise = judging_noise(samples)
-    if not assess_sufficiency(samples, model, residual_mm, noise=noise).matters:
+    judging = judging_noise(samples)
+    test = FitTest(samples, judging.noise)
+
+    def judged(fitted: Model, left_mm: Floats) -> Sufficiency:
+        return assess_sufficiency(samples, fitted, left_mm, noise=judging, test=test)
+
+    if not judged(model, residual_mm).matters:
         return None
     try:
-        return _own_values(samples, model, residual_mm) or _missing(samples, model)
+        return _own_values(samples, model, residual_mm, judging.noise, judged) or _missing(samples, model, judged)
     except RunError:  # a model that cannot be fitted to these readings is compared with them all the same
         return None
 
 
-def _own_values(samples: Samples, model: Model, residual_mm: Floats) -> LikelyCause | None:
+def _own_values(
+    samples: Samples, model: Model, residual_mm: Floats, noise: Noise, judged: Judged
+) -> LikelyCause | None:
     """Return the geometry as the cause where it is not, or badly, fitted; None where it explains little."""
-    judging = judging_noise(samples)
     geometry = {term.effect for term in new_model(model.machine).terms}
     wider = model
     for effect in geometry - {term.effect for term in model.terms}:
         wider = wider.with_effect(Choice(effect))
     lacks_some = len(wider.terms) > len(model.terms)
     wider = wider.with_free(wider.free | np.array([each.effect in geometry for each in wider.parameters()]))
-    fitted, result = evaluate_fit(samples, wider, wider.free, judging.noise, hypothesis=True)
-    if _share(residual_mm, result.residual_mm, judging.noise.sigma_mm) < MOST:
+    fitted, result = evaluate_fit(samples, wider, wider.free, noise, hypothesis=True)
+    if _share(residual_mm, result.residual_mm, noise.sigma_mm) < MOST:
         return None
     whose = "the machine's geometric errors, which the model lacks" if lacks_some else "the model's own values"
     sentence = (
         f"likely cause: {whose}; fitted to these readings (hexdbb diagnose) they leave"
         f" {_rms_um(result.residual_mm):.2f} µm of {_rms_um(residual_mm):.2f} µm"
     )
-    enough = assess_sufficiency(samples, fitted, result.residual_mm, noise=judging)
-    return LikelyCause(sentence, (), (), result.residual_mm, not enough.matters)
+    return LikelyCause(sentence, (), (), result.residual_mm, not judged(fitted, result.residual_mm).matters)
 
 
-def _missing(samples: Samples, model: Model) -> LikelyCause | None:
+def _missing(samples: Samples, model: Model, judged: Judged) -> LikelyCause | None:
     """Return the effect that is likely missing."""
     found = discover(samples, model, criteria=QUICK, with_tables=False)
     if not found.causes:
         return None
     with_all = found.learned or found.model
     left_mm = predict(samples, with_all).residual_mm
-    enough = assess_sufficiency(samples, with_all, left_mm)
     choices = tuple(each.choice for each in found.causes)
     subjects = tuple(subject for each in found.causes for subject in subjects_of(each, with_all))
-    return LikelyCause(found.likely, choices, subjects, left_mm, not enough.matters)
+    return LikelyCause(found.likely, choices, subjects, left_mm, not judged(with_all, left_mm).matters)
 
 
 def subjects_of(cause: Cause, model: Model) -> tuple[str, ...]:

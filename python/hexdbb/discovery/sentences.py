@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from hexdbb.discovery.result import Cause, Verdict
-from hexdbb.discovery.words import capital, joined, percent, unseen_words
+from hexdbb.discovery.words import joined, percent, unseen_words
 from hexdbb.evidence.heldout import HeldOut
+from hexdbb.files.plain_text import capital
 from hexdbb.learned.places import is_learned
 
 UNKNOWN = "something is missing that no known effect explains"

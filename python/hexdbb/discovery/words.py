@@ -57,11 +57,6 @@ def joined(words: Sequence[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}" if words else ""
 
 
-def capital(text: str) -> str:
-    """Return a sentence with a capital letter."""
-    return text[:1].upper() + text[1:]
-
-
 def percent(share: float) -> str:
     """Return a share in per cent, 100 only where nothing is left."""
     shown = min(max(100.0 * share, 0.0), 100.0)

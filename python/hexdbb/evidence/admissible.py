@@ -9,6 +9,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.heldout import HeldOut, heldout
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.trial import Trial, Trials
+from hexdbb.learned import Learned
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
 
@@ -32,16 +33,18 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     A grouping refuses it where the share explained falls by more than `Criteria.heldout_share_min` and the error is
     larger than the fit to the other groups expects of itself (`Criteria.heldout_ratio`): that few circles determine a
     value badly is no reason. Nor is it one that a form not quite right, whose remainder geometry bends after, does not
-    predict circles that geometry alone does not predict either. A free function of time claims nothing of a time that
-    was left out, and every group lies in a time of its own.
+    predict circles that geometry alone does not predict either. Free functions of time alone claim nothing of a time
+    that was left out, and every group lies in a time of its own; what stands beside them claims what it claims alone.
     """
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons, excused = [], False
-    if trial.is_free_in_time:
+    if all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members):
         return Checked(predicted, share, (), claimed=(ARC,))
     for grouping, held in predicted.items():
+        if grouping == ARC:
+            continue
         expected = held.expected * max(trial.left, 1.0) ** 0.5
         if held.share >= criteria.heldout_share_min * share or held.after <= criteria.heldout_ratio * expected:
             continue

@@ -18,12 +18,14 @@ from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.learned import Learned, Space
 from hexdbb.model import Model, OwnEffect, Tabulated, Term, is_shaped, new_term
 from hexdbb.model.terms import started_term
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, effect_pushes
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 
+FEW_ROWS = 100
+"""Rows that tell where an effect pushes: several in every reversal and on every circle of a plan."""
 ARCS = 20
 """Arcs of a sweep: a left-out one lasts some seconds, less than what warms or settles takes."""
 ARC_GROUPS = 5
@@ -197,6 +199,12 @@ class Engine:
     def has_shape(self, effect: str) -> bool:
         """Check whether an effect has a shape parameter of the engine's (a time constant)."""
         return self.base.own(effect) is None and any(each.is_shape for each in self.base.info(effect).parameters)
+
+    def ports(self, effect: str) -> frozenset[str]:
+        """Return the engine's ports at which an effect pushes."""
+        few = self.part.part(np.unique(np.linspace(0, len(self.part) - 1, FEW_ROWS).astype(np.intp)))
+        alone = replace(self.base, terms=(_held(self.base, effect),))
+        return frozenset(port for port, pushes in effect_pushes(few, alone).items() if np.any(pushes != 0.0))
 
     def signatures(
         self, model: Model, effects: Sequence[str], shape: float = 0.0

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from hexdbb.evidence.covered import is_covered
 from hexdbb.evidence.readings import ARC, GROUPINGS
 from hexdbb.evidence.sums import Sums, squared_error
 from hexdbb.evidence.trial import Trial, Trials
@@ -28,15 +29,24 @@ class HeldOut:
 def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
     """Predict every group from all others, to first order about the fits; by grouping that has two groups or more.
 
-    A free function of time claims what lies between readings: arcs of every circle are left out besides.
+    A free function of time claims what lies between readings: arcs of every circle are left out besides. A group in
+    whose range of a learned function's variable hardly any other reading lies is not predicted, nor claimed to be.
     """
     readings = trials.engine.readings
     groupings = (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
     before, after = (Sums(trials.linear(each), readings, groupings) for each in (base, trial))
-    found, rows = {}, len(readings)
+    found = {}
     for grouping in groupings:
         groups = before.groups(grouping)
         if len(groups) < 2:
+            continue
+        numbers = readings.groups[grouping]
+        hypotheses = [each.hypothesis for each in trial.members]
+        # Arcs are what free functions of time claim, whatever lies between.
+        inside = [grouping == ARC or is_covered(hypotheses, readings, numbers == each) for each in np.unique(numbers)]
+        groups = [each for each, is_inside in zip(groups, inside, strict=True) if is_inside]
+        rows = sum(float(before.rows[cells].sum()) for cells in groups)
+        if not groups:
             continue
         without = sum(squared_error(before, c, before.without(c).own_values(), None, None) for c in groups)
         error = expected = 0.0

@@ -99,6 +99,9 @@ class Homes:
     def _nearest(self, found: Sequence[Home], same: float) -> list[Home]:
         best = max((each.explained for each in found), default=0.0)
         near = [each for each in found if each.explained >= min(same, best - (1.0 - same))]
+        # What is constant is a function of time too, and its form does not go wrong in time.
+        constant = {each.hypothesis.place for each in near if each.hypothesis.variable.is_constant}
+        near = [each for each in near if not (each.hypothesis.is_of_time and each.hypothesis.place in constant)]
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
 

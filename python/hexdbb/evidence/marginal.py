@@ -15,7 +15,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
 
 Floats = NDArray[np.float64]
 
@@ -82,7 +81,7 @@ def marginal(
     values, vectors, along = parts[best[0]]
     coefficients = factors[best[0]] @ (vectors @ (size**2 * along / (1.0 + size**2 * values)))
     return Marginal(
-        log_evidence=float(logsumexp(table)) - float(np.log(len(factors))),
+        log_evidence=float(np.logaddexp.reduce(table, axis=None)) - float(np.log(len(factors))),
         best=best,
         size=size,
         factor=factors[best[0]],

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy import special
 
 from hexdbb import _core
 from hexdbb.evidence.criteria import Criteria
@@ -42,7 +41,7 @@ def outside_domain(
         value, sigma = float(fitted.model.values[column]), float(spread[place] * sigmas[column])
         shown = f"{value * shown_factor(each.unit):.3g} {shown_unit(each.unit)}"
         if _is_one_sided(fitted.model.info(each.effect), each.name):
-            change += float(np.log(2.0) + special.log_ndtr(value / sigma))
+            change += float(np.log(2.0)) + _core.log_normal_below(value / sigma)
             if value < -criteria.domain_sigmas * sigma:
                 refused.append(f"negative {each.name} ({each.element}: {shown})")
         if abs(value) > each.limit:

@@ -13,8 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
-from scipy.special import logsumexp
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.readings import Linear, Readings
@@ -118,8 +116,8 @@ class _Scan:
         added = [self.pushes * (self.time_s >= at)[:, None] * self.step_mm for at in instants]
         own = np.hstack([self.own, *added])
         standing = np.concatenate([self.standing, np.zeros(own.shape[1] - self.own.shape[1])])
-        factor = np.linalg.cholesky(own.T @ own + np.eye(own.shape[1]))
-        fitted = solve_triangular(factor, own.T @ self.residual - standing, lower=True, check_finite=False)
+        inverse = np.linalg.inv(np.linalg.cholesky(own.T @ own + np.eye(own.shape[1])))
+        fitted = inverse @ (own.T @ self.residual - standing)
         width = self.pushes.shape[1]
         table = np.concatenate([self.pushes, own, self.residual[:, None]], axis=1)
         behind = slice(rows.stop, None) if rows.stop is not None else slice(0, 0)
@@ -127,7 +125,7 @@ class _Scan:
         sums = sums + self.pushes[behind].T @ table[behind]
         count = len(sums)
         cross = sums[:, :, width:-1].reshape(count * width, -1)
-        half = solve_triangular(factor, cross.T, lower=True, check_finite=False).T.reshape(count, width, -1)
+        half = (cross @ inverse.T).reshape(count, width, -1)
         information = sums[:, :, :width] - np.matmul(half, half.transpose(0, 2, 1))
         gradient = sums[:, :, -1] - half @ fitted
         known = information + np.eye(width) / self.step_mm**2
@@ -148,7 +146,7 @@ class _Scan:
                 # A constant for each circle is no step in time: what differs from circle to circle is the posture.
                 gains[self.at_change] = -np.inf
             best = int(np.argmax(gains))
-            spread = float(logsumexp(gains)) - float(np.log(np.isfinite(gains).sum())) - float(gains[best])
+            spread = float(np.logaddexp.reduce(gains)) - float(np.log(np.isfinite(gains).sum())) - float(gains[best])
             if gains[best] + spread < worth:
                 break
             instants.append(float(self.time_s[best]))

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import Columns, Learned, Space, Variable
 from hexdbb.machine import MachineFile
+from hexdbb.samples.distinct import distinct_rows
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -128,8 +129,8 @@ class Cells:
     def of(cls, groups: Sequence[Ints], rows: int) -> Cells:
         """Make the cells of some groupings."""
         table = np.column_stack([np.zeros(rows, np.intp), *groups])
-        keys, cell = np.unique(table, axis=0, return_inverse=True)
-        cell = cell.ravel()
+        first, cell = distinct_rows(*table.T)
+        keys = table[first]
         counts = np.bincount(cell, minlength=len(keys))
         width = int(counts.max())
         begin = np.cumsum(counts) - counts

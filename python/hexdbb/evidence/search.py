@@ -23,6 +23,7 @@ from hexdbb.evidence.needed import needs, needs_all
 from hexdbb.evidence.proposals import Proposal, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
+from hexdbb.evidence.shortlist import better_shaped, shortlist
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
@@ -226,7 +227,7 @@ class Search:
         known, learned = self._screened(node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         most = self.criteria.most_of_one_effect
-        chosen = [*_best(known, count, most), *_best(learned, count, most)]
+        chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
         for scored in (*chosen, *self._in_other_words(known, learned, chosen)):
             try:
                 trial = self.trials.of((*node.members, self.member(scored)))
@@ -244,7 +245,7 @@ class Search:
         scored = screen.known(signatures, whose, kinds)
         shaped = [name for name in self.known if self.engine.has_shape(name)]
         for shape in filter(None, self.criteria.shape_starts if shaped else ()):
-            scored = _better(scored, screen.known(*self.engine.signatures(base.model, shaped, shape), kinds))
+            scored = better_shaped(scored, screen.known(*self.engine.signatures(base.model, shaped, shape), kinds))
         known = [each for each in scored if each.hypothesis not in present]
         if not self.learns:
             return known, []
@@ -340,26 +341,3 @@ def _is_known(node: Node) -> bool:
 
 def _is_free_in_time(node: Node) -> bool:
     return all(isinstance(each, Learned) and each.is_of_time for each in node.hypotheses)
-
-
-def _better(scored: list[Scored], others: list[Scored]) -> list[Scored]:
-    """Exchange hypotheses for the same with another shape where that explains more."""
-    of = {each.hypothesis: each for each in others}
-    return [max(each, of.get(each.hypothesis, each), key=lambda one: one.log_evidence) for each in scored]
-
-
-def _best(scored: list[Scored], count: int, of_one_effect: int) -> list[Scored]:
-    """Choose by evidence and by held-out share, two to one; none whose evidence is against it."""
-    ranked: list[Scored] = []
-    for each in sorted(scored, key=lambda each: -each.log_evidence):
-        few = not isinstance(each.hypothesis, Known) or _of_effect(ranked, each.hypothesis) < of_one_effect
-        if few and each.log_evidence > 0.0:
-            ranked.append(each)
-    chosen = ranked[: count - count // 3]
-    rest = [each for each in ranked[len(chosen) :] if np.isfinite(each.heldout_share)]
-    rest.sort(key=lambda each: -each.heldout_share)
-    return [*chosen, *rest[: count - len(chosen)]]
-
-
-def _of_effect(ranked: list[Scored], known: Known) -> int:
-    return sum(isinstance(each.hypothesis, Known) and each.hypothesis.effect == known.effect for each in ranked)

@@ -14,6 +14,7 @@ from hexdbb.diagnosis.lack_of_fit import FitTest
 from hexdbb.diagnosis.sufficiency import default_matters_um, explained_um
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.trial import Trial, Trials
+from hexdbb.samples import predict
 
 
 def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: float | None = None) -> Sufficiency:
@@ -24,7 +25,10 @@ def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: floa
     fitted = float(np.sum(strength / (1.0 + strength)))
     lack = FitTest(engine.part, noise).of(linear.residual * engine.row_noise_mm, round(fitted))
     if matters_um is None:
-        matters_um = default_matters_um(engine.noise.sigma_mm * 1e3, explained_um(engine.part, engine.base))
+        matters_um = default_matters_um(
+            engine.noise.sigma_mm * 1e3,
+            explained_um(engine.part, engine.base, predict(engine.part, engine.base).residual_mm),
+        )
     # The variance below which the search looks for no further cause: to ask for one there would never end.
     by_form = criteria.secondary * criteria.form_sigma**2 * trials.explained_before
     form_um = float(np.sqrt(by_form)) * lack.noise_um

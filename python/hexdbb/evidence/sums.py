@@ -13,7 +13,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
 
 from hexdbb.evidence.readings import GROUPINGS, Linear, Readings
 
@@ -104,7 +103,9 @@ class Training:
         total = sums.base[cells].sum(axis=0)
         self.squared = float(total[-1, -1])
         self.rows = float(sums.rows[cells].sum())
-        self.factor = np.linalg.cholesky(total[:-1, :-1] + np.eye(len(total) - 1))
+        factor = np.linalg.cholesky(total[:-1, :-1] + np.eye(len(total) - 1))
+        self._inverse: Floats = np.linalg.inv(factor).astype(np.float64)
+        """L^-1: every signature is multiplied by it."""
         self.own = self._half(total[:-1, -1] - sums.linear.standing)
         """L^-1 (J'y - standing)."""
 
@@ -123,7 +124,7 @@ class Training:
         right = self.own
         if projected is not None and coefficients is not None:
             right = right - projected.cross @ coefficients
-        found: Floats = solve_triangular(self.factor, right, lower=True, trans="T", check_finite=False)
+        found: Floats = self._inverse.T @ right
         return found
 
     def expected_error(self, sums: Sums, cells: Ints) -> float:
@@ -133,7 +134,7 @@ class Training:
         return float(sums.rows[cells].sum() + np.trace(half))
 
     def _half(self, columns: Floats) -> Floats:
-        found: Floats = solve_triangular(self.factor, columns, lower=True, check_finite=False)
+        found: Floats = self._inverse @ columns
         return found
 
 

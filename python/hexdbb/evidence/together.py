@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import logsumexp
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.screen import Known, Screen
@@ -124,7 +123,7 @@ class KnownSets:
             found.append(
                 0.5 * scale**2 * np.sum(gradient * explained, axis=1) - 0.5 * np.linalg.slogdet(inner).logabsdet
             )
-        averaged: Floats = logsumexp(found, axis=0) - np.log(len(found))
+        averaged: Floats = np.logaddexp.reduce(found, axis=0) - np.log(len(found))
         return averaged
 
 

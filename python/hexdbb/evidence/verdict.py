@@ -8,6 +8,7 @@ from typing import Literal
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
+from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.refine import refined
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -196,6 +197,8 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
     form = node.trial.forms[node.hypotheses.index(cause)]
     if form is not None and form.deviation > search.criteria.form_named:
         rivals += [name for name in _nearly_as_good(search, node, cause) if name not in rivals]
+    if isinstance(cause, Known):
+        rivals += [name for name in rivals_elsewhere(search, node, cause) if name not in rivals]
     return Found(cause, tuple(rivals), margin, tuple(alike), refinements, form.deviation if form is not None else 0.0)
 
 

@@ -70,3 +70,8 @@ def plain_text(shown: RenderableType) -> str:
     console = TextConsole(file=lines, width=WIDTH, highlight=False, color_system=None, long_lines=True)
     console.print(shown, soft_wrap=True)
     return lines.getvalue().rstrip("\n")
+
+
+def capital(text: str) -> str:
+    """Return a sentence with a capital letter."""
+    return text[:1].upper() + text[1:]

@@ -31,8 +31,9 @@ def whole(table: Table, console: Console, options: ConsoleOptions, long_lines: b
         A table that cannot be narrow enough stays a table, its lines longer than the width.
     """
     free = _loose(table)
-    wanted = [_wanted(column, console, options) for column in free.columns]
-    least = [_least(column, console, options) for column in free.columns]
+    measured = [_measured(column, console, options) for column in free.columns]
+    wanted = [max((each.maximum for each in cells), default=0) for cells in measured]
+    least = [_least(column, cells) for column, cells in zip(free.columns, measured, strict=True)]
     beside = _width(free, console, options) - sum(wanted)
     room = options.max_width - beside
     if sum(least) > room and not long_lines:
@@ -83,20 +84,16 @@ def _width(table: Table, console: Console, options: ConsoleOptions) -> int:
     return Measurement.get(console, options.update(width=UNLIMITED), table).maximum
 
 
-def _wanted(column: Column, console: Console, options: ConsoleOptions) -> int:
-    """Return the width at which nothing in a column wraps."""
-    return max((each.maximum for each in _measured(column, console, options)), default=0)
-
-
-def _least(column: Column, console: Console, options: ConsoleOptions) -> int:
+def _least(column: Column, measured: list[Measurement]) -> int:
     """Return the width that a column needs: of its longest word; where it holds numbers, of its longest cell."""
-    heading, *cells = _measured(column, console, options)
+    heading, *cells = measured
     whole_cells = column.no_wrap or column.justify == "right"
     longest = max((each.maximum if whole_cells else each.minimum for each in cells), default=0)
     return max(longest, heading.minimum)
 
 
 def _measured(column: Column, console: Console, options: ConsoleOptions) -> list[Measurement]:
+    """Return what heading and cells need; at the largest width nothing in them wraps."""
     unlimited = options.update(width=UNLIMITED)
     measured = [Measurement.get(console, unlimited, each or " ") for each in (column.header, *column.cells)]
     return [each.clamp(column.min_width) for each in measured]

@@ -73,6 +73,12 @@ class Displacements:
             *(np.column_stack([_padded(each, rest) for each in motions]) for motions in (shifts, turns)),
         )
 
+    def compressed(self) -> Displacements:
+        """Return as few rows as there are columns that have the same inner products, to rounding of single ones."""
+        upper = np.asarray(np.linalg.qr(np.hstack([self.per_value, self.shifts, self.turns]), mode="r"), np.float64)
+        count = self.per_value.shape[1]
+        return Displacements(upper[:, :count], upper[:, count : count + 3], upper[:, count + 3 :])
+
     def of_values(self, chosen: Sequence[int] | NDArray[np.bool_]) -> Displacements:
         """Return those of some of the values."""
         return Displacements(self.per_value[:, chosen], self.shifts, self.turns)
@@ -107,6 +113,7 @@ def redundancies(
     list of Redundancy
         Linearly independent.
     """
+    displaced = displaced.compressed()
     per_mm = displaced.per_value / levers_mm
     basis, _ = np.linalg.qr(null)
     found = [*_same_motions(per_mm, parameters), *_rigid_motions(per_mm, displaced)]

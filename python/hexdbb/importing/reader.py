@@ -7,44 +7,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from hexdbb.errors import InputError
 from hexdbb.files.validation import read_text
-from hexdbb.importing.b5r import read_b5r
-from hexdbb.importing.excel import read_sheet_grid
 from hexdbb.importing.mapping import SCHEMA, Mapping, load_mapping, mapping_of
-from hexdbb.importing.series import Series
-from hexdbb.importing.setting import Setting, setting_of
-from hexdbb.importing.sweeps import samples_of
-from hexdbb.importing.tabular import series_of
-from hexdbb.importing.text import read_text_grid
 from hexdbb.record import Record
 from hexdbb.record import read_record as read_own_record
-from hexdbb.record.checks import check_record
-from hexdbb.record.columns import RowSource
 from hexdbb.record.formats import FORMATS
-from hexdbb.record.not_measured import not_measured_metadata
 from hexdbb.record.workbook import is_record_workbook
 
-Reader = Callable[[Path, Setting], Series]
 Tell = Callable[[str], None]
-
-
-def _text(path: Path, setting: Setting) -> Series:
-    return series_of(read_text_grid(path, setting.mapping), setting)
-
-
-def _excel(path: Path, setting: Setting) -> Series:
-    return series_of(read_sheet_grid(path, setting.mapping), setting)
-
-
-READERS: dict[str, Reader] = {
-    **dict.fromkeys((".csv", ".txt", ".tsv", ".dat", ".asc"), _text),
-    **dict.fromkeys((".xlsx", ".xlsm"), _excel),
-    **dict.fromkeys((".b5r", ".xml"), read_b5r),
-}
-"""Readers of files of other programs, by suffix."""
 
 
 def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell = lambda _: None) -> Record:
@@ -70,12 +41,17 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
     wanted = mapping or Mapping()
     if _is_own(path):
         return read_own_record(path)
+    from hexdbb.importing.foreign import (  # what our own records need not wait for: a tenth of the start
+        READERS,
+        imported,
+    )
+
     if path.suffix.lower() not in READERS:
         known = ", ".join(dict.fromkeys((*FORMATS, *READERS)))
         raise InputError(f"{path}: suffix {path.suffix!r} (expected one of {known})")
     if not path.is_file():
         raise InputError(f"{path}: no such file")
-    return _imported(path, wanted.over(_beside(path)), tell)
+    return imported(path, wanted.over(_beside(path)), tell)
 
 
 def read_record(path: Path | str, mapping: Path | str | None = None, **choices: Any) -> Record:
@@ -126,48 +102,3 @@ def _schema_beside(path: Path) -> str | None:
 
 def _beside(path: Path) -> Mapping:
     return load_mapping(path.with_suffix(".toml")) if _schema_beside(path) == SCHEMA else Mapping()
-
-
-def _imported(path: Path, mapping: Mapping, tell: Tell) -> Record:
-    setting = setting_of(mapping, str(path))
-    series = READERS[path.suffix.lower()](path, setting)
-    columns, computed, lines = samples_of(series, setting)
-    circles = tuple(each for each in setting.plan.circles if each.id in set(np.unique(columns["circle"])))
-    mounts = tuple(each for each in setting.plan.mounts if each.id in {circle.mount for circle in circles})
-    how = _words(series, columns, setting, computed.model_dump(exclude_none=True))
-    record = Record(
-        columns=columns,
-        gauge=setting.plan.gauge,
-        mounts=mounts,
-        circles=circles,
-        machine=setting.machine,
-        metadata={
-            "plan": setting.plan_name,
-            "imported": {"file": path.name, "how": how},
-            **series.metadata,
-            **not_measured_metadata(computed),
-        },
-        path=path,
-    )
-    check_record(record, RowSource(str(path), lambda row: int(lines[row])))
-    tell(f"{path}: {how}")
-    return record
-
-
-def _words(series: Series, columns: dict[str, Any], setting: Setting, computed: dict[str, str]) -> str:
-    """Return in one line what was found and what was made of it."""
-    runs = [columns["direction"][rows[0]] for rows in _sweeps(columns["sweep"])]
-    words = " + ".join(f"{count} {name}" for sign, name in ((1, "ccw"), (-1, "cw")) if (count := runs.count(sign)))
-    source = "" if series.direction is not None else ", told by the angle's sense"
-    circles = ", ".join(f"{each:g}" for each in np.unique(columns["circle"]))
-    feeds = ", ".join(f"{each:g}" for each in np.unique(columns["feed_mm_min"]))
-    parts = [*series.notes, f"{words} runs{source}", f"circle {circles} of {setting.plan_name} at {feeds} mm/min"]
-    if "sliders" in computed:
-        parts.append("sliders computed: nominal inverse kinematics")
-    if "time" in computed:
-        parts.append(f"times computed: {computed['time']}")
-    return "; ".join(parts)
-
-
-def _sweeps(sweep: Any) -> list[Any]:
-    return [np.flatnonzero(sweep == each) for each in np.unique(sweep)]

@@ -12,6 +12,10 @@ from hexdbb.machine import MachineFile
 Floats = NDArray[np.float64]
 
 
+EQUAL_DIGITS = 6
+"""Digits of mm to which clearances are told apart: a millionth is far above rounding, far below any tolerance."""
+
+
 @dataclass(frozen=True)
 class NearestSliders:
     """Two sliders of one guideway, counted from 1, their distance, and the row of the table."""
@@ -43,7 +47,7 @@ class NearestEnd:
 def nearest_sliders(sliders_mm: Floats) -> NearestSliders:
     """Find the two sliders of one guideway that come nearest in positions of shape (n, 6)."""
     distances_mm = sliders_mm[:, 1::2] - sliders_mm[:, 0::2]
-    row, guideway = np.unravel_index(int(np.argmin(distances_mm)), distances_mm.shape)
+    row, guideway = np.unravel_index(_first_least(distances_mm), distances_mm.shape)
     return NearestSliders(int(2 * guideway + 1), int(2 * guideway + 2), float(distances_mm[row, guideway]), int(row))
 
 
@@ -51,5 +55,10 @@ def nearest_end(machine: MachineFile, sliders_mm: Floats) -> NearestEnd:
     """Find the slider that comes nearest to an end of its travel in positions of shape (n, 6)."""
     travels_mm = np.array(machine.sliders.travels_mm)
     left_mm = np.stack([sliders_mm - travels_mm[:, 0], travels_mm[:, 1] - sliders_mm], axis=2)
-    row, slider, end = np.unravel_index(int(np.argmin(left_mm)), left_mm.shape)
+    row, slider, end = np.unravel_index(_first_least(left_mm), left_mm.shape)
     return NearestEnd(int(slider + 1), float(travels_mm[slider, end]), float(left_mm[row, slider, end]), int(row))
+
+
+def _first_least(values_mm: Floats) -> int:
+    """Return the first of the smallest values: a symmetric machine has several, equal but for rounding."""
+    return int(np.argmin(np.round(values_mm, EQUAL_DIGITS)))

@@ -108,11 +108,20 @@ class Learned:
     @property
     def elements(self) -> tuple[int, ...]:
         """Elements, from 0, by whose variable the functions go."""
+        return tuple(self._by(each) for each in self._pushed)
+
+    @property
+    def _pushed(self) -> tuple[int, ...]:
+        """Elements, from 0, that are pushed."""
         if self.place in SHARED and self.element == ALL:
             return tuple(range(6))
         if self.place in AXIS:
             return (2 * self.element - 2, 2 * self.element - 1)
         return (max(self.element - 1, 0),)
+
+    def _by(self, pushed: int) -> int:
+        """Return the element by whose variable another is pushed: two sliders share a guideway, 0 and 1 to 4 and 5."""
+        return pushed ^ 1 if self.variable.of_neighbour else pushed
 
     def pushes(self, component: int, guideway_angles_rad: Sequence[float]) -> tuple[Push, ...]:
         """Return by which element's variable one function goes, and what it pushes.
@@ -126,7 +135,7 @@ class Learned:
         """
         first = _core.PORTS[self.port][0]
         if self.place in SHARED:
-            return tuple((each, ((first + each, 1.0),)) for each in self.elements)
+            return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
         if self.place in AXIS:
             angle = guideway_angles_rad[self.element - 1]
             axis = ((math.cos(angle), math.sin(angle), 0.0), (), (0.0, 0.0, 1.0))[AXIS[self.place]]

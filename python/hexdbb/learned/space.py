@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
 from hexdbb.learned.places import Learned, Push
-from hexdbb.learned.variables import ELAPSED, INSTANT_S, SCREW_LEAD, Variable
+from hexdbb.learned.variables import ELAPSED, INSTANT_S, SCREW_LEAD, SPLINES_MIN, Variable
 
 Floats = NDArray[np.float64]
 
@@ -24,6 +24,9 @@ FIRST_PART = 0.005
 """Part of the samples below a logarithm's range: the first few after a reversal would take half of its splines."""
 SIGN_PART = 0.05
 """A step with the sign of a column is smeared over this part of the column's RMS, within which noise sets the sign."""
+WARP_PART = 0.1
+"""Splines of a column that turns over with its sign are those of asinh(column / this part of its RMS): what depends on
+a velocity or an acceleration (friction, lag, lost motion) changes most where it is near zero."""
 POINTS = 41
 """Points of a function's table where the function has few splines: a cubic between two of 12 knots bends little over
 three intervals."""
@@ -118,11 +121,13 @@ class Space:
     ----------
     hypothesis : Learned
     low, high : float
-        Range of the splines' argument: of the column, or of its logarithm.
+        Range of the splines' argument: of the column, of its logarithm, or of its inverse hyperbolic sine.
     period : float
         0 where not periodic.
     sign_width : float
         Width of the step with the column's sign; 0 where none.
+    warp_width : float
+        Value below which the argument is nearly in proportion to the column, and its logarithm beyond; 0: the column.
     middle_s, span_s : float
         Of the time that a growing function grows over.
     """
@@ -134,6 +139,7 @@ class Space:
     sign_width: float = 0.0
     middle_s: float = 0.0
     span_s: float = 1.0
+    warp_width: float = 0.0
 
     @classmethod
     def of(cls, hypothesis: Learned, samples: Columns, screw_lead_mm: float) -> Space:
@@ -147,7 +153,7 @@ class Space:
         variable, name = hypothesis.variable, hypothesis.name
         elements = hypothesis.elements
         period = screw_lead_mm if variable.period == SCREW_LEAD else variable.period
-        low, high, width = 0.0, period or 1.0, 0.0
+        low, high, sign_width, warp_width = 0.0, period or 1.0, 0.0, 0.0
         if variable.column:
             values = np.concatenate([_of(samples, variable, each) for each in elements])
             known = values[np.isfinite(values) & (np.abs(values) < NEVER)]
@@ -158,9 +164,11 @@ class Space:
             different = min(len(np.unique(some)), len(known) // len(elements))
             if different < SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count:
                 raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
-            width = SIGN_PART * float(np.sqrt(np.mean(known**2))) if variable.signed else 0.0
+            if variable.signed:
+                rms = float(np.sqrt(np.mean(known**2)))
+                sign_width, warp_width = SIGN_PART * rms, WARP_PART * rms
             if not period:
-                argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
+                argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else _warped(known, warp_width)
                 low, high = float(argument.min()), float(argument.max())
                 if variable.is_log:
                     low = float(np.quantile(argument, FIRST_PART))
@@ -168,12 +176,19 @@ class Space:
             raise InputError(f"{name}: {variable.times} is zero in all samples (expected it to vary)")
         time_s = samples["time_s"]
         first, last = float(np.min(time_s)), float(np.max(time_s))
-        return cls(hypothesis, low, high, period, width, 0.5 * (first + last), max(last - first, SMALLEST_RANGE))
+        middle_s, span_s = 0.5 * (first + last), max(last - first, SMALLEST_RANGE)
+        return cls(hypothesis, low, high, period, sign_width, middle_s, span_s, warp_width)
 
     @property
     def size(self) -> int:
         """Number of coefficients."""
         return self.hypothesis.components * self.hypothesis.variable.columns
+
+    @property
+    def interval(self) -> float:
+        """Distance of two knots, of what the splines are functions of; 0 where there are no splines."""
+        variable = self.hypothesis.variable
+        return 0.0 if variable.instants else (self.high - self.low) / max(variable.count - SPLINES_MIN, 1)
 
     def prior_factor(self, roughness: float) -> Floats:
         """Return T of the prior covariance T T' of one function's coefficients, shape (columns, columns)."""
@@ -198,6 +213,15 @@ class Space:
         found: Floats = weight[:, None] * self.functions(_of(samples, variable, element))
         return found
 
+    def argument(self, samples: Columns, element: int) -> Floats:
+        """Return what the splines are functions of, in every sample for the variable of one element, shape (n,)."""
+        return self._argument(_of(samples, self.hypothesis.variable, element))
+
+    def _argument(self, at: Floats) -> Floats:
+        is_log = self.hypothesis.variable.is_log
+        known = np.where(np.abs(at) < NEVER, at, np.inf if is_log else np.nan)
+        return np.log(np.maximum(known, SHORTEST)) if is_log else _warped(known, self.warp_width)
+
     def functions(self, at: Floats) -> Floats:
         """Return the functions at some values of the column, what multiplies them aside; shape (m, columns)."""
         variable = self.hypothesis.variable
@@ -205,13 +229,14 @@ class Space:
             return np.ones((len(at), 1))
         if variable.instants:
             return (at[:, None] >= np.array(variable.instants)).astype(np.float64)
-        known = np.where(np.abs(at) < NEVER, at, np.inf if variable.is_log else np.nan)
-        argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else known
+        argument = self._argument(at)
         if variable.count == 1:
             basis = np.nan_to_num(argument)[:, None]
         else:
             low, high = (0.0, self.period) if self.period else (self.low, self.high)
             basis = splines.design(argument, low, high, variable.count, periodic=self.period > 0.0)
+            if variable.from_start:
+                basis = basis - splines.design(np.array([low]), low, high, variable.count)
         if not variable.signed:
             return basis
         return np.column_stack([basis, np.tanh(np.nan_to_num(at) / self.sign_width)])
@@ -229,6 +254,9 @@ class Space:
         at = np.linspace(low, high, count)
         if variable.is_log:
             return np.exp(at)
+        if self.warp_width:
+            at = self.warp_width * np.sinh(at)
+            low, high = at[0], at[-1]
         if self.sign_width:
             about = self.sign_width * np.array(SIGN_POINTS)
             about = np.concatenate([about, -about])
@@ -263,6 +291,10 @@ class Space:
             )
             found.append(table)
         return tuple(found)
+
+
+def _warped(values: Floats, width: float) -> Floats:
+    return np.arcsinh(values / width) if width else values
 
 
 def _of(samples: Columns, variable: Variable, element: int) -> Floats:

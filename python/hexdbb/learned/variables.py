@@ -38,7 +38,11 @@ class Variable:
     period : float
         Of the column, in its unit; 0 where it is not periodic, `SCREW_LEAD` where the machine's screws set it.
     signed : bool
-        Whether a step with the column's sign belongs to it.
+        Whether a step with the column's sign belongs to it, and its splines are dense about zero.
+    from_start : bool
+        Whether functions are zero at the column's smallest value: they say what changes, not an offset that stays.
+    of_neighbour : bool
+        Whether the column is that of the other slider on the same guideway.
     is_log : bool
         Whether the splines are those of the column's logarithm.
     axis : int
@@ -57,6 +61,8 @@ class Variable:
     times: str = ""
     period: float = 0.0
     signed: bool = False
+    from_start: bool = False
+    of_neighbour: bool = False
     is_log: bool = False
     axis: int = 0
     least: float = 0.0
@@ -71,6 +77,11 @@ class Variable:
     def needs(self) -> frozenset[str]:
         """Columns of the samples that its functions depend on."""
         return frozenset({"time_s" if self.times == ELAPSED else self.times, self.column} - {""})
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is an offset that nothing changes."""
+        return not self.needs
 
     @property
     def is_smooth(self) -> bool:
@@ -109,7 +120,16 @@ TRAVEL = Variable(
     is_log=True,
 )
 VELOCITY = Variable("velocity", "velocity_mm_s", "mm/s", "velocity of the slider", 12, signed=True)
-ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12)
+NEIGHBOUR_VELOCITY = Variable(
+    "neighbour_velocity",
+    "velocity_mm_s",
+    "mm/s",
+    "velocity of the other slider on the guideway",
+    12,
+    signed=True,
+    of_neighbour=True,
+)
+ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12, signed=True)
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
@@ -153,14 +173,15 @@ ANGLE_DIRECTION = Variable(
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
 READ = Variable("reading", "nominal_reading_mm", "mm", "nominal reading", 8)
 CIRCLE_DIRECTION = Variable("circle_direction", "", "", "direction of the circle", times="direction")
+SPEED = Variable("speed", "speed_mm_s", "mm/s", "speed of the platform", 8)
 FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
-    *(TIME, FINE_TIME, TIME_POSITION, WARMING, SCREW_PHASE),
+    *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
 )
 OF_LEG = (
-    *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE)),
+    *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY)),
     *(
         TURNING,
         JOINT_ANGLE,
@@ -184,9 +205,10 @@ OF_PLATFORM_JOINT = (
     Variable("constant", "", "", "nothing: an offset"),
     Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5),
     Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of the leg about its guideway", 5),
+    Variable("time", "time_s", "s", "time", 10, from_start=True),
 )
 OF_READING = (
-    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION, FEED),
+    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION, FEED, SPEED),
     *(ROLL, PITCH, YAW),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)

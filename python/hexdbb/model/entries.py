@@ -30,7 +30,8 @@ class ParameterEntry(StrictModel):
 class LearnedEntry(StrictModel):
     """What a learned effect is beyond its name: range of the variable, smoothness, prior, and the band of its fit.
 
-    `low` and `high` are in the unit of the variable (of its logarithm where the function is one of a logarithm).
+    `low` and `high` are in the unit of the variable (of its logarithm where the function is one of a logarithm; of
+    asinh(variable / warp_width) where `warp_width` is not 0).
     """
 
     low: Number
@@ -40,6 +41,7 @@ class LearnedEntry(StrictModel):
     sign_width: NotNegative = 0.0
     middle_s: Number
     span_s: Positive
+    warp_width: NotNegative = 0.0
     roughness: Positive
     prior_sigma_um: Positive
     sigma_um: Numbers = ()

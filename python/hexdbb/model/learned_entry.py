@@ -20,6 +20,7 @@ def learned_entry(effect: LearnedEffect) -> LearnedEntry:
         sign_width=space.sign_width,
         middle_s=space.middle_s,
         span_s=space.span_s,
+        warp_width=space.warp_width,
         roughness=effect.roughness,
         prior_sigma_um=shown_value(effect.prior_sigma_mm, "mm"),
         sigma_um=tuple(shown_value(each, "mm") for each in effect.sigma_mm),
@@ -47,7 +48,18 @@ def learned_effect(name: str, entry: LearnedEntry) -> LearnedEffect:
         raise InputError(f"{name}: sign_width {entry.sign_width:g} (expected {'> 0' if variable.signed else '0'})")
     if (variable.period != 0.0) != (entry.period > 0.0):
         raise InputError(f"{name}: period {entry.period:g} (expected {'> 0' if variable.period else '0'})")
-    space = Space(hypothesis, entry.low, entry.high, entry.period, entry.sign_width, entry.middle_s, entry.span_s)
+    if entry.warp_width > 0.0 and not variable.signed:
+        raise InputError(f"{name}: warp_width {entry.warp_width:g} (expected 0)")
+    space = Space(
+        hypothesis,
+        entry.low,
+        entry.high,
+        entry.period,
+        entry.sign_width,
+        entry.middle_s,
+        entry.span_s,
+        entry.warp_width,
+    )
     points = len(space.points())
     for key, given, expected in (
         ("sigma_um", entry.sigma_um, hypothesis.components * points),

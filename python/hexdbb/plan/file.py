@@ -5,12 +5,13 @@ Order: the circles as in the file; for each circle its feeds; for each feed its 
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, PrivateAttr, model_validator
 
 from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table
@@ -72,6 +73,8 @@ class Plan(FileModel):
     circles: Circles = Field(alias="circle")
     """Circles in order of driving, one table each."""
 
+    _machine: MachineFile | None = PrivateAttr(default=None)
+
     @model_validator(mode="after")
     def _consistent(self) -> Plan:
         check_ids(self.mounts, self.circles)
@@ -108,7 +111,19 @@ class Plan(FileModel):
         InputError
             There is none, or it is wrong.
         """
+        if self._machine is not None:
+            return self._machine
         return machine_beside(self.machine, self.path or Path("plan"))
+
+    def with_machine(self, machine: MachineFile) -> Plan:
+        """Return the same plan on a machine at hand: `machine_file` returns it, and no file is read, wherever it is.
+
+        Its `machine` is then a name made of the machine's content, so that plans on different machines differ.
+        """
+        content = hashlib.sha256(machine.model_dump_json(by_alias=True).encode()).hexdigest()
+        plan = self.model_copy(update={"machine": f"{machine.name} {content[:16]}"})
+        plan._machine = machine
+        return plan
 
     def mount_of(self, circle: Circle) -> Mount:
         """Return the mount that a circle is centred on."""

@@ -10,7 +10,8 @@ from hexdbb.comparison import UM_PER_MM
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.discovery import Cause, Discovery, form_of
 from hexdbb.discovery.likely import subjects_of
-from hexdbb.discovery.words import SMALLEST_DEVIATION, capital, percent
+from hexdbb.discovery.words import SMALLEST_DEVIATION, percent
+from hexdbb.files.plain_text import capital
 from hexdbb.plots.learned import learned_figure
 from hexdbb.plots.residual_circles import residual_figure
 from hexdbb.plots.saving import Page

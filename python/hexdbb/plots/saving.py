@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import io
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -26,9 +27,20 @@ def _png(figure: Figure, file: BinaryIO) -> None:
     canvas.print_png(file)
 
 
+CLIP_PATH = re.compile(rb"\bp[0-9a-f]{10}\b")
+"""Names of clip paths in an SVG: hashes of addresses in memory."""
+
+
 def _svg(figure: Figure, file: BinaryIO) -> None:
     canvas: Any = FigureCanvasSVG(figure)
-    canvas.print_svg(file, metadata={"Date": None})
+    drawn = io.BytesIO()
+    canvas.print_svg(drawn, metadata={"Date": None})
+    # Numbered as they come, so that the same figure gives the same bytes.
+    numbers: dict[bytes, bytes] = {}
+    text = drawn.getvalue()
+    for name in CLIP_PATH.findall(text):
+        numbers.setdefault(name, b"clip%d" % len(numbers))
+    file.write(CLIP_PATH.sub(lambda found: numbers[found[0]], text))
 
 
 FORMATS: dict[str, Callable[[Figure, BinaryIO], None]] = {".png": _png, ".svg": _svg}

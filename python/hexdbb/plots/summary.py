@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from hexdbb.charts.colours import MEASURED_COLOURS
 from hexdbb.comparison import UM_PER_MM, CircleComparison, Comparison
 from hexdbb.comparison.tables import COMMANDED
-from hexdbb.discovery.words import capital
+from hexdbb.files.plain_text import capital
 from hexdbb.plots.circle_pages import add_legend, draw_circle
 from hexdbb.plots.panels import draw_residual
 from hexdbb.plots.residual_pages import draw_both_directions, draw_predictor, ranked_predictors

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
+from hexdbb.predictors.design import Design
 from hexdbb.predictors.variable import FloatArray, Variable
 
 PLACE_MM = 3.0
@@ -22,7 +22,7 @@ class Binned:
 
     Attributes
     ----------
-    design : sparse matrix, shape (n, columns)
+    design : Design
         Weights; columns without a sample are left out.
     group : (columns,) int array
         Number of `Variable.apart` a column belongs to.
@@ -32,7 +32,7 @@ class Binned:
         Number of samples in each.
     """
 
-    design: sparse.csr_matrix
+    design: Design
     group: NDArray[np.intp]
     centre: FloatArray
     low: FloatArray
@@ -42,23 +42,25 @@ class Binned:
 
 def binned(variable: Variable) -> Binned:
     """Divide a variable into bins; samples whose value is not known have an empty row."""
-    every = np.concatenate([values for _, values in variable.parts])
-    weight = np.concatenate([weights for weights, _ in variable.parts])
-    count = len(variable.parts[0][1])
-    row = np.tile(np.arange(count), len(variable.parts))
-    apart = np.zeros(count, np.intp) if variable.apart is None else variable.apart
+    every = np.column_stack([values for _, values in variable.parts])
+    weight = np.column_stack([weights for weights, _ in variable.parts])
+    count = len(every)
     known = np.isfinite(every)
-    every, weight, row = every[known], weight[known], row[known]
+    every = every[known]
     own, bins = _bins(variable, every, count)
-    in_bin = own + bins * apart[row]
+    in_bin = (
+        own if variable.apart is None else own + bins * np.broadcast_to(variable.apart[:, None], known.shape)[known]
+    )
     every_bin = np.bincount(in_bin)
     column = np.flatnonzero(every_bin)
     place, samples = (np.cumsum(every_bin > 0) - 1)[in_bin], every_bin[column].astype(float)
     low, high = np.full(len(column), np.inf), np.full(len(column), -np.inf)
     np.minimum.at(low, place, every)
     np.maximum.at(high, place, every)
+    column_of = np.zeros(known.shape, np.int32)
+    column_of[known] = place
     return Binned(
-        design=sparse.csr_matrix((weight, (row, place)), shape=(count, len(column))),
+        design=Design(column_of, np.where(known, weight, 0.0), len(column)),
         group=column // bins,
         centre=np.bincount(place, every) / samples,
         low=low,
@@ -72,16 +74,17 @@ def _bins(variable: Variable, values: FloatArray, count: int) -> tuple[NDArray[n
 
     One bin a class where there are few values, else equally filled bins; for angles and places equally wide ones.
     """
-    distinct = np.unique(values)
     most = variable.bins
-    if len(distinct) <= most:
-        return np.searchsorted(distinct, values), len(distinct)
+    if len(np.unique(values[: 4 * most])) <= most:  # else the first few already have more
+        distinct = np.unique(values)
+        if len(distinct) <= most:
+            return np.searchsorted(distinct, values), len(distinct)
     if variable.unit == "deg":
         # The small summand keeps an angle that is meant to begin a bin out of the one before it.
         return np.floor(values / (360.0 / most) + 1e-9).astype(np.intp) % most, most
     if variable.is_place:
-        span = float(distinct[-1] - distinct[0])
+        first, span = values.min(), float(np.ptp(values))
         most = max(min(int(np.ceil(span / PLACE_MM)), count // SAMPLES_PER_PLACE), most)
-        return np.minimum(((values - distinct[0]) / span * most).astype(np.intp), most - 1), most
+        return np.minimum(((values - first) / span * most).astype(np.intp), most - 1), most
     edges = np.quantile(values, np.linspace(0.0, 1.0, most + 1)[1:-1])
     return np.searchsorted(edges, values), most

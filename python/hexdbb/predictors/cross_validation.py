@@ -1,8 +1,8 @@
 """Explained share of a residual, cross-validated: the part of it that a hypothesis predicts where it was not fitted.
 
-A hypothesis is a sparse design matrix W: the residual is W c. What the model's own free values could imitate must not
-count for or against it: with J their derivatives (times their prior standard deviations), c and their shifts d are
-fitted together,
+A hypothesis is a design matrix W with few entries a row: the residual is W c. What the model's own free values could
+imitate must not count for or against it: with J their derivatives (times their prior standard deviations), c and their
+shifts d are fitted together,
 
     min |r - W c - J d|^2 / noise^2 + |v + d|^2 + |c|^2 / size^2,
 
@@ -14,11 +14,12 @@ nothing.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
+from hexdbb.predictors.design import Design, Mask
 from hexdbb.predictors.halves import halves, stretches
 from hexdbb.predictors.pushes import Pushes
 from hexdbb.predictors.variable import FloatArray
@@ -33,90 +34,68 @@ FITTED = 0.1
 """Part of a residual that the model's own values may still remove where the residual is taken for that of a fit: a fit
 leaves none of it, an unfitted model of geometry nearly all."""
 
-Mask = NDArray[np.bool_]
-
 
 @dataclass(frozen=True)
-class Prior:
-    """Prior of the model's own values: its weight, and the present values, in prior standard deviations."""
+class Own:
+    """Sums of the model's own values over some samples, J'J and J'r in units of the noise, and their prior.
 
+    Attributes
+    ----------
+    square, gradient : ndarray
+        Without the prior.
+    weight : float
+        Of the prior: the part of all samples that these are.
+    standing : ndarray, shape (p,)
+        The present values, in prior standard deviations.
+    """
+
+    square: FloatArray
+    gradient: FloatArray
     weight: float
     standing: FloatArray
 
-    def information(self, own_square: FloatArray) -> FloatArray:
-        """Return the values' information with the prior's added."""
-        added: FloatArray = own_square + self.weight * np.eye(len(own_square))
-        return added
+    @cached_property
+    def inverse(self) -> FloatArray:
+        """Inverse of the information, the prior's in it."""
+        inverse: FloatArray = np.linalg.inv(self.square + self.weight * np.eye(len(self.square))).astype(np.float64)
+        return inverse
 
-    def gradient(self, own_gradient: FloatArray) -> FloatArray:
-        """Return the values' gradient with the prior's added."""
-        pulled: FloatArray = own_gradient - self.weight * self.standing
-        return pulled
+    @cached_property
+    def pull(self) -> FloatArray:
+        """Gradient, the prior's in it."""
+        pull: FloatArray = self.gradient - self.weight * self.standing
+        return pull
 
-
-@dataclass(frozen=True)
-class Half:
-    """Some of the samples with the residual and the model's derivatives there, in units of the noise."""
-
-    rows: Mask
-    jacobian: FloatArray
-    residual: FloatArray
-    information: FloatArray
-    gradient: FloatArray
-    prior: Prior
-
-    def moments(self, design: sparse.csr_matrix, noise_mm: float) -> Moments:
-        """Return a hypothesis' sums over these samples."""
-        own = design[self.rows] / noise_mm
-        turned = own.T.tocsr()
-        return Moments(
-            (turned @ own).toarray(),
-            np.asarray(turned @ self.jacobian),
-            turned @ self.residual,
-            self.information,
-            self.gradient,
-            self.prior,
+    def __sub__(self, other: Own) -> Own:
+        return Own(
+            self.square - other.square, self.gradient - other.gradient, self.weight - other.weight, self.standing
         )
 
 
 @dataclass(frozen=True)
 class Moments:
-    """Sums over some samples: W'W, W'J, W'r, J'J, J'r; a fit and its test need no more of them."""
+    """Sums over some samples: W'W, W'J, W'r, and those of the model's own values; a fit and its test need no more."""
 
     square: FloatArray
     cross: FloatArray
     gradient: FloatArray
-    own_square: FloatArray
-    own_gradient: FloatArray
-    prior: Prior
-
-    def __add__(self, other: Moments) -> Moments:
-        return Moments(
-            self.square + other.square,
-            self.cross + other.cross,
-            self.gradient + other.gradient,
-            self.own_square + other.own_square,
-            self.own_gradient + other.own_gradient,
-            Prior(self.prior.weight + other.prior.weight, self.prior.standing),
-        )
+    own: Own
 
     def fitted(self, ridge: float) -> tuple[FloatArray, FloatArray]:
         """Fit the values c of the hypothesis and the shifts d of the model's own."""
         damping = max(ridge, LEAST_PART * float(self.square.diagonal().max(initial=1.0)))
-        inverse: FloatArray = np.linalg.inv(self.prior.information(self.own_square)).astype(np.float64)
-        own_gradient = self.prior.gradient(self.own_gradient)
-        eased: FloatArray = inverse @ self.cross.T
+        eased: FloatArray = self.own.inverse @ self.cross.T
         values: FloatArray = np.linalg.solve(
             self.square + damping * np.eye(len(self.square)) - self.cross @ eased,
-            self.gradient - eased.T @ own_gradient,
+            self.gradient - eased.T @ self.own.pull,
         ).astype(np.float64)
-        return values, inverse @ (own_gradient - self.cross.T @ values)
+        return values, self.own.inverse @ (self.own.pull - self.cross.T @ values)
 
     def gained(self, values: FloatArray, shifts: FloatArray) -> float:
         """Return the fall of the sum of squares when W c + J d is subtracted from these residuals."""
-        along = values @ self.gradient + shifts @ self.own_gradient
+        along = values @ self.gradient + shifts @ self.own.gradient
         predicted = values @ self.square @ values + 2.0 * (values @ self.cross @ shifts)
-        return float(2.0 * along - predicted - shifts @ self.own_square @ shifts)
+        return float(2.0 * along - predicted - shifts @ self.own.square @ shifts)
 
 
 class CrossValidation:
@@ -150,40 +129,40 @@ class CrossValidation:
         self._noise_mm = noise_mm if noise_mm > 0.0 else 1.0
         self._ridge = (1.0 / SIZE_MM) ** 2 if noise_mm > 0.0 else 0.0
         self.whole = float(np.mean(self.residual_mm**2)) - (noise_mm**2 if beyond_noise else 0.0)
-        self._nuisance, self._standing = np.zeros((count, 0)), np.zeros(0)
+        own, standing = np.zeros((count, 0)), np.zeros(0)
         if pushes is not None and noise_mm > 0.0:
-            self._nuisance, self._standing = pushes.own, pushes.standing
+            own, standing = pushes.own, pushes.standing
+        self._take(own, standing)
         if not (beyond_noise or self._is_fitted()):
-            self._nuisance, self._standing = np.zeros((count, 0)), np.zeros(0)
+            self._take(own[:, :0], standing[:0])
         self.second = {False: halves(samples), True: stretches(count)}
         """Second half of the samples, for variables that do not depend on time (False) and for those that do (True)."""
         self._halves = {is_time: self._both(second) for is_time, second in self.second.items()}
-        self._whole = self._half(np.ones(count, bool))
-        self._inverse = np.linalg.inv(self._whole.prior.information(self._whole.information))
 
-    def share(self, design: sparse.csr_matrix, is_time: bool) -> float:
+    def share(self, design: Design, is_time: bool) -> float:
         """Return the explained share of a hypothesis, at most 1; negative where it predicts wrongly.
 
         Parameters
         ----------
-        design : sparse matrix, shape (n, values)
+        design : Design
+            Of n rows.
         is_time : bool
             Whether it depends on time, so that neighbouring stretches predict one another and not laps.
         """
-        return self.share_and_values(design, is_time)[0]
+        return self._share(*self._moments_of_halves(design, is_time))
 
-    def share_and_values(self, design: sparse.csr_matrix, is_time: bool) -> tuple[float, FloatArray]:
+    def share_and_values(self, design: Design, is_time: bool) -> tuple[float, FloatArray]:
         """Return the explained share, and the values c fitted to all samples, in mm."""
-        first, second = (half.moments(design, self._noise_mm) for half in self._halves[is_time])
-        values_mm = (first + second).fitted(self._ridge)[0]
-        if self.whole <= 0.0:
-            return 0.0, values_mm
-        gained = first.gained(*second.fitted(self._ridge)) + second.gained(*first.fitted(self._ridge))
-        return min(gained * self._noise_mm**2 / len(self.residual_mm) / self.whole, 1.0), values_mm
+        first, second = self._moments_of_halves(design, is_time)
+        whole = Moments(
+            first.square + second.square, first.cross + second.cross, first.gradient + second.gradient, self._whole
+        )
+        return self._share(first, second), whole.fitted(self._ridge)[0]
 
-    def fit(self, design: sparse.csr_matrix) -> FloatArray:
+    def fit(self, design: Design) -> FloatArray:
         """Return the values c of a hypothesis fitted to all samples, in mm."""
-        return self._whole.moments(design, self._noise_mm).fitted(self._ridge)[0]
+        (whole,) = self._moments(design, np.zeros(len(self.residual_mm), np.int32), (self._whole,))
+        return whole.fitted(self._ridge)[0]
 
     def step_gains(self, weights: FloatArray, cells: NDArray[np.intp], count: int) -> FloatArray:
         """Return the fall of the sum of squares that a push from each cell on explains; entry k begins with cell k.
@@ -197,36 +176,50 @@ class CrossValidation:
         count : int
             Number of cells.
         """
-        on, scale = self._whole, 1.0 / self._noise_mm
-        m = weights.shape[1]
-        square, cross = np.zeros((count, m, m)), np.zeros((count, m, on.jacobian.shape[1]))
-        gradient = np.zeros((count, m))
-        order = np.argsort(cells, kind="stable")
-        edges = np.searchsorted(cells[order], np.arange(count + 1))
-        for cell in range(count):
-            rows = order[edges[cell] : edges[cell + 1]]
-            own = weights[rows] * scale
-            square[cell], cross[cell] = own.T @ own, own.T @ on.jacobian[rows]
-            gradient[cell] = own.T @ on.residual[rows]
+        m, scale = weights.shape[1], 1.0 / self._noise_mm
+        there = np.flatnonzero(cells >= 0)
+        pushes = Design.full(weights[there] * scale)
+        sums = pushes.cross(self._table[there], cells[there], count)
+        square = pushes.square(cells[there], count)
+        cross, gradient = sums[:, :, :-1], sums[:, :, -1]
         square, cross, gradient = (np.cumsum(each[::-1], axis=0)[::-1] for each in (square, cross, gradient))
-        projected = square - cross @ self._inverse @ cross.transpose(0, 2, 1)
+        projected = square - cross @ self._whole.inverse @ cross.transpose(0, 2, 1)
         ridge = np.maximum(self._ridge, LEAST_PART * square.max(axis=(1, 2), initial=1.0))
-        left = gradient - cross @ (self._inverse @ on.prior.gradient(on.gradient))
+        left = gradient - cross @ (self._whole.inverse @ self._whole.pull)
         solved = np.linalg.solve(projected + ridge[:, None, None] * np.eye(m), left[..., None])[..., 0]
         gains: FloatArray = np.einsum("ij,ij->i", left, solved)
         return gains
 
+    def _take(self, own: FloatArray, standing: FloatArray) -> None:
+        """Let the model's own values be fitted with every hypothesis, derivatives `own` of shape (n, p)."""
+        self._table = np.ascontiguousarray(np.column_stack([own, self.residual_mm]) / self._noise_mm)
+        """[J r], in units of the noise."""
+        self._standing = standing
+        self._whole = self._own(self._table, 1.0)
+
     def _is_fitted(self) -> bool:
-        on = self._half(np.ones(len(self.residual_mm), bool))
-        pulled = on.prior.gradient(on.gradient)
-        steps = np.linalg.solve(on.prior.information(on.information), pulled)
-        return float(pulled @ steps) < FITTED * float(on.residual @ on.residual)
+        residual = self._table[:, -1]
+        return float(self._whole.pull @ self._whole.inverse @ self._whole.pull) < FITTED * float(residual @ residual)
 
-    def _both(self, second: Mask) -> tuple[Half, Half]:
-        return self._half(~second), self._half(second)
+    def _both(self, second: Mask) -> tuple[Own, Own]:
+        there = self._own(self._table[second], float(second.mean()))
+        return self._whole - there, there
 
-    def _half(self, rows: Mask) -> Half:
-        jacobian = self._nuisance[rows] / self._noise_mm
-        residual = self.residual_mm[rows] / self._noise_mm
-        prior = Prior(float(rows.mean()), self._standing)
-        return Half(rows, jacobian, residual, jacobian.T @ jacobian, jacobian.T @ residual, prior)
+    def _own(self, table: FloatArray, weight: float) -> Own:
+        total = table.T @ table
+        return Own(total[:-1, :-1], total[:-1, -1], weight, self._standing)
+
+    def _moments_of_halves(self, design: Design, is_time: bool) -> list[Moments]:
+        return self._moments(design, self.second[is_time].astype(np.int32), self._halves[is_time])
+
+    def _moments(self, design: Design, group: NDArray[np.int32], owns: tuple[Own, ...]) -> list[Moments]:
+        """Return a hypothesis' sums over each group of samples."""
+        square = design.square(group, len(owns)) / self._noise_mm**2
+        cross = design.cross(self._table, group, len(owns)) / self._noise_mm
+        return [Moments(square[k], cross[k, :, :-1], cross[k, :, -1], own) for k, own in enumerate(owns)]
+
+    def _share(self, first: Moments, second: Moments) -> float:
+        if self.whole <= 0.0:
+            return 0.0
+        gained = first.gained(*second.fitted(self._ridge)) + second.gained(*first.fitted(self._ridge))
+        return min(gained * self._noise_mm**2 / len(self.residual_mm) / self.whole, 1.0)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows
 
 STRETCH = 4
 """Neighbouring samples that go to one half together: few, so that both halves hold every instant to a fraction of a
@@ -30,14 +29,11 @@ def halves(samples: Samples) -> NDArray[np.bool_]:
     -------
     ndarray of bool, shape (n,)
     """
-    keys = np.column_stack([codes(samples[name]) for name in ("record", "circle", "feed_mm_s", "direction")])
-    group = np.unique(keys, axis=0, return_inverse=True)[1].ravel()
-    turn = np.column_stack([group, codes(samples["sweep"]), codes(samples["lap"])])
-    turns, turn_of = np.unique(turn, axis=0, return_inverse=True)
-    turn_of = turn_of.ravel()
-    first = np.searchsorted(turns[:, 0], turns[:, 0])
-    place = np.arange(len(turns)) - first
-    alone = np.bincount(turns[:, 0])[turns[:, 0]] == 1
+    group = distinct_rows(*(samples[name] for name in ("record", "circle", "feed_mm_s", "direction")))[1]
+    turns, turn_of = distinct_rows(group, samples["sweep"], samples["lap"])
+    group_of_turn = group[turns]
+    place = np.arange(len(turns)) - np.searchsorted(group_of_turn, group_of_turn)
+    alone = np.bincount(group_of_turn)[group_of_turn] == 1
     second: NDArray[np.bool_] = np.where(alone[turn_of], stretches(len(group)), place[turn_of] % 2 == 1)
     return second
 
@@ -47,8 +43,3 @@ def sampling_rate_hz(samples: Samples) -> float:
     steps_s = np.diff(samples["time_s"])
     usual_s = float(np.median(steps_s[steps_s > 0.0])) if (steps_s > 0.0).any() else np.inf
     return 1.0 / usual_s
-
-
-def codes(values: NDArray[Any]) -> NDArray[np.intp]:
-    """Return the number of each value among the distinct ones, counted from 0; shape (n,)."""
-    return np.unique(values, return_inverse=True)[1].ravel()

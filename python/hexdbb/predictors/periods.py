@@ -50,8 +50,12 @@ def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float
         return None
     coarse = float(frequency[allowed][int(np.argmax(power[allowed]))])
     near = coarse + np.linspace(-0.5, 0.5, REFINED) / spread / OVERSAMPLED
-    turns = 2.0 * np.pi * np.outer(values, near)
-    strength = (weighted @ np.cos(turns)) ** 2 + (weighted @ np.sin(turns)) ** 2
+    # Evenly spaced frequencies: each wave is the one before, turned a little further.
+    wave, turn = weighted * np.exp(2j * np.pi * near[0] * values), np.exp(2j * np.pi * (near[1] - near[0]) * values)
+    strength = np.empty(REFINED)
+    for place in range(REFINED):
+        strength[place] = np.abs(wave.sum()) ** 2
+        wave *= turn
     return float(near[int(np.argmax(strength))])
 
 

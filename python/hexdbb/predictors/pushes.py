@@ -54,7 +54,8 @@ class Pushes:
         """Compute the derivatives for samples of a model's machine; all mounts must be known to the model."""
         ports = port_sensitivity(samples, model)
         sizes = np.array([each.prior_sigma for each in model.parameters()])
-        own = linearise(samples, model).jacobian * sizes
+        free = np.flatnonzero(model.free)
+        own = np.take(linearise(samples, model).jacobian, free, axis=1) * sizes[free]
         machine = engine_machine(model.machine)
         across = np.array([_core.guideway_axes(machine, slider // 2) for slider in range(6)])
         local = np.einsum("nki,kij->nkj", ports["slider_joint"], across)
@@ -65,6 +66,6 @@ class Pushes:
             vertical=local[..., 2],
             ball=ports["ball"],
             cup=ports["cup"],
-            own=own[:, model.free],
-            standing=(model.values / sizes)[model.free],
+            own=own,
+            standing=(model.values / sizes)[free],
         )

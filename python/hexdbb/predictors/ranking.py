@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy import sparse
 
 from hexdbb.predictors.bins import binned
 from hexdbb.predictors.cross_validation import CrossValidation
+from hexdbb.predictors.design import Design
 from hexdbb.predictors.halves import sampling_rate_hz
 from hexdbb.predictors.periods import strongest_frequency, waves
 from hexdbb.predictors.places import one_place
@@ -101,7 +101,7 @@ def _means(variable: Variable, tested: CrossValidation) -> Predictor:
     share, push_mm = tested.share_and_values(cut.design, variable.is_time)
     push_um = push_mm * 1e3
     # Of a weight of one this is the mean itself.
-    mean_um = push_um * np.sqrt(np.asarray(cut.design.multiply(cut.design).sum(axis=0)).ravel() / cut.samples)
+    mean_um = push_um * np.sqrt(cut.design.squares / cut.samples)
     profiles = tuple(
         Profile(variable.names[each] if variable.names else "", cut.centre[here], mean_um[here])
         for each in np.unique(cut.group)
@@ -123,7 +123,7 @@ def _means(variable: Variable, tested: CrossValidation) -> Predictor:
     if at is None:
         return whole
     place, inside = at
-    there = cut.design[:, inside]
+    there = cut.design.only(inside)
     inside_mm = tested.fit(there)
     largest_mm = float(inside_mm[np.argmax(np.abs(inside_mm))])
     alone = replace(
@@ -148,7 +148,7 @@ def _periodic(variable: Variable, samples: Samples, tested: CrossValidation) -> 
     frequency = strongest_frequency((weight * tested.residual_mm)[first], values[first], highest)
     if frequency is None:
         return
-    design = sparse.csr_matrix(waves(weight, values, frequency))
+    design = Design.full(waves(weight, values, frequency))
     share = tested.share(design, variable.is_time)
     if share > LEAST_SHARE:
         amplitude_um = float(np.linalg.norm(tested.fit(design))) * 1e3

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import sparse
 
 from hexdbb.predictors.cross_validation import CrossValidation
+from hexdbb.predictors.design import Design
 from hexdbb.predictors.names import record_names
 from hexdbb.predictors.places import Place
 from hexdbb.predictors.pushes import Pushes
@@ -40,7 +40,7 @@ class Step:
     place: Place
     size_um: float
     values: int
-    design: sparse.csr_matrix
+    design: Design
 
 
 def steps(samples: Samples, pushes: Pushes | None, tested: CrossValidation) -> Iterator[Step]:
@@ -52,7 +52,7 @@ def steps(samples: Samples, pushes: Pushes | None, tested: CrossValidation) -> I
         after = rows[time_s[rows] >= time_s[first]]
         mask = np.zeros(len(weights))
         mask[after] = 1.0
-        design = sparse.csr_matrix(weights * mask[:, None])
+        design = Design.full(weights * mask[:, None])
         yield Step(
             subject=subject,
             variable=f"{subject}, shifting once" if subject != "time" else "time, one shift",
@@ -74,10 +74,10 @@ def _shifting(count: int, pushes: Pushes | None) -> Iterator[tuple[str, str, Flo
             yield f"leg {k}", "in the leg's length", pushes.leg[:, [k - 1]]
 
 
-def _size_um(design: sparse.csr_matrix, values: FloatArray, after: int) -> float:
+def _size_um(design: Design, values: FloatArray, after: int) -> float:
     if len(values) == 1:
         return abs(float(values[0])) * 1e3
-    return float(np.sqrt(np.sum((design @ values) ** 2) / after)) * 1e3
+    return float(np.sqrt(np.sum(design.times(values) ** 2) / after)) * 1e3
 
 
 def _gain(found: tuple[float, int, NDArray[np.intp]]) -> float:

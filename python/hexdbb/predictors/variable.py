@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hexdbb.predictors.pushes import Pushes
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -179,5 +180,4 @@ def _of_leg(samples: Samples, k: int, pushes: Pushes) -> Iterator[Variable]:
 
 def circles(samples: Samples) -> NDArray[np.intp]:
     """Return the number of each sample's circle among those of all records, counted from 0; shape (n,)."""
-    keys = np.column_stack([samples["record"], samples["circle"]])
-    return np.unique(keys, axis=0, return_inverse=True)[1].ravel()
+    return distinct_rows(samples["record"], samples["circle"])[1]

@@ -8,6 +8,7 @@ from hexdbb.record.not_measured import NotMeasured
 from hexdbb.record.plausibility import Doubt, doubts
 from hexdbb.record.record import Record, require_dimensions
 from hexdbb.record.recovery import recover
+from hexdbb.record.sweep_rows import rows_of_sweeps
 
 __all__ = [
     "REQUIRED_COLUMNS",
@@ -23,5 +24,6 @@ __all__ = [
     "read_record",
     "recover",
     "require_dimensions",
+    "rows_of_sweeps",
     "write_record",
 ]

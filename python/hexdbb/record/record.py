@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.files.frames import to_frame
-from hexdbb.files.validation import dump_toml, format_value
+from hexdbb.files.validation import FileModel, dump_toml, format_value
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Conditions, Gauge, Mount
 from hexdbb.record.columns import REQUIRED_COLUMNS, SLIDER_COLUMNS, Columns, RowSource, normalise
@@ -22,6 +22,7 @@ from hexdbb.record.conditions import conditions_in
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.not_measured import NotMeasured, not_measured_in
 from hexdbb.record.summary import summary_html, summary_line
+from hexdbb.record.sweep_rows import rows_of_sweeps
 
 DIMENSIONS = ("base", "platform", "legs", "sliders")
 """Sections of a machine file that identify a machine; its name and CAN set-up do not."""
@@ -118,8 +119,7 @@ class Record:
 
     def sweeps(self) -> list[NDArray[np.intp]]:
         """Return the rows of each sweep (uninterrupted capture), in the order in which the sweeps begin."""
-        _, first, member = np.unique(self.columns["sweep"], return_index=True, return_inverse=True)
-        return [np.flatnonzero(member == which) for which in np.argsort(first)]
+        return rows_of_sweeps(self.columns["sweep"])
 
     @property
     def conditions(self) -> Conditions:
@@ -159,9 +159,9 @@ class Record:
             digest.update(name.encode())
             digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
         nameless = self.gauge.model_copy(update={"serial_number": None, "calibrated": None})
-        digest.update(dump_toml(self.measurement("machine").model_copy(update={"gauge": nameless})).encode())
+        digest.update(_toml(_Stated(self.measurement("machine").model_copy(update={"gauge": nameless}))))
         described: dict[str, Any] = {"serial_number": None, "tolerance": None, "watch": None}
-        digest.update(dump_toml(self.machine.model_copy(update=described)).encode())
+        digest.update(_toml(_Stated(self.machine.model_copy(update=described))))
         return digest.hexdigest()
 
     def require_machine(self, machine: MachineFile, origin: str) -> None:
@@ -217,3 +217,22 @@ def _first_time_and_temperature(columns: Columns) -> tuple[float, float]:
     temperature = columns.get("temperature_c", np.full(1, np.nan))
     measured = temperature[np.isfinite(temperature)]
     return float(columns["t_s"][0]), float(measured[0]) if len(measured) else math.nan
+
+
+class _Stated:
+    """A file's model that is known by its values."""
+
+    def __init__(self, model: FileModel) -> None:
+        self.model, self._values = model, model.model_dump_json(by_alias=True)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Stated) and self._values == other._values
+
+    def __hash__(self) -> int:
+        return hash(self._values)
+
+
+@lru_cache(maxsize=64)
+def _toml(stated: _Stated) -> bytes:
+    """Return a file's model as TOML; it takes some ms to write, and records of one machine and plan have the same."""
+    return dump_toml(stated.model).encode()

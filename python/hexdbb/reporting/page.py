@@ -6,16 +6,14 @@ embedded numbers are numbers only. The page forbids itself to fetch anything (Co
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from hexdbb import __version__
-from hexdbb.charts.colours import STYLE, resolved, style_sheet
+from hexdbb.charts.colours import STYLE, resolved
 from hexdbb.charts.lines import NEAR_DEG, quantity_rows
 from hexdbb.comparison import UM_PER_MM, CircleComparison, iso230
 from hexdbb.contributions import RecordContributions
@@ -27,6 +25,7 @@ from hexdbb.predictors.sentence import sentence as predictor_words
 from hexdbb.reporting.conditions import condition_rows
 from hexdbb.reporting.drawings import fall_svg, polar_svg, predictor_svg, scale_of, unrolled_svg
 from hexdbb.reporting.numbers import samples_csv
+from hexdbb.reporting.templating import environment, source, style
 from hexdbb.units import readable_unit
 
 if TYPE_CHECKING:
@@ -60,28 +59,8 @@ def page_html(report: Report, *, for_paper: bool = False) -> str:
     for_paper : bool
         Without what paper cannot do: script, controls, embedded numbers.
     """
-    template = _environment().get_template("report.html")
+    template = environment().get_template("report.html")
     return template.render(**_content(report, _Charts(for_paper)), for_paper=for_paper)
-
-
-@cache
-def _environment() -> Environment:
-    environment = Environment(
-        loader=PackageLoader("hexdbb.reporting"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["um"] = _um
-    environment.filters["begun"] = lambda words: words[:1].upper() + words[1:]
-    environment.filters["mm_as_um"] = lambda value_mm: _um(None if value_mm is None else UM_PER_MM * value_mm)
-    return environment
-
-
-def _um(value: float | None, places: int = 2) -> str:
-    """Return a length for people; a dash where it cannot be evaluated, no minus before zero."""
-    return "–" if value is None else f"{round(value, places) + 0.0:.{places}f}"
 
 
 class _Charts:
@@ -89,7 +68,7 @@ class _Charts:
 
     def __init__(self, for_paper: bool) -> None:
         self.for_paper = for_paper
-        self._style = resolved(_source("charts.css")) if for_paper else ""
+        self._style = resolved(source("charts.css")) if for_paper else ""
 
     def put(self, svg: str, width_mm: float = 0.0) -> Markup:
         """Return a chart as HTML; its text is of `SMALLEST_PT` where it is stated how wide it stands on paper."""
@@ -115,8 +94,8 @@ def _content(report: Report, charts: _Charts) -> dict[str, Any]:
     found = [each for each in comparison.predictors if each.share > LEAST_SHARE][:MOST_PREDICTORS]
     drawn = [each for each in found if each.profiles and not each.is_bystander][:DRAWN_PREDICTORS]
     return {
-        "style": Markup(style_sheet() + _source("charts.css") + _source("report.css")),
-        "script": Markup(_source("report.js")),
+        "style": style(),
+        "script": Markup(source("report.js")),
         "colours": STYLE,
         "title": f"Circular test of {records[-1].machine.name}",
         "version": __version__,
@@ -145,11 +124,6 @@ def _content(report: Report, charts: _Charts) -> dict[str, Any]:
         "next_steps": report.next_steps,
         "csv": [(Path(each.name).stem, Markup(samples_csv(comparison, place))) for place, each in enumerate(records)],
     }
-
-
-@cache
-def _source(name: str) -> str:
-    return (Path(__file__).parent / "templates" / name).read_text(encoding="utf-8")
 
 
 def _ranked(circles: tuple[CircleComparison, ...]) -> list[CircleComparison]:

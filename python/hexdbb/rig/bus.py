@@ -202,8 +202,8 @@ class Rig:
         self.gauge.true_reading_um = None if mounted is None or self._broken else self.plant.reading_mm(mounted) * 1e3
 
     def _inject(self) -> None:
-        due = [injection for injection in self._injections if injection.due(self.running_s)]
-        for injection in due:
+        running_s = self.running_s
+        for injection in [each for each in self._injections if each.due(running_s)]:
             self._injections.remove(injection)
             log.warning("fault injected: %s", injection)
             injection.apply(self)

@@ -9,10 +9,10 @@ Source: CiA 402-2, state machine with transitions 0 to 16, coding of controlword
 
 from __future__ import annotations
 
-from enum import Enum
+from enum import Enum, IntEnum
 
 
-class DriveState(Enum):
+class DriveState(IntEnum):
     """States; the value is their coding in the statusword (bits 0-3, 5 and 6)."""
 
     NOT_READY = 0x0000
@@ -72,6 +72,13 @@ _COMMANDS: list[Command | None] = [
 ]
 
 
+_NEXT: dict[DriveState, list[DriveState | None]] = {
+    state: [None if command is None else TRANSITIONS.get((state, command), (0, None))[1] for command in _COMMANDS]
+    for state in DriveState
+}
+"""Next states by bits 0 to 3 of the controlword."""
+
+
 def decode(controlword: int) -> Command | None:
     """Return the command coded in bits 0 to 3 of a controlword, or None."""
     return _COMMANDS[controlword & 0x0F]
@@ -79,8 +86,4 @@ def decode(controlword: int) -> Command | None:
 
 def next_state(state: DriveState, controlword: int) -> DriveState | None:
     """Return the state after one transition, or None if the controlword causes no transition in this state."""
-    command = decode(controlword)
-    if command is None:
-        return None
-    found = TRANSITIONS.get((state, command))
-    return found[1] if found is not None else None
+    return _NEXT[state][controlword & 0x0F]

@@ -33,6 +33,7 @@ STAY_IN_QUICK_STOP = (5, 6)
 """Quick stop option codes 605Ah that end in quick stop active; the others end in switch on disabled."""
 ABORT_FAULT, ABORT_DISABLE, ABORT_QUICK_STOP = 1, 2, 3
 """Abort connection option codes 6007h."""
+_ALWAYS = cia402.VOLTAGE_ENABLED | cia402.REMOTE
 _POWERED = (DriveState.OPERATION_ENABLED, DriveState.QUICK_STOP_ACTIVE, DriveState.FAULT_REACTION_ACTIVE)
 
 
@@ -157,12 +158,12 @@ class DriveNode(Node):
 
     def refresh(self) -> None:
         """Write the present position, velocity, following error and statusword."""
-        scale = self.setup.counts_per_mm
-        self._position.value = round(self.axis.position_mm * scale)
-        self._velocity.value = round(self.axis.velocity_mm_s * scale)
-        self._error.value = round(self.axis.following_error_mm * scale)
+        axis, scale = self.axis, self.setup.counts_per_mm
+        self._position.value = round(axis.position_mm * scale)
+        self._velocity.value = round(axis.velocity_mm_s * scale)
+        self._error.value = round(axis.following_error_mm * scale)
         self._inputs.value = self.limit_inputs
-        word = self.state.value | cia402.VOLTAGE_ENABLED | cia402.REMOTE
+        word = self.state | _ALWAYS
         if self.homed:
             word |= cia402.HOMED
         if self._limited or self.limit_inputs:

@@ -63,6 +63,7 @@ class Pdo:
         self.valid = False
         self.transmission_type = 1
         self.entries: list[Entry | None] = []
+        self._filled: list[Entry] = []
         self._codec = struct.Struct("<")
         dictionary.hooks[communication, 1] = self._write_cob_id
         dictionary.hooks[communication, 2] = self._write_transmission_type
@@ -79,7 +80,7 @@ class Pdo:
 
     def pack(self) -> bytes:
         """Return the data of the frame, packed from the values of the mapped entries."""
-        return self._codec.pack(*[entry.value for entry in self.entries if entry is not None])
+        return self._codec.pack(*[entry.value for entry in self._filled])
 
     def unpack(self, data: bytes) -> None:
         """Write a received frame into the mapped entries; `data` must be `size` bytes at least."""
@@ -141,3 +142,4 @@ class Pdo:
         if codec.size > 8:
             raise SdoAbortedError(ABORT_PDO_TOO_LONG)
         self.entries, self._codec = [entry for entry, _ in resolved], codec
+        self._filled = [entry for entry in self.entries if entry is not None]

@@ -99,7 +99,7 @@ class Machine:
         )
         try:
             poses = solve_poses(hexapod, guess)
-            if np.any(push.compliance_mm_n != 0.0):
+            if push.compliance_mm_n.any():
                 poses = self._balanced(hexapod, push.compliance_mm_n, poses)
         except NoPoseError as error:
             where = np.round(sliders_mm[error.instant], 3).tolist()
@@ -157,6 +157,8 @@ class Plant:
         self.poses = Poses(np.array(position_mm, dtype=float)[None], np.array(rotation, dtype=float)[None])
         self._push = Push(1)
         self._before = (self._push, self.poses, 0.0)
+        self._earlier = self.poses.position_mm
+        self._read: tuple[Mounted, float] | None = None
 
     def step(self, drive_mm: Array, dt_s: float, mounted: Mounted | None = None) -> None:
         """Advance by one cycle.
@@ -177,15 +179,26 @@ class Plant:
         """
         self.time_s += dt_s
         mount = mounted.mount if mounted is not None else None
-        # Where the platform would be if it went on as it did: saves one of three iterations.
-        guess = Poses(2.0 * self.poses.position_mm - self._before[1].position_mm, self.poses.rotation)
-        self._before = (self._push, self.poses, dt_s)
-        motion = Motion(np.array([self.time_s]), dt_s, np.asarray(drive_mm, dtype=float)[None], mount)
-        self._push = self.machine.displaced(motion)
-        self.poses = self.machine.poses(motion.drive_mm, self._push, guess)
+        # Where the platform would be on the parabola through its last places: saves one of three iterations.
+        last, before, earlier = self.poses.position_mm, self._before[1].position_mm, self._earlier
+        guess = Poses(3.0 * (last - before) + earlier, self.poses.rotation)
+        self._before, self._earlier = (self._push, self.poses, dt_s), before
+        at_mm, self._read = np.asarray(drive_mm, dtype=float)[None], None
+        if self.machine.mechanisms:  # without, nothing is ever displaced
+            self._push = self.machine.displaced(Motion(np.array([self.time_s]), dt_s, at_mm, mount))
+        self.poses = self.machine.poses(at_mm, self._push, guess)
+        if mounted is not None:
+            # Now, while the controller works on the answers of this cycle, and not when it waits for those of the next.
+            self._read = mounted, self._reading_mm(mounted)
 
     def reading_mm(self, mounted: Mounted) -> float:
-        """Return length minus nominal length of the mounted bar as the gauge shows it, without noise, mm.
+        """Return length minus nominal length of the mounted bar as the gauge shows it, without noise, mm."""
+        if self._read is None or self._read[0] is not mounted:
+            self._read = mounted, self._reading_mm(mounted)
+        return self._read[1]
+
+    def _reading_mm(self, mounted: Mounted) -> float:
+        """Compute the reading of the present cycle.
 
         A gauge read earlier or later than the encoders is extrapolated linearly through the readings of this cycle and
         the one before, because the next cycle has not happened yet.

@@ -4,14 +4,16 @@ Model: residuals f_k = |R q_k + p - B_k| - L_k, k = 1 to 6. With a small rotatio
 row of the Jacobian is (n_k, (R q_k) x n_k), n_k the unit vector along leg k; C is Cayley's map, a rotation for every w
 and equal to exp([w]x) up to the third order; the choice affects the iterations and not the solution.
 Assumption: the platform stays in the assembly mode of the first guess.
-All instants of a stretch are solved at once, each from its own first guess; with quadratic convergence two or three
-iterations suffice.
+All instants of a stretch are solved at once, each from its own first guess; two or three iterations suffice. The
+Jacobian of the first serves the following ones where these are small (chord method).
 Units: mm, rad, N.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,13 +22,20 @@ from hexdbb.errors import RunError
 from hexdbb.rig.geometry import Array
 
 STEP_TOLERANCE = 1e-6
-"""Largest last step, mm and rad. Convergence is quadratic: the remaining error is the square of the step over the leg
-length, below 1e-14 mm."""
+"""Largest last step, mm and rad. The remaining error is this step times the one before it, over the leg length."""
+REUSE_STEP = 2e-3
+"""Largest step after which the Jacobian is used again, mm and rad: the next step is then below 1e-8, and the remaining
+error below 1e-13 mm, the rounding of a leg length."""
 MAX_ITERATIONS = 50
 """Iterations after which there is no pose; a nearby guess needs two or three."""
 BLOCK = 512
 """Instants solved at once: their Jacobians (150 kB) fit into the processor's cache."""
 _IDENTITY = np.eye(3)
+_ONE_AND_A_HALF = 1.5 * _IDENTITY
+_XYZXY = np.array([0, 1, 2, 0, 1])
+"""Axes in cyclic order: a vector product is the difference of two products of slices."""
+_SKEW = np.array([[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], float)
+"""Matrices [x]x, [y]x and [z]x of the unit vectors, row by row."""
 
 
 class NoPoseError(RunError):
@@ -88,6 +97,8 @@ def solve_poses(hexapod: Hexapod, guess: Poses) -> Poses:
     NoPoseError
         No convergence within `MAX_ITERATIONS`: the slider positions are incompatible with the leg lengths.
     """
+    if len(guess.position_mm) <= BLOCK:
+        return Poses(*_solve_block(hexapod, guess, 0))
     position, rotation = np.empty_like(guess.position_mm), np.empty_like(guess.rotation)
     for first in range(0, len(position), BLOCK):
         rows = slice(first, first + BLOCK)
@@ -118,7 +129,7 @@ def leg_forces_n(hexapod: Hexapod, poses: Poses, weight_n: float) -> Array:
     RunError
         The pose is singular: there is no equilibrium.
     """
-    _, jacobian = _legs(hexapod, poses.position_mm, poses.rotation)
+    jacobian = _jacobian(*_legs(hexapod, poses.position_mm, poses.rotation))
     # Legs push along n_k: sum f_k n_k = (0, 0, weight), and no moment about the reference point.
     load = np.zeros((len(jacobian), 6, 1))
     load[:, 2] = weight_n
@@ -131,46 +142,64 @@ def leg_forces_n(hexapod: Hexapod, poses: Poses, weight_n: float) -> Array:
 
 def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Array]:
     position, rotation = guess.position_mm, guess.rotation
+    inverse: NDArray[np.floating[Any]] | None = None
     for _ in range(MAX_ITERATIONS):
-        reach, jacobian = _legs(hexapod, position, rotation)
-        try:
-            solved = np.linalg.solve(jacobian, (hexapod.lengths_mm - reach)[:, :, None])
-        except np.linalg.LinAlgError:
-            break
-        step = np.asarray(solved[:, :, 0], dtype=np.float64)
+        arms, legs, reach = _legs(hexapod, position, rotation)
+        if inverse is None:
+            try:
+                inverse = np.linalg.inv(_jacobian(arms, legs, reach))
+            except np.linalg.LinAlgError:
+                break
+        step: Array = (inverse @ (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
         position = position + step[:, :3]
+        largest = float(np.abs(step).max())
+        if largest < STEP_TOLERANCE:
+            return position, _orthonormal(rotation + _skew(step[:, 3:]) @ rotation)
         rotation = _turn(step[:, 3:]) @ rotation
-        largest = np.abs(step).max(axis=1)
-        if np.all(largest < STEP_TOLERANCE):
-            # One step of the polar decomposition's iteration keeps R orthonormal over any number of samples.
-            return position, 0.5 * rotation @ (3.0 * _IDENTITY - rotation.transpose(0, 2, 1) @ rotation)
-        if not np.all(np.isfinite(largest)):
+        if not math.isfinite(largest):
             break
-    reach, _ = _legs(hexapod, position, rotation)
+        if largest > REUSE_STEP:
+            inverse = None
+    _, _, reach = _legs(hexapod, position, rotation)
     wrong = ~(np.abs(hexapod.lengths_mm - reach).max(axis=1) < STEP_TOLERANCE)
     row = int(np.argmax(wrong))
     raise NoPoseError(first + row)
 
 
-def _legs(hexapod: Hexapod, position: Array, rotation: Array) -> tuple[Array, Array]:
-    """Return distances of the joints of each leg (n, 6) and their derivatives by position and rotation (n, 6, 6)."""
+def _legs(hexapod: Hexapod, position: Array, rotation: Array) -> tuple[Array, Array, Array]:
+    """Return R q_k (n, 6, 3), the vectors along the legs (n, 6, 3) and the distances of their joints (n, 6)."""
     arms = hexapod.platform_joints_mm @ rotation.transpose(0, 2, 1)
     legs = arms + position[:, None, :] - hexapod.slider_joints_mm
-    reach = np.sqrt(np.einsum("nij,nij->ni", legs, legs))
+    return arms, legs, np.sqrt(np.einsum("nij,nij->ni", legs, legs))
+
+
+def _jacobian(arms: Array, legs: Array, reach: Array) -> Array:
+    """Return the derivatives of the distances by position and rotation, (n, 6, 6)."""
     jacobian = np.empty((len(reach), 6, 6))
     n = np.divide(legs, reach[:, :, None], out=jacobian[:, :, :3])
-    for axis in range(3):
-        one, other = (axis + 1) % 3, (axis + 2) % 3
-        jacobian[:, :, 3 + axis] = arms[:, :, one] * n[:, :, other] - arms[:, :, other] * n[:, :, one]
-    return reach, jacobian
+    a, b = arms.take(_XYZXY, axis=2), n.take(_XYZXY, axis=2)
+    np.subtract(a[:, :, 1:4] * b[:, :, 2:5], a[:, :, 2:5] * b[:, :, 1:4], out=jacobian[:, :, 3:])
+    return jacobian
+
+
+def _skew(vector: Array) -> Array:
+    """Return the matrices [v]x of vectors v, (n, 3, 3)."""
+    skew: Array = (vector @ _SKEW).reshape(-1, 3, 3)
+    return skew
+
+
+def _orthonormal(rotation: Array) -> Array:
+    """Return rotations without the rounding of many samples and the second order of a last small turn, (n, 3, 3).
+
+    One step of the polar decomposition's iteration: it squares the deviation from orthonormal.
+    """
+    return rotation @ (_ONE_AND_A_HALF - 0.5 * (rotation.transpose(0, 2, 1) @ rotation))
 
 
 def _turn(rotation_vector: Array) -> Array:
     """Return Cayley's map I + 2 (H + H^2) / (1 + |h|^2) of half the rotation vector, h, with H = [h]x; (n, 3, 3)."""
     half = 0.5 * rotation_vector
-    skew = np.zeros((len(half), 3, 3))
-    skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0] = half.T
-    skew[:, 1, 2], skew[:, 2, 0], skew[:, 0, 1] = -half.T
+    skew = _skew(half)
     scale = 2.0 / (1.0 + np.einsum("ni,ni->n", half, half))
     turn: Array = _IDENTITY + scale[:, None, None] * (skew + skew @ skew)
     return turn

@@ -30,6 +30,12 @@ SETTLE_S = 0.02
 """Silence after the handshake, s, because python-can expects the last `< ok >` in a read of its own."""
 IDLE_S = 0.1
 """Time between two polls without a client, s."""
+HEAD = 12
+"""Characters of a message up to its data, for an 11-bit identifier."""
+SPACES = b" " * 9
+"""A space before and after every byte."""
+_HEADS = {f"< send {can_id:03X} {n}".encode(): (can_id, n) for can_id in range(0x800) for n in range(9)}
+"""Identifier and number of data bytes by the beginning of a message."""
 
 
 class _Client:
@@ -178,7 +184,11 @@ class SocketcandServer:
             return
         *messages, client.buffer = (client.buffer + data).split(b">")
         for message in messages:
-            self._obey(client, message.split())
+            frame = parse_frame(message) if client.raw_since_s is not None else None
+            if frame is None:
+                self._obey(client, message.split())
+            else:
+                self._pass_on(client, *frame)
         if len(client.buffer) > LONGEST_MESSAGE:
             self._drop(client)
 
@@ -206,7 +216,28 @@ class SocketcandServer:
         if len(data) != length or length > 8 or cob_id > 0x7FF:
             self._send(client, b"< error malformed frame >")
             return
+        self._pass_on(client, cob_id, data)
+
+    def _pass_on(self, client: _Client, cob_id: int, data: bytes) -> None:
         client.raw_since_s = 0.0
         if len(self._clients) > 1:
             self._broadcast([(cob_id, data)], client)
         self._on_frame(cob_id, data)
+
+
+def parse_frame(message: bytes) -> Frame | None:
+    """Parse ``< send ID LENGTH BYTE BYTE ... `` of 11-bit identifier and bytes of two digits, the usual form.
+
+    Returns
+    -------
+    Frame or None
+        None for every other message, which is then read word by word.
+    """
+    head = _HEADS.get(message[:HEAD])
+    if head is None or message[HEAD::3] != SPACES[: head[1] + 1]:
+        return None
+    try:
+        data = bytes.fromhex(message[HEAD:].decode("ascii"))
+    except ValueError:
+        return None
+    return (head[0], data) if len(data) == head[1] else None

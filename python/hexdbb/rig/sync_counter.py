@@ -33,6 +33,7 @@ class SyncCounter:
 
     def __init__(self, dictionary: Dictionary, emergency: Callable[[int], None]) -> None:
         self._dictionary, self._emergency = dictionary, emergency
+        self._overflow, self._has_object = dictionary.entry(OVERFLOW), (OVERFLOW, 0) in dictionary
         self._last: int | None = None
         dictionary.hooks[OVERFLOW, 0] = self._written
 
@@ -42,8 +43,8 @@ class SyncCounter:
 
     def accepts(self, data: bytes) -> bool:
         """Return whether the node acts on a SYNC with these data."""
-        overflow = self._dictionary.number(OVERFLOW)
-        if (OVERFLOW, 0) in self._dictionary and len(data) != bool(overflow):
+        overflow = int(self._overflow.value)
+        if self._has_object and len(data) != bool(overflow):
             self._emergency(ERROR_SYNC_LENGTH)
             return False
         if not overflow:

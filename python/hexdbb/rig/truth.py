@@ -3,7 +3,7 @@
 Model: TOML of schema ``hexdbb.truth/1`` in µm, µrad, s and degrees, converted once to mm and rad. Error parameters have
 the names and signs of the effects they belong to; those left out are zero.
 Assumption: sizes of the random machine are those expected of a machine tool of this size: joints, guideways and offsets
-50 µm, rotations 0.2 mrad, platform sides 30 µm, cup 0.1 mm (one standard deviation each).
+50 µm, rotations 0.2 mrad, platform sides 30 µm, cup 0.1 mm (one standard deviation each), where `Spread` has no others.
 """
 
 from __future__ import annotations
@@ -136,9 +136,25 @@ class TruthFile(FileModel):
         return {**data, "mechanism": [_mechanism(k, item) for k, item in enumerate(data["mechanism"])]}
 
 
-def random_truth(seed: int) -> TruthFile:
-    """Return a random machine; equal seeds give equal machines."""
+class Spread(StrictModel):
+    """Standard deviations of the errors of a random machine and of its set-up."""
+
+    length_um: NotNegative = 50.0
+    """Lengths of legs, offsets of sliders, displacements of guideways."""
+    rotation_urad: NotNegative = 200.0
+    """Rotations of guideways."""
+    platform_side_um: NotNegative = 30.0
+    """Sides of the platform's triangle."""
+    cup_um: NotNegative = 100.0
+    """Position of the cup along each axis, for each mount."""
+    ball_um: NotNegative = 30.0
+    """Position of the centre ball on the platform along each axis."""
+
+
+def random_truth(seed: int, spread: Spread | None = None) -> TruthFile:
+    """Return a random machine, its errors drawn with a spread; equal seeds and spreads give equal machines."""
     draw = np.random.default_rng(seed)
+    spread = Spread() if spread is None else spread
 
     def some(sigma: float, *shape: int) -> Any:
         return np.round(draw.normal(0.0, sigma, shape), 3).tolist()
@@ -146,15 +162,15 @@ def random_truth(seed: int) -> TruthFile:
     return TruthFile(
         seed=seed,
         geometry=Geometry(
-            leg_length_um=some(50.0, 6),
-            slider_offset_um=some(50.0, 6),
-            guideway_translation_um=some(50.0, 3, 3),
-            guideway_rotation_xy_urad=some(200.0, 3),
-            guideway_rotation_yz_urad=some(200.0, 3),
-            guideway_rotation_centre_urad=some(200.0, 3),
-            platform_side_um=some(30.0, 3),
+            leg_length_um=some(spread.length_um, 6),
+            slider_offset_um=some(spread.length_um, 6),
+            guideway_translation_um=some(spread.length_um, 3, 3),
+            guideway_rotation_xy_urad=some(spread.rotation_urad, 3),
+            guideway_rotation_yz_urad=some(spread.rotation_urad, 3),
+            guideway_rotation_centre_urad=some(spread.rotation_urad, 3),
+            platform_side_um=some(spread.platform_side_um, 3),
         ),
-        setup=Setup(cup_error_um=some(100.0, RANDOM_MOUNTS, 3), ball_offset_error_um=some(30.0, 3)),
+        setup=Setup(cup_error_um=some(spread.cup_um, RANDOM_MOUNTS, 3), ball_offset_error_um=some(spread.ball_um, 3)),
     )
 
 

@@ -24,7 +24,7 @@ from hexdbb.files.frames import html_table, to_frame
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, is_shaped
 from hexdbb.plan import CircleRun
-from hexdbb.record import Record
+from hexdbb.record import Record, rows_of_sweeps
 from hexdbb.samples.unmeasured import unmeasured_columns
 from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
@@ -186,8 +186,7 @@ class Samples:
 
     def sweeps(self) -> list[NDArray[np.intp]]:
         """Return the rows of each uninterrupted capture, in the order in which the captures begin."""
-        _, first, member = np.unique(self["sweep"], return_index=True, return_inverse=True)
-        return [np.flatnonzero(member == which) for which in np.argsort(first)]
+        return rows_of_sweeps(self["sweep"])
 
     def block(self, model: Model) -> _core.Samples:
         """Return the engine's form of these samples, mounts numbered as a model numbers them.

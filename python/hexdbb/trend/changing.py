@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from hexdbb.diagnosis.sufficiency import MATTERS_OF_NOISE
 from hexdbb.model import Model
-from hexdbb.trend.joint import Changing, JointFit, Part, Solution, cost, fit_together, solve, started
+from hexdbb.trend.arrow import Changing, Solution, cost, solve
+from hexdbb.trend.joint import JointFit, Part, fit_together, started
 
 Floats = NDArray[np.float64]
 

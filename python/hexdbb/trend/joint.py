@@ -3,10 +3,7 @@
 Model: y_r = f(x + v_r, z_r) + noise, record by record; x are the machine's values, shared by all; z_r the set-up of
 record r (cups, ball); v_r the departure of the changing values from the shared ones, zero elsewhere. All have normal
 priors: x and z_r with the catalogue's standard deviations, v_r with a part of them (`Changing.scale`).
-Method: Gauss-Newton on the normal equations of every record. A record's own unknowns w_r = (z_r, v_r) meet those of
-other records in x alone, so the system has the form of an arrow and is reduced to x by Schur complements:
-    S = P + sum (H_xx - H_xw A_w^-1 H_wx),  A_w = H_ww + P_w;   a year of daily records costs 365 small systems.
-Covariances are those of the whole system; that of x is carried into every w_r.
+Method: Gauss-Newton on the normal equations of every record, solved together (`hexdbb.trend.arrow`).
 Assumption: nearly linear (errors of 0.1 mm on legs of 400 mm), as in `hexdbb.diagnosis`; a few steps suffice.
 """
 
@@ -14,19 +11,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import linalg
 
+from hexdbb import _core
 from hexdbb.diagnosis import noise_of
 from hexdbb.errors import RunError
 from hexdbb.model import Model, MountKey, new_term
 from hexdbb.samples import Samples, normal_equations, predict
+from hexdbb.trend.arrow import Changing, Equations, Layout, Solution, cost, solve
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.intp]
 
 STEPS = 60
 """Largest number of steps tried: ten to thirty are needed from the nominal machine, most of them along directions that
@@ -37,30 +33,6 @@ LEAST_DAMPING, DAMPED_MORE = 1.0, 5.0
 """Levenberg-Marquardt: the least information, in that of a prior, by which a step uphill shortens the next one, and
 the factor from one to the next. Steps lead uphill along the height of a cup that only level circles see: its square
 shortens the bar, and a tenth of its prior standard deviation is a step already."""
-
-
-@dataclass(frozen=True)
-class Changing:
-    """Values that change from record to record: one element of one effect.
-
-    Attributes
-    ----------
-    effect, element : str
-    columns : tuple of int
-        Their places among the model's values.
-    scale : float
-        Standard deviation of the departures, in the values' prior standard deviations.
-    """
-
-    effect: str
-    element: str
-    columns: tuple[int, ...]
-    scale: float = 1.0
-
-    @property
-    def label(self) -> str:
-        """Name as options and files have it: ``backlash:4``."""
-        return f"{self.effect}:{self.element}" if self.element else self.effect
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,164 +53,6 @@ class Part:
     def of(cls, samples: Samples) -> Part:
         """Return a record with the noise of its own readings."""
         return cls(samples, noise_of(samples).sigma_mm)
-
-
-@dataclass(frozen=True, eq=False)
-class Equations:
-    """Normal equations of one record about the present values, in prior standard deviations.
-
-    Attributes
-    ----------
-    information : ndarray, shape (size, size)
-    gradient : ndarray, shape (size,)
-        J'r, r measured minus predicted.
-    at : ndarray, shape (size,)
-        Present values, from their starts, in prior standard deviations.
-    effective_mm : float
-        Noise with which readings count: what the model leaves, times the root of its autocorrelation time.
-    noise_mm : float
-        Of one reading.
-    squared_mm2, rms_mm : float
-        Sum of the squares of what the model leaves; its root mean square.
-    readings : int
-    """
-
-    information: Floats
-    gradient: Floats
-    at: Floats
-    effective_mm: float
-    noise_mm: float
-    squared_mm2: float
-    rms_mm: float
-    readings: int
-
-
-@dataclass(frozen=True, eq=False)
-class Layout:
-    """Which of a record's values are shared, and which are its own.
-
-    Attributes
-    ----------
-    shared : ndarray of int
-        Places of the machine's free values.
-    set_up : tuple of ndarray of int
-        Places of each record's free values of the set-up.
-    """
-
-    shared: Ints
-    set_up: tuple[Ints, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """The arrow-shaped system solved about the present values.
-
-    Attributes
-    ----------
-    layout : Layout
-    changing : tuple of Changing
-    moved : ndarray, shape (shared,)
-        Step of the shared values, in prior standard deviations.
-    covariance : ndarray, shape (shared, shared)
-    own : tuple of ndarray
-        Every record's own unknowns: step of the set-up, then of the departures.
-    spread : tuple of ndarray
-        Their covariances with the shared values held.
-    carried : tuple of ndarray
-        How a record's own unknowns follow the shared ones: w = ... - carried x.
-    log_evidence : float
-        Of the readings, up to a constant that no choice of changing values alters.
-    """
-
-    layout: Layout
-    changing: tuple[Changing, ...]
-    moved: Floats
-    covariance: Floats
-    own: tuple[Floats, ...]
-    spread: tuple[Floats, ...]
-    carried: tuple[Floats, ...]
-    log_evidence: float
-
-    @cached_property
-    def departing(self) -> Ints:
-        """Places of the changing values."""
-        return np.array([column for each in self.changing for column in each.columns], dtype=np.intp)
-
-    def covariance_of(self, record: int) -> Floats:
-        """Return the covariance of a record's own unknowns, that of the shared values carried into it."""
-        return self.spread[record] + self.carried[record] @ self.covariance @ self.carried[record].T
-
-    def of_departures(self, record: int) -> slice:
-        """Return where the departures stand among a record's own unknowns."""
-        return slice(len(self.layout.set_up[record]), None)
-
-
-def solve(
-    equations: Sequence[Equations],
-    layout: Layout,
-    changing: Sequence[Changing],
-    departures: Sequence[Floats] | None = None,
-    damping: float = 0.0,
-) -> Solution:
-    """Solve the arrow-shaped system about the present values.
-
-    Parameters
-    ----------
-    equations : sequence of Equations
-        One of each record.
-    layout : Layout
-    changing : sequence of Changing
-    departures : sequence of ndarray, optional
-        Present departures of each record, in prior standard deviations, in the order of `changing`; zero where not
-        given.
-    damping : float
-        Information, in that of a prior, that the steps of the set-ups are small.
-    """
-    shared = layout.shared
-    columns = np.array([column for each in changing for column in each.columns], dtype=np.intp)
-    scales = np.array([each.scale for each in changing for _ in each.columns])
-    total = np.eye(len(shared))
-    downhill = np.zeros(len(shared))
-    kept, log_evidence = [], 0.0
-    for number, (each, set_up) in enumerate(zip(equations, layout.set_up, strict=True)):
-        weight = 1.0 / each.effective_mm**2
-        own = np.concatenate([set_up, columns])
-        departed = np.zeros(len(columns)) if departures is None else departures[number]
-        prior = np.concatenate([np.ones(len(set_up)), 1.0 / scales**2])
-        inside = weight * each.information[np.ix_(own, own)] + np.diag(prior)
-        inside[np.arange(len(set_up)), np.arange(len(set_up))] += damping
-        across = weight * each.information[np.ix_(own, shared)]
-        down_own = weight * each.gradient[own] - prior * np.concatenate([each.at[set_up], departed])
-        # By the triangular factor: the difference below loses what an inverse of this condition is wrong by.
-        factor = linalg.cholesky(inside, lower=True)
-        half = linalg.solve_triangular(factor, across, lower=True)
-        down = linalg.solve_triangular(factor, down_own, lower=True)
-        inverse = linalg.cho_solve((factor, True), np.eye(len(own)))
-        carried = linalg.solve_triangular(factor, half, lower=True, trans="T")
-        total += weight * each.information[np.ix_(shared, shared)] - half.T @ half
-        downhill += weight * each.gradient[shared] - half.T @ down
-        log_evidence += 0.5 * (down @ down + np.log(prior).sum()) - np.log(np.diag(factor)).sum()
-        log_evidence -= 0.5 * float(departed**2 @ (1.0 / scales**2)) if len(columns) else 0.0
-        kept.append((inverse, carried, linalg.solve_triangular(factor, down, lower=True, trans="T")))
-    # The prior of the shared values counts once; the present values differ from record to record by departures only.
-    first_departed = np.zeros(len(columns)) if departures is None else departures[0]
-    at = equations[0].at.copy()
-    at[columns] -= first_departed
-    downhill -= at[shared]
-    factor = linalg.cholesky(total, lower=True)
-    covariance: Floats = linalg.cho_solve((factor, True), np.eye(len(shared)))
-    moved = covariance @ downhill
-    log_evidence += 0.5 * float(downhill @ moved) - np.log(np.diag(factor)).sum()
-    return Solution(
-        layout,
-        tuple(changing),
-        moved,
-        covariance,
-        tuple(step - carried @ moved for _, carried, step in kept),
-        tuple(inverse for inverse, _, _ in kept),
-        tuple(carried for _, carried, _ in kept),
-        float(log_evidence),
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -356,21 +170,6 @@ class _State:
         return _State(tuple(models), tuple(departures))
 
 
-def cost(
-    equations: Sequence[Equations], layout: Layout, changing: Sequence[Changing], departures: Sequence[Floats]
-) -> float:
-    """Return half of chi-square of all readings and of all departures from the priors."""
-    columns = [column for each in changing for column in each.columns]
-    scales = np.array([each.scale for each in changing for _ in each.columns])
-    shared = equations[0].at.copy()
-    shared[columns] -= departures[0]
-    total = float(np.sum(shared[layout.shared] ** 2))
-    for each, set_up, departed in zip(equations, layout.set_up, departures, strict=True):
-        total += each.squared_mm2 / each.effective_mm**2 + float(np.sum(each.at[set_up] ** 2))
-        total += float(np.sum((departed / scales) ** 2))
-    return 0.5 * total
-
-
 def _of_all(
     parts: Sequence[Part], models: Sequence[Model], weighed: Sequence[Equations] | None = None
 ) -> tuple[Equations, ...]:
@@ -419,7 +218,7 @@ def _equations(part: Part, model: Model) -> Equations:
     prior = model.prior_sigma
     residual_mm = predict(part.samples, model).residual_mm
     rms_mm = float(np.sqrt(np.mean(residual_mm**2)))
-    correlation = autocorrelation_time(residual_mm, part.samples["sweep"])
+    correlation = _core.autocorrelation_time(residual_mm, part.samples["sweep"])
     return Equations(
         found.information * np.outer(prior, prior),
         found.gradient * prior,
@@ -441,26 +240,3 @@ def _pooled(equations: Sequence[Equations]) -> tuple[Equations, ...]:
     readings = sum(each.readings for each in equations)
     pooled_mm = float(np.sqrt(sum(each.readings * each.effective_mm**2 for each in equations) / readings))
     return tuple(replace(each, effective_mm=max(pooled_mm, each.noise_mm)) for each in equations)
-
-
-def autocorrelation_time(residual_mm: Floats, sweep: NDArray[np.integer]) -> float:
-    """Return the integrated autocorrelation time of a residual within sweeps (Geyer 1992), as the engine's fit has it.
-
-    Parameters
-    ----------
-    residual_mm : ndarray, shape (n,)
-    sweep : ndarray of int, shape (n,)
-    """
-    covariance = np.zeros(len(residual_mm))
-    for each in np.unique(sweep):
-        own = residual_mm[sweep == each]
-        size = 1 << (2 * len(own) - 1).bit_length()
-        spectrum = np.abs(np.fft.rfft(own, size)) ** 2
-        covariance[: len(own)] += np.fft.irfft(spectrum, size)[: len(own)]
-    if not covariance[0] > 0.0:
-        return 1.0
-    relative = covariance / covariance[0]
-    pairs = relative[1:-1:2] + relative[2::2][: len(relative[1:-1:2])]
-    ends = np.flatnonzero(pairs <= 0.0)
-    positive = pairs[: ends[0]] if len(ends) else pairs
-    return max(1.0 + 2.0 * float(positive.sum()), 1.0)

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.comparison import UM_PER_MM
-from hexdbb.comparison.circles import compare_circles
+from hexdbb.comparison import UM_PER_MM, largest_quantities
 from hexdbb.identifiability import KNOWN_PART
 from hexdbb.samples import Samples
+from hexdbb.trend.arrow import Changing, Solution, solve
 from hexdbb.trend.changing import candidates
-from hexdbb.trend.joint import Changing, JointFit, Solution, solve
+from hexdbb.trend.joint import JointFit
 from hexdbb.units import shown_factor, shown_unit
 
 Floats = NDArray[np.float64]
@@ -78,10 +78,8 @@ def quantity_series(samples: Sequence[Samples], symbols: dict[str, str]) -> list
     """
     found = {key: np.full(len(samples), np.nan) for key in WATCHED_QUANTITIES}
     for number, each in enumerate(samples):
-        parts = [part for circle in compare_circles(each, each.reading_mm) for part in circle.directions]
-        for key, values in found.items():
-            known = [value for part in parts if (value := part.measured_quantities[key]) is not None]
-            values[number] = max(known) * UM_PER_MM if known else np.nan
+        for key, value in largest_quantities(each, WATCHED_QUANTITIES).items():
+            found[key][number] = np.nan if value is None else value * UM_PER_MM
     nothing = np.full(len(samples), np.nan)
     return [
         Series(symbols[key], "", "", "um", each, nothing, each - each[0], nothing, True, True)

@@ -36,7 +36,7 @@ def exceeded_sentence(found: Trend, each: Exceeded) -> str:
 
 
 def change_sentence(found: Trend, series: Series) -> str:
-    """Say how a value changes: its lines of time one after another."""
+    """Describe in a sentence how a value changes: its slopes and jumps in order of time."""
     unit = readable_unit(series.unit)
     values, sigma = (series.value, series.sigma) if series.is_known else (series.change, series.change_sigma)
     whole = f"{_shown(values[0], sigma[0])} to {_shown(values[-1], sigma[-1])} {unit}"

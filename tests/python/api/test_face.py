@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from tests.truth.cases import case
 
 import hexdbb as hx
+from hexdbb_truth.cases import case
 
 NAMES = [name for name in hx.__all__ if not name.startswith("_")]
 

@@ -37,6 +37,9 @@ class Kept:
     def settle(self, paired: bool, held: int) -> None:
         assert paired
 
+    def pause(self) -> None:
+        pass
+
 
 def follow(axes: AxisGroup) -> int:
     """Follow standing targets; return the number of rows kept."""

@@ -120,6 +120,9 @@ class NoRows:
     def settle(self, paired: bool, held: int) -> None:
         pass
 
+    def pause(self) -> None:
+        pass
+
 
 ALL = (*DRIVES, GAUGE)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import socket
 import threading
 from collections.abc import Callable, Iterator
@@ -10,7 +11,7 @@ import can
 import pytest
 
 from hexdbb.capture.frames import GuardedBus
-from hexdbb.capture.socketcand import parse_frame
+from hexdbb.capture.socketcand import parse_frame, parse_frames
 from hexdbb.capture.transport import open_bus
 from hexdbb.errors import InputError
 
@@ -107,7 +108,7 @@ def test_sent_frame_is_what_the_protocol_prescribes(server: Callable[[Script], s
         bus.send(can.Message(arbitration_id=0x203, data=b"\x0f\x00\xab", is_extended_id=False))
         with pytest.raises(can.CanError):
             bus.recv(WAIT_S)
-    assert seen == [b"< send 203 3 f 0 ab >"]
+    assert seen == [b"< send 203 3 0f 00 ab >"]
 
 
 @pytest.mark.parametrize("greeting", [b"HTTP/1.1 400 Bad Request\r\n>", b"< hello >", b"\xff" * 300, b""])
@@ -121,3 +122,37 @@ def test_error_frame_is_told_from_data() -> None:
     message = parse_frame(b"< error 040 1.0 ", "can0")
     assert message is not None
     assert message.is_error_frame
+
+
+def general(text: bytes) -> list[tuple[int, bytes, float]] | None:
+    """Return what the parser of single messages makes of a text; None unless all are data frames of 11 bits."""
+    found = [parse_frame(message, "can0") for message in text.split(b">")[:-1]]
+    if not text.endswith(b">") or any(each is None or each.is_extended_id or each.is_error_frame for each in found):
+        return None
+    return [(each.arbitration_id, bytes(each.data), each.timestamp) for each in found if each is not None]
+
+
+BURST = b"< frame 181 12.5 37960102030408 >< frame 080 12.5  >< frame 187 12.500001 0000803F00 >"
+
+
+def test_frames_parsed_together_are_those_parsed_one_by_one() -> None:
+    found = parse_frames(BURST)
+    assert found == general(BURST)
+    assert [(can_id, len(data)) for can_id, data, _ in found or ()] == [(0x181, 7), (0x080, 0), (0x187, 5)]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_burst_with_an_error_is_left_to_the_general_parser_or_read_alike(seed: int) -> None:
+    rng = random.Random(seed)
+    alike = 0
+    for _ in range(3000):
+        text = bytearray(BURST)
+        for _ in range(rng.randint(1, 3)):
+            where = rng.randrange(len(text))
+            text[where : where + rng.randint(0, 2)] = rng.choice(
+                [b"", b" ", b"\t", b"\n", b"0", b"g", b"_", b"-", b"<", b">", b"nan", b"inf", b"1e999", b"FF", b"\xff"]
+            )
+        found = parse_frames(bytes(text))
+        assert found is None or found == general(bytes(text)), bytes(text)
+        alike += found is not None
+    assert alike > 100

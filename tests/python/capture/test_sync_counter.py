@@ -17,6 +17,7 @@ from tests.python.capture.scripted_bus import ScriptedBus
 from tests.rigs import rig_in_thread
 
 from hexdbb.capture.exchange import Exchange
+from hexdbb.capture.frames import GuardedBus
 from hexdbb.capture.sync_counter import LARGEST, configure_sync_counter
 from hexdbb.errors import RunError
 from hexdbb.machine import shipped
@@ -93,7 +94,7 @@ def test_without_1019h_syncs_carry_no_data(tmp_path: Path) -> None:
     bus = ScriptedBus()
     for overflow, data in ((0, [b""] * 3), (2, [b"\1", b"\2", b"\1"])):
         bus.sent.clear()
-        exchange = Exchange(bus, (1, 2, 3, 4, 5, 6), 7, lambda *_: None, overflow)
+        exchange = Exchange(GuardedBus(bus), (1, 2, 3, 4, 5, 6), 7, lambda *_: None, overflow)
         for _ in range(3):
             exchange.send_sync()
         assert [sent for can_id, sent in bus.sent if can_id == 0x080] == data

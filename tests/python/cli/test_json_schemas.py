@@ -13,8 +13,6 @@ import jsonschema
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from tests.truth.plans import discovery_plan
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb.cli import cli
 from hexdbb.cli.schemas import COMMANDS, DECLARED, json_schema, schema_text
@@ -25,6 +23,8 @@ from hexdbb.model import new_model
 from hexdbb.record import Record, write_record
 from hexdbb.rig.truth import random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.plans import discovery_plan
+from hexdbb_truth.simulate import Pace, simulate
 
 PACE = Pace(rate_hz=1.0, instants_per_sample=1, travel_s=1.0)
 

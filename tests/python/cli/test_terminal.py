@@ -18,12 +18,12 @@ from rich.text import Text
 from tests.circle_plan import circle_plan
 from tests.programs import called
 from tests.terminals import on_terminal, terminal
-from tests.truth.plans import discovery_plan
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb.cli.consoles import output_console
 from hexdbb.record import write_record
 from hexdbb.rig.truth import random_truth
+from hexdbb_truth.plans import discovery_plan
+from hexdbb_truth.simulate import Pace, simulate
 
 OF_ROUNDING = re.compile(r"\d\.\d\de\+1\d")
 """Sizes of which a plan shows nothing, divided by what rounding leaves: no two computers agree on them."""

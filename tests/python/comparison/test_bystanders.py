@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
 
 from hexdbb.comparison import Comparison, compare, compare_readings
 from hexdbb.comparison.tables import comparison_text
@@ -15,6 +14,7 @@ from hexdbb.discovery import LikelyCause
 from hexdbb.files.plain_text import plain_text
 from hexdbb.model import new_model
 from hexdbb.samples import Samples, predict
+from hexdbb_truth.cases import case
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from tests.truth.closing import silent
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb.compensation import CompensatedTargets, make_compensation, smooth_changes, travel_directions
 from hexdbb.compensation import targets as targets_module
@@ -19,6 +18,7 @@ from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import TruthFile
 from hexdbb.trajectory import Programme, approach, plan_programme
 from hexdbb.trajectory import programme as programme_module
+from hexdbb_truth.simulate import Pace, simulate
 
 Floats = NDArray[np.float64]
 

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.programs import called
-from tests.truth.simulate import simulate
 
 from hexdbb import _core
 from hexdbb.compensation import (
@@ -32,6 +31,7 @@ from hexdbb.record import read_record, write_record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import TruthFile
 from hexdbb.samples import Samples
+from hexdbb_truth.simulate import simulate
 
 EFFECTS = ["leg_length", "guideway_rotation_xy", "backlash", "gravity_sag", "cup_position", "reversal_spike"]
 

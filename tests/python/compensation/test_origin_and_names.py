@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.truth.simulate import simulate
 
 from hexdbb import _core
 from hexdbb.compensation import make_compensation, read_compensation, write_compensation
@@ -19,6 +18,7 @@ from hexdbb.model import Model, load_model, new_model, save_model
 from hexdbb.plan import load_plan
 from hexdbb.rig.truth import TruthFile
 from hexdbb.samples import Samples
+from hexdbb_truth.simulate import simulate
 
 EVIL = [
     "x */ int evil = 1; /*",

@@ -6,8 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.plans import discovery_plan
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb.comparison.circles import compare_circles
 from hexdbb.contributions import Contributions, RecordContributions, groups_of, rank_contributions
@@ -17,6 +15,8 @@ from hexdbb.record import Record
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import GaugeTruth, random_truth
 from hexdbb.samples import Samples, predict
+from hexdbb_truth.plans import discovery_plan
+from hexdbb_truth.simulate import Pace, simulate
 
 SLIDER = 4
 PLAY = MECHANISMS["backlash"].model_validate({"kind": "backlash", "slider": SLIDER, "width_um": 15.0})

@@ -4,18 +4,28 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.coverage import PACE, position_errors_um, study_plan
-from tests.truth.simulate import simulate
 
 from hexdbb.cli.diagnose import choose_free, hold_redundant
 from hexdbb.diagnosis import diagnose, noise_of
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.model import new_model
+from hexdbb.plan import Plan
 from hexdbb.rig.truth import random_truth
 from hexdbb.samples import Samples
+from hexdbb.studies.file import load_study
+from hexdbb.studies.measured import place_errors
+from hexdbb.studies.setting import setting_of
+from hexdbb_truth.simulate import simulate
 
 SEED = 77
+SETTING = setting_of(load_study("standard"))
+"""Seven circles at 3000 mm/min, one lap each way, 40 readings per second."""
+PACE = SETTING.pace
+
+
+def study_plan() -> Plan:
+    return SETTING.plan
 
 
 @pytest.fixture(scope="module")
@@ -100,9 +110,8 @@ def test_noise_comes_from_laps_where_there_are_two(record):
 
 
 def test_place_is_known_as_well_as_it_is_said(found):
-    plan = study_plan()
     places = found.place
-    _, error_um = position_errors_um(random_truth(SEED), plan, found)
+    error_um = place_errors(random_truth(SEED), SETTING, found).after_um
     assert 0.3 < error_um / places.median_um < 2.5
     assert places.median_um < places.worst_um < 5.0 * places.median_um
 

@@ -7,8 +7,6 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.diagnosis.extrapolation import ExpectedError, expected_error
@@ -16,6 +14,8 @@ from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 FEW = (0, 3)
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 from hexdbb.diagnosis import FitTest, Noise
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 NOISE = Noise(0.5e-3, "stated")
 

@@ -7,11 +7,11 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
 
 
 @lru_cache

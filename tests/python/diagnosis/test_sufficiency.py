@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 from hexdbb.diagnosis import Diagnosis, JudgingNoise, Noise, assess_sufficiency, diagnose
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 NOISE = JudgingNoise(Noise(0.5e-3, "stated"))
 

@@ -8,13 +8,13 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 from hexdbb.discovery import Discovery, discover
 from hexdbb.model import new_model
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 Measured = Callable[[str], Record]
 

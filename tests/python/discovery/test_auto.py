@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from tests.truth.cases import case
-
 from hexdbb.discovery import AutoStep, Discovery, closing_sentence, discover_all, is_needed, without_needless
 from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
 
 PAIR = "lead_error+pitch_cyclic-x3-s5"
 ASKED = ["backlash", "lead_error", "pitch_cyclic", "servo_lag", "gravity_sag"]

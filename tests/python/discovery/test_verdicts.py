@@ -8,15 +8,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
-from tests.truth.simulate import simulate
 
 from hexdbb.discovery import Discovery, discover
 from hexdbb.errors import InputError
 from hexdbb.model import new_model
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
+from hexdbb_truth.simulate import simulate
 
 
 @pytest.mark.parametrize("name", ["backlash-x3-s1", "pitch_cyclic-x3-s3", "gravity_sag-x3-s2"])

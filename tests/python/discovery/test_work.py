@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
 from hexdbb.samples import Samples, whole
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 
 def test_records_are_prepared_once_for_all_fits(monkeypatch: pytest.MonkeyPatch) -> None:

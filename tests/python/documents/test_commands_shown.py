@@ -32,10 +32,12 @@ NOT_RUN = {
     r"^\. ": "the test's interpreter is the environment",
     r"socketcan:can0": "needs a CAN interface",
     r"^hexdbb workbench": "serves until it is ended, at an address drawn anew; tests/python/workbench opens it",
+    r"(?:s3|tcp)://|^export |^dask ": "needs a store or a scheduler, which tests/python/fleet and cluster have",
     r"^(?:cmake|sudo|pip|git) ": "builds or installs; held by tests of their own",
 }
 PAGES_NOT_RUN = {
     "docs/closed-loop.md": "250 readings a second for minutes; `make closed-loop` does it, five machines",
+    "docs/studies.md": "hundreds of cases, one run at a store; tests/python/studies runs small ones",
     "docs/your-machine.md": "asks questions, and plans for a minute; tests/python/machine does both, coarser",
 }
 """Of these commands only the options are checked."""

@@ -153,7 +153,7 @@ def test_results_page_has_every_key_of_every_schema(tmp_path: Path) -> None:
     results_reference.write_page(tmp_path)
     page = (tmp_path / "results.md").read_text(encoding="utf-8")
     schemas = [json.loads(path.read_text(encoding="utf-8")) for path in results_reference.SCHEMAS.glob("*.json")]
-    assert {each["$id"] for each in schemas} == set(re.findall(r"^`(hexdbb\.\w+/\d+)`: ", page, flags=re.MULTILINE))
+    assert {each["$id"] for each in schemas} == set(re.findall(r"^`(hexdbb\.[\w.]+/\d+)`: ", page, flags=re.MULTILINE))
     assert [key for each in schemas for key in each["properties"] if f"| `{key}` | " not in page] == []
     assert "| any |" not in page
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -49,3 +50,17 @@ def test_many_at_once_are_as_one_by_one(linear: Linear, readings: Readings, port
     forms = port("slider")[:, :3] * readings.state["sliders_mm"][:, :3]
     together = [[each.hypothesis.name for each in found] for found in homes.of_each(forms)]
     assert together == [[each.hypothesis.name for each in homes.of(form)] for form in forms.T]
+
+
+def test_only_what_changes_with_time_lives_in_functions_of_time(linear: Linear, readings: Readings, port: Port) -> None:
+    constant, in_time = (
+        Learned.parse("learned:platform_joint:2:constant"),
+        Learned.parse("learned:platform_joint:2:time"),
+    )
+    # A geometry of one value, which imitates no offset of a joint.
+    one = replace(linear, own=linear.own[:, :1], standing=np.zeros(1))
+    homes = Homes(one, Thinned(readings), [constant, in_time, Learned.parse("learned:slider:2:time_position")])
+    push = port("platform_joint")[:, 3]
+    time_s = readings.state["time_s"]
+    assert [each.hypothesis for each in homes.of(push)] == [constant]
+    assert [each.hypothesis for each in homes.of(push * np.expm1(-time_s / 10.0))] == [in_time]

@@ -6,12 +6,14 @@ import json
 import shutil
 from pathlib import Path
 
+import click
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 from tests.python.importing.conftest import FOLDER
 
 from hexdbb.cli import cli
+from hexdbb.cli.import_options import OF_RECORDS, given_options, import_options
 from hexdbb.errors import InputError
 from hexdbb.importing import load_mapping, mapping_of, read_record
 from hexdbb.importing.mapping import save_mapping
@@ -95,6 +97,17 @@ def test_wrong_options_are_refused_in_one_line(place: Path, options: tuple[str, 
     assert isinstance(result.exception, InputError)
     assert message in str(result.exception)
     assert not (place / "a.parquet").exists()
+
+
+def test_a_following_command_is_told_the_same_of_the_files() -> None:
+    @click.command()
+    @import_options(OF_RECORDS)
+    def command() -> None:
+        click.echo(" ".join(given_options()))
+
+    told = CliRunner().invoke(command, ["--circle", "3", "--plan", "thesis"])
+    assert told.output == "--plan thesis --circle 3\n"
+    assert CliRunner().invoke(command, []).output == "\n"
 
 
 def test_records_go_through_excel_and_the_text_form(place: Path) -> None:

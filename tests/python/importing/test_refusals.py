@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from tests.python.importing.conftest import FOLDER, imported, refusal
 
-import hexdbb.importing.reader as reader
+import hexdbb.importing.foreign as foreign
 
 CIRCLE = [(float(angle), 10.0 * np.sin(np.radians(3.0 * angle))) for angle in range(0, 360, 5)]
 HEAD = "Angle (deg),Deviation (um)"
@@ -183,5 +183,5 @@ def test_a_machine_that_does_not_reach_the_circle_is_named(tmp_path: Path) -> No
 
 
 def test_every_suffix_that_is_read_has_one_reader() -> None:
-    assert set(reader.READERS) == {".csv", ".txt", ".tsv", ".dat", ".asc", ".xlsx", ".xlsm", ".b5r", ".xml"}
+    assert set(foreign.READERS) == {".csv", ".txt", ".tsv", ".dat", ".asc", ".xlsx", ".xlsm", ".b5r", ".xml"}
     assert "suffix '.ods' (expected one of .parquet, .csv, .xlsx" in refusal("none.ods")

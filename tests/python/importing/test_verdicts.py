@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 from tests.imports.make import PACE
 from tests.python.importing.conftest import imported
-from tests.truth.cases import case
-from tests.truth.simulate import simulate
 
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import Discovery, discover
@@ -20,6 +18,8 @@ from hexdbb.predictors import rank_predictors
 from hexdbb.record import Record
 from hexdbb.samples import Samples, predict
 from hexdbb.samples.unmeasured import unmeasured_columns
+from hexdbb_truth.cases import case
+from hexdbb_truth.simulate import simulate
 
 SERVO = {"servo_lag", "sample_delay", "reversal_spike"}
 TIMED = {"bar_drift", "leg_thermal", "screw_thermal"}

@@ -66,7 +66,7 @@ def _is_packaged(command: EntryPoint) -> bool:
 
 def test_files_are_data_and_sources_without_tests() -> None:
     files = check_wheel.expected_files(ROOT)
-    assert {each.partition("/")[0] for each in files} == {"hexdbb", "hexdbb_start"}
+    assert {each.partition("/")[0] for each in files} == {"hexdbb", "hexdbb_start", "hexdbb_truth"}
     data = {"hexdbb/py.typed", "hexdbb/_core.pyi", "hexdbb/data/sp120.toml", "hexdbb/data/plans/standard.toml"}
     assert data <= files
     assert not [each for each in files if Path(each).name.startswith(("test_", "conftest")) or "/tests/" in each]

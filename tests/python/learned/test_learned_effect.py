@@ -7,8 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.simulate import Pace
 
 from hexdbb.diagnosis import Diagnosis
 from hexdbb.diagnosis.text import diagnosis_text
@@ -21,6 +19,8 @@ from hexdbb.model import Choice, LearnedEffect, Model, load_model, new_model, sa
 from hexdbb.plan import load_plan
 from hexdbb.plots import learned_figure
 from hexdbb.samples import Samples, predict
+from hexdbb_truth.cases import case
+from hexdbb_truth.simulate import Pace
 
 PACE = Pace(rate_hz=6.0, instants_per_sample=1)
 CASE = case("pitch_cyclic-x10-s4", PACE)

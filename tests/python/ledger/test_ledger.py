@@ -13,9 +13,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.programs import called
-from tests.truth.cases import case
-from tests.truth.plans import discovery_plan
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb import _core
 from hexdbb.errors import InputError
@@ -26,6 +23,9 @@ from hexdbb.model.shown import engine_values, shown_values
 from hexdbb.record import Record, write_record
 from hexdbb.rig.truth import random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import discovery_plan
+from hexdbb_truth.simulate import Pace, simulate
 
 SEED = 11
 HIDDEN, ELEMENT = "guideway_rotation_yz", "2"

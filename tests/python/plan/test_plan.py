@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -159,3 +160,14 @@ def test_a_plan_shows_its_runs() -> None:
     shown = plan._repr_html_()
     assert shown.count("<tr>") == 1 + 28
     assert "<td>7</td><td>1</td><td>0</td><td>100</td><td>3000</td><td>+1</td><td>2</td><td>12, 0, 0</td>" in shown
+
+
+def test_a_plan_on_a_machine_at_hand_reads_no_file(tmp_path: Path) -> None:
+    plan = load_plan("standard").model_copy(update={"machine": "nowhere.toml"})
+    machine = load_plan("standard").machine_file()
+    longer = machine.model_copy(update={"name": "another"})
+    here, other = plan.with_machine(machine), plan.with_machine(longer)
+    assert here.machine_file() is machine
+    assert here.model_copy(update={"laps": 3}).machine_file() is machine
+    assert here != other
+    assert pickle.loads(pickle.dumps(other)).machine_file() == longer

@@ -11,7 +11,6 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from tests.python.comparison.made_up import MakeRecord, compared
-from tests.truth.cases import case
 
 from hexdbb.charts.colours import MEASURED_COLOURS, PREDICTED_COLOURS
 from hexdbb.diagnosis import diagnose
@@ -21,6 +20,7 @@ from hexdbb.model import new_model
 from hexdbb.plots import comparison_pages, diagnosis_pages, discovery_pages, residual_figure, save_pages
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
 
 
 def play(angle_rad: np.ndarray, direction: int) -> np.ndarray:

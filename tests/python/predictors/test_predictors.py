@@ -10,8 +10,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 from hexdbb.diagnosis import evaluate_fit, judging_noise
 from hexdbb.machine import shipped_machine
@@ -20,6 +18,8 @@ from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.predictors import Predictor, Pushes, main_predictors, rank_predictors, sentence
 from hexdbb.record import Record
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 Made = Callable[[], Samples]
 

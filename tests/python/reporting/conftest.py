@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Error, sync_playwright
-from tests.truth.plans import discovery_plan
-from tests.truth.simulate import Pace, simulate
 
 from hexdbb.ledger import add_effect, fit_model
 from hexdbb.machine import Tolerance
@@ -21,6 +19,8 @@ from hexdbb.reporting import Report, make_report, write_page
 from hexdbb.rig.mechanisms import MECHANISMS
 from hexdbb.rig.truth import random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.plans import discovery_plan
+from hexdbb_truth.simulate import Pace, simulate
 
 HOSTILE = '<img src=x onerror="document.title=1">&\'"</script>'
 CHROMIUM = Path("/usr/bin/chromium")

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 from tests.programs import called
-from tests.truth.months import Year
 
 from hexdbb.record import write_record
+from hexdbb_truth.months import Year
 
 LIMITS = """
 [[watch]]

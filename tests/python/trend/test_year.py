@@ -9,11 +9,11 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from tests.truth.months import WARM_LEG, Year
 
 from hexdbb.cli.schemas import json_schema
 from hexdbb.machine import Watch
 from hexdbb.trend import STATUS_LIMIT, dated, trend
+from hexdbb_truth.months import WARM_LEG, Year
 
 PLAY, LEG = "backlash:1", f"leg_length:{WARM_LEG}"
 FORM = 0.1

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from tests.truth.forms.history import History
-from tests.truth.forms.measure import Measured
-from tests.truth.simulate import Pace
 
 from hexdbb.plan import Plan, load_plan
 from hexdbb.rig.truth import random_truth
+from hexdbb_truth.forms.history import History
+from hexdbb_truth.forms.measure import Measured
+from hexdbb_truth.simulate import Pace
 
 
 def short_plan() -> Plan:

@@ -6,17 +6,17 @@ import itertools
 
 import numpy as np
 import pytest
-from tests.truth.forms import plans
-from tests.truth.forms.cases import (
+
+from hexdbb.errors import InputError
+from hexdbb.record import read_record
+from hexdbb_truth.forms import plans
+from hexdbb_truth.forms.cases import (
     alone,
     case,
     clean,
     combined,
     outside,
 )
-
-from hexdbb.errors import InputError
-from hexdbb.record import read_record
 
 
 def test_names_tell_cases():

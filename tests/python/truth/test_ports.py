@@ -6,17 +6,17 @@ import itertools
 
 import numpy as np
 import pytest
-from tests.truth.forms import plans
-from tests.truth.forms.cases import (
+
+from hexdbb.rig.mechanisms import Push
+from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb_truth.forms import plans
+from hexdbb_truth.forms.cases import (
     FAMILIES,
     OUTSIDE,
     case,
 )
-from tests.truth.forms.measure import Measured
-from tests.truth.forms.ports import Action, add
-
-from hexdbb.rig.mechanisms import Push
-from hexdbb.rig.truth import TruthFile, random_truth
+from hexdbb_truth.forms.measure import Measured
+from hexdbb_truth.forms.ports import Action, add
 
 PORTS = {"slider", "leg", "guideway", "platform_joint", "ball", "cup", "reading"}
 

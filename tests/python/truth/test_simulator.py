@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-import ast
-from pathlib import Path
-
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from tests.truth.cases import MAKERS, PLANS, Case, alone, case, clean, every, pairs
-from tests.truth.plans import PACE, discovery_plan
-from tests.truth.simulate import Pace, simulate, true_readings_mm
-from tests.truth.sizes import signature_um, sized
-from tests.truth.timeline import Arc, Timeline
-from tests.truth.write import main
 
 from hexdbb.errors import InputError
 from hexdbb.files.validation import load_toml
 from hexdbb.plan import Plan, load_plan
 from hexdbb.record import SLIDER_COLUMNS, read_record
-from hexdbb.rig.geometry import true_geometry
+from hexdbb.rig.geometry import rotation_rpy, true_geometry
 from hexdbb.rig.mechanisms import CATALOGUED, MECHANISMS, OUTSIDE
 from hexdbb.rig.plant import Plant
 from hexdbb.rig.truth import TruthFile, random_truth
-
-TRUTH = Path(__file__).parents[2] / "truth"
-ESTIMATOR_FREE = {"errors", "files", "machine", "plan", "record", "rig"}
-"""Parts of hexdbb that the truth may import: none of them computes a prediction."""
+from hexdbb_truth.cases import MAKERS, PLANS, Case, alone, case, clean, every, pairs
+from hexdbb_truth.places import true_balls_mm
+from hexdbb_truth.plans import PACE, discovery_plan
+from hexdbb_truth.repeatability import Approach
+from hexdbb_truth.simulate import Pace, simulate, true_readings_mm
+from hexdbb_truth.sizes import signature_um, sized
+from hexdbb_truth.timeline import Arc, Timeline
+from hexdbb_truth.write import main
 
 
 def short_plan(**changed: object) -> Plan:
@@ -38,39 +33,6 @@ def short_plan(**changed: object) -> Plan:
 
 
 SHORT_PACE = Pace(rate_hz=10.0, instants_per_sample=5, travel_s=2.0)
-
-
-# --- independence ---------------------------------------------------------------------------------------------------
-
-
-def imports_of(path: Path) -> set[str]:
-    names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{path.name}: relative imports hide what is imported"
-            names |= {f"{node.module}.{alias.name}" for alias in node.names}
-    return names
-
-
-def truth_modules(begin: set[str]) -> set[str]:
-    """The modules of tests/truth that these import, and so on; what judges the estimator is not among them."""
-    found, waiting = set(), set(begin)
-    while waiting:
-        name = waiting.pop()
-        found.add(name)
-        there = {each.split(".")[2] for each in imports_of(TRUTH / f"{name}.py") if each.startswith("tests.truth.")}
-        waiting |= there - found
-    return found
-
-
-def test_the_truth_imports_nothing_of_the_estimator():
-    modules = truth_modules({"cases", "write"})
-    assert {"simulate", "timeline", "sizes", "plans"} <= modules
-    for name in modules:
-        ours = {each.split(".")[1] for each in imports_of(TRUTH / f"{name}.py") if each.startswith("hexdbb")}
-        assert ours <= ESTIMATOR_FREE, f"tests/truth/{name}.py imports {sorted(ours - ESTIMATOR_FREE)}"
 
 
 # --- the same machine as the rig's --------------------------------------------------------------------------------
@@ -155,7 +117,7 @@ def _rotation(roll_deg: float) -> np.ndarray:
 
 def test_a_reading_beyond_the_gauge_is_refused():
     far = TruthFile.model_validate({"schema": "hexdbb.truth/1", "setup": {"cup_error_um": [[1500.0, 0.0, 0.0]]}})
-    with pytest.raises(InputError, match=r"sweep 0: reading of 1\d\d\d um \(expected within 1000 um\)"):
+    with pytest.raises(InputError, match=r"sweep 0: reading of 1\d\d\d µm \(expected within 1000 µm\)"):
         simulate(far, short_plan(), pace=SHORT_PACE)
 
 
@@ -258,3 +220,31 @@ def test_cases_are_written_for_strangers_and_for_the_rig(tmp_path):
     refused = CliRunner().invoke(main, ["gremlin-x1-s1", "-o", str(tmp_path)])
     assert refused.exit_code == 2
     assert "gremlin" in refused.output
+
+
+# --- a machine that does not repeat -------------------------------------------------------------------------------
+
+
+def test_laps_repeat_and_runs_do_not():
+    """Twice the same circle: within a run every lap reads the same, from run to run the sliders stand elsewhere."""
+    plan = short_plan(laps=2, directions=(1, 1))
+    truth = TruthFile().model_copy(update={"mechanism": (Approach(sigma_um=5.0, seed=3),)})
+    # A lap of 4 pi s, cut so that both have samples at the same angles.
+    readings_um = 1e3 * true_readings_mm(truth, plan, Pace(rate_hz=100.0 / (4.0 * np.pi), instants_per_sample=1))
+    runs = readings_um.reshape(2, 2, 100)
+    np.testing.assert_allclose(runs[:, 0], runs[:, 1], atol=1e-6)
+    assert 1.0 < np.abs(runs[0, 0] - runs[1, 0]).max() < 50.0
+    other = truth.model_copy(update={"mechanism": (Approach(sigma_um=5.0, seed=4),)})
+    pace = Pace(rate_hz=100.0 / (4.0 * np.pi), instants_per_sample=1)
+    assert not np.allclose(1e3 * true_readings_mm(other, plan, pace), readings_um, atol=0.1)
+
+
+def test_the_nominal_machines_ball_is_where_it_is_commanded():
+    machine = discovery_plan().machine_file()
+    position, rpy = np.array([[10.0, -20.0, 280.0], [0.0, 30.0, 275.0]]), np.array([[0.1, 0.0, -0.1], [0.0, 0.05, 0.0]])
+    ball = (1.0, 2.0, 60.0)
+    expected = position + np.array([rotation_rpy(*each) for each in rpy]) @ ball
+    np.testing.assert_allclose(true_balls_mm(TruthFile(), machine, position, rpy, ball), expected, atol=1e-9)
+    moved = TruthFile.model_validate({"schema": "hexdbb.truth/1", "setup": {"ball_offset_error_um": [0.0, 0.0, 50.0]}})
+    shift = true_balls_mm(moved, machine, position, rpy, ball) - expected
+    np.testing.assert_allclose(np.linalg.norm(shift, axis=1), 0.05, atol=1e-9)

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.truth.forms import plans
-from tests.truth.forms.cases import (
-    case,
-    reachable,
-)
-from tests.truth.forms.fit import fitted, geometry_readings_mm, true_values
-from tests.truth.forms.measure import Measured
-from tests.truth.forms.sizes import UnreachableSizeError, remaining
 
 from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model
 from hexdbb.rig.truth import random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.forms import plans
+from hexdbb_truth.forms.cases import (
+    case,
+    reachable,
+)
+from hexdbb_truth.forms.fit import fitted, geometry_readings_mm, true_values
+from hexdbb_truth.forms.measure import Measured
+from hexdbb_truth.forms.sizes import UnreachableSizeError, remaining
 
 
 def test_the_fit_finds_a_machine_without_faults():

@@ -12,8 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.truth.closing import drive_of, silent
-from tests.truth.simulate import Pace, simulate
-from tests.truth.timeline import Drive
 
 from hexdbb.comparison.circles import compare_circles
 from hexdbb.compensation import make_compensation, read_compensation, write_compensation
@@ -24,6 +22,8 @@ from hexdbb.model import Model, new_model
 from hexdbb.plan import Mount, Plan, load_plan, save_plan
 from hexdbb.rig.truth import TruthFile, random_truth
 from hexdbb.samples import Samples
+from hexdbb_truth.simulate import Pace, simulate
+from hexdbb_truth.timeline import Drive
 
 UNLIKE = Path(__file__).parents[2] / "data" / "machines" / "unlike.toml"
 PACE = Pace(rate_hz=6.0, instants_per_sample=1, travel_s=2.0)

@@ -7,10 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.truth.cases import case
-from tests.truth.plans import PACE
 
 import hexdbb as hx
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 
 @pytest.fixture(scope="session")

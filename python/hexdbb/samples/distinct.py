@@ -1,0 +1,28 @@
+"""Distinct rows of several columns, by whole numbers: `numpy.unique` by rows compares bytes, ten times slower."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Ints = NDArray[np.intp]
+
+
+def distinct_rows(*columns: NDArray[Any]) -> tuple[Ints, Ints]:
+    """Find the distinct combinations of the values of some columns, each of shape (n,).
+
+    Returns
+    -------
+    first : ndarray of int, shape (k,)
+        First row of each combination; they are in ascending order of the first column, then of the second, and so on.
+    member : ndarray of int, shape (n,)
+        Combination of each row, from 0.
+    """
+    member = np.zeros(len(columns[0]), np.intp)
+    first = np.zeros(min(len(member), 1), np.intp)
+    for column in columns:
+        values, code = np.unique(column, return_inverse=True)
+        _, first, member = np.unique(member * len(values) + code, return_index=True, return_inverse=True)
+    return first, member

@@ -1,0 +1,157 @@
+"""Whether a verdict is right: what was found beside what is hidden, in the truth's own words.
+
+`right`; `more` (right, and something else besides); `element` (right effect, wrong element); `ambiguous` with the truth
+among those named; `variable`, `port` (learned at the right place over another variable, at the right kind of place);
+`missed` (called unknown, or nothing); `false` (another effect named for sure, or anything on a clean machine).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hexdbb_truth.forms.labels import Label
+
+NAMED = ("right", "more")
+"""Outcomes in which the main cause is right, element and all."""
+ORDER = ("false", "missed", "ambiguous", "port", "variable", "element", "right")
+"""Outcomes of one fault, the worst first: that of several is the worst of them."""
+PLACES = {"lateral": "guideway", "vertical": "guideway"}
+"""The truth's words for the places of learned hypotheses, where they differ."""
+VARIABLES = {
+    "fine_position": ("position",),
+    "screw_phase": ("position",),
+    "neighbour_velocity": ("velocity",),
+    "direction": ("direction",),
+    "direction_position": ("direction", "position"),
+    "since_reversal_time": ("since_reversal", "direction"),
+    "since_reversal_travel": ("since_reversal", "direction"),
+    "time_position": ("time", "position"),
+    "turning_rate": ("joint_turning",),
+    "joint_angle_direction": ("joint_turning", "joint_angle"),
+    "swing_rate": ("joint_turning",),
+    "platform_turning_rate": ("joint_turning",),
+    "platform_joint_angle": ("joint_angle",),
+    "swing_angle": ("joint_angle",),
+    "angle_direction": ("angle", "direction"),
+    "bar_angle": ("angle",),
+    "circle_direction": ("direction",),
+    "speed": ("feed", "velocity"),
+    "reading": ("deflection",),
+    "warming": ("time",),
+    "step": ("time",),
+    "fine_time": ("time",),
+    "roll": ("tilt",),
+    "pitch": ("tilt",),
+    "time_in_sweep": ("time_in_run",),
+    "time_period": ("time",),
+    "position_period": ("position",),
+}
+"""The truth's words for the variables of learned hypotheses, where they differ."""
+
+
+@dataclass(frozen=True)
+class Named:
+    """One cause that a verdict names.
+
+    Attributes
+    ----------
+    name : str
+        Of the effect, with its elements: ``backlash:4``, ``learned:vertical:1:fine_position``.
+    grade : str
+        Verdict on this cause alone.
+    rivals, alike : sequence of str
+        Other explanations, of another kind and of the same.
+    """
+
+    name: str
+    grade: str
+    rivals: Sequence[str] = ()
+    alike: Sequence[str] = ()
+
+
+def outcome_of(grade: str, found: Sequence[Named], labels: Sequence[Label], withheld: Sequence[str] = ()) -> str:
+    """Return the outcome of a verdict.
+
+    Parameters
+    ----------
+    grade : str
+        ``none``, ``effect``, ``ambiguous`` or ``unknown``.
+    found : sequence of Named
+    labels : sequence of Label
+        What is hidden.
+    withheld : sequence of str
+        Effects that were no candidates: of such a fault its place and variable are to be learned.
+    """
+    if not labels:
+        return "right" if grade == "none" else "false"
+    results = [
+        _named(grade, found, label)
+        if label.catalogued and label.kind not in withheld
+        else _learned(grade, found, label)
+        for label in labels
+    ]
+    if len(found) > len(labels) and all(each in ("right", "element") for each in results):
+        return "more"
+    return min(results, key=ORDER.index)
+
+
+def _named(grade: str, found: Sequence[Named], label: Label) -> str:
+    accepted = {label.kind, *(each.effect for each in label.equivalents if each.effect)}
+    for each in found:
+        effect, _, elements = each.name.partition(":")
+        rivals = {name.partition(":")[0] for rival in each.rivals for name in rival.split(" + ")}
+        if effect in accepted:
+            if each.grade == "ambiguous":
+                return "ambiguous"
+            right = {str(number) for number in label.elements}
+            for alike in each.alike:
+                elements += "," + alike.partition(":")[2]
+            neighbours = {str(n) for e in label.equivalents if e.effect for n in e.elements or ()}
+            named = set(elements.split(","))
+            return "right" if not right or effect != label.kind or named & (right | neighbours) else "element"
+        if each.grade == "ambiguous" and rivals & accepted:
+            return "ambiguous"
+    return "false" if grade == "effect" else "missed"
+
+
+def _learned(grade: str, found: Sequence[Named], label: Label) -> str:
+    accepted = {each.effect for each in label.equivalents if each.effect}
+    results = ["missed"]
+    for each in found:
+        rivals = [part for rival in each.rivals for part in rival.split(" + ")]
+        if each.grade == "ambiguous" and any(_place_of(rival, label) == "right" for rival in rivals):
+            results.append("ambiguous")
+        is_other = not each.name.startswith("learned:") and each.name.partition(":")[0] not in accepted
+        if is_other and grade == "effect":
+            return "false"
+        results.append(_place_of(each.name, label))
+    return max(results, key=("missed", "port", "variable", "ambiguous", "right").index)
+
+
+def _place_of(name: str, label: Label) -> str:
+    """Return how near a named cause is to the truth: `right`, `variable` (another at this place), `port`, `missed`."""
+    if not name.startswith("learned:"):
+        effect, _, number = name.partition(":")
+        return "right" if _is_stated(label, effect, number) else "missed"
+    truths = [
+        (label.port, label.variables, label.elements),
+        *((each.port, (each.variable,), each.elements or ()) for each in label.equivalents),
+    ]
+    _, place, *rest = name.split(":")
+    variable = rest[-1].partition("@")[0]
+    element = int(rest[0]) if len(rest) == 2 and rest[0].isdigit() else None
+    there = [
+        variables
+        for port, variables, elements in truths
+        if PLACES.get(place, place) == port and not (elements and element is not None and element not in elements)
+    ]
+    if any(set(VARIABLES.get(variable, (variable,))) & set(variables) for variables in there):
+        return "right"
+    return "variable" if there else "port"
+
+
+def _is_stated(label: Label, effect: str, number: str) -> bool:
+    """Check whether a catalogue effect, at its element, is a stated equivalent of what is hidden."""
+    at = [each.elements for each in label.equivalents if each.effect == effect]
+    return any(not elements or (number.isdigit() and int(number) in elements) for elements in at)

@@ -1,0 +1,1 @@
+"""Forms, cases and what is true of them; see `hexdbb_truth`."""

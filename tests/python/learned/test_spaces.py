@@ -1,0 +1,95 @@
+"""Functions that may be learned: dense about zero where a sign turns over, and by the neighbour's variable."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hexdbb import _core
+from hexdbb.learned import Learned, Space
+
+LEAD_MM = 5.0
+
+
+@pytest.fixture
+def columns() -> dict[str, np.ndarray]:
+    """Six sliders with velocities of their own."""
+    time_s = np.linspace(0.0, 60.0, 3000)
+    velocity = 60.0 * np.sin(0.7 * time_s[:, None] * (1.0 + 0.1 * np.arange(6)))
+    return Rows({"time_s": time_s, "velocity_mm_s": velocity, "acceleration_mm_s2": np.gradient(velocity, axis=0)})
+
+
+class Rows(dict[str, np.ndarray]):
+    """Columns as long as their rows."""
+
+    def __len__(self) -> int:
+        return len(self["time_s"])
+
+
+def left_of(space: Space, columns: Rows, wanted: np.ndarray, element: int) -> float:
+    """Return what the functions cannot say of a wanted one, as a part of its RMS."""
+    design = space.design(columns, element)
+    rest = wanted - design @ np.linalg.lstsq(design, wanted, rcond=None)[0]
+    return float(np.std(rest) / np.std(wanted))
+
+
+@pytest.mark.parametrize("variable", ["velocity", "acceleration"])
+def test_what_changes_near_zero_can_be_said(columns: Rows, variable: str) -> None:
+    space = Space.of(Learned.parse(f"learned:slider:2:{variable}"), columns, LEAD_MM)
+    values = columns[space.hypothesis.variable.column][:, 1]
+    even = np.tanh(np.abs(values) / (0.15 * np.std(values)))
+    plain = replace(space, warp_width=0.0, low=values.min(), high=values.max())
+    assert left_of(space, columns, even, 1) < 0.25 * left_of(plain, columns, even, 1)
+
+
+def test_smooth_functions_of_large_values_can_still_be_said(columns: Rows) -> None:
+    space = Space.of(Learned.parse("learned:slider:2:velocity"), columns, LEAD_MM)
+    values = columns["velocity_mm_s"][:, 1]
+    assert left_of(space, columns, values**3, 1) < 0.01
+
+
+def test_points_of_the_table_rise_and_span_the_range(columns: Rows) -> None:
+    space = Space.of(Learned.parse("learned:slider:2:velocity"), columns, LEAD_MM)
+    points, values = space.points(), columns["velocity_mm_s"][:, 1]
+    assert np.all(np.diff(points) > 0.0)
+    assert points[[0, -1]] == pytest.approx([values.min(), values.max()])
+
+
+def test_a_table_follows_its_functions(columns: Rows) -> None:
+    space = Space.of(Learned.parse("learned:slider:2:velocity"), columns, LEAD_MM)
+    coefficients = np.random.default_rng(4).normal(size=space.size)
+    (table,) = space.tables(coefficients, (0.0, 2.0, 4.0))
+    at = np.linspace(table.knots[0], table.knots[-1], 20000)
+    exact = space.functions(at) @ coefficients
+    assert np.abs(np.interp(at, table.knots, table.values_mm) - exact).max() < 0.03 * np.ptp(exact)
+
+
+@pytest.mark.parametrize("number", [1, 2, 5, 6])
+def test_a_slider_is_pushed_by_its_neighbours_velocity(columns: Rows, number: int) -> None:
+    learned = Learned.parse(f"learned:slider:{number}:neighbour_velocity")
+    neighbour = (number - 1) ^ 1
+    first = _core.PORTS["slider"][0]
+    assert learned.elements == (neighbour,)
+    assert learned.pushes(0, (0.0, 2.0, 4.0)) == ((neighbour, ((first + number - 1, 1.0),)),)
+    space = Space.of(learned, columns, LEAD_MM)
+    assert left_of(space, columns, columns["velocity_mm_s"][:, neighbour] ** 2, neighbour) < 0.01
+
+
+def test_all_sliders_go_by_all_neighbours() -> None:
+    learned = Learned.parse("learned:slider:all:neighbour_velocity")
+    assert learned.elements == (1, 0, 3, 2, 5, 4)
+    first = _core.PORTS["slider"][0]
+    assert [pushed[0][0] - first for _, pushed in learned.pushes(0, (0.0, 2.0, 4.0))] == list(range(6))
+
+
+def test_a_joint_moves_in_time_from_where_it_was(columns: Rows) -> None:
+    space = Space.of(Learned.parse("learned:platform_joint:3:time"), columns, LEAD_MM)
+    time_s = columns["time_s"]
+    assert space.functions(time_s[:1]) == pytest.approx(0.0, abs=1e-12)
+    design = space.design(columns, 2)
+    warms = -np.expm1(-time_s / 20.0)
+    assert left_of(space, columns, warms, 2) < 0.01
+    offset = np.ones(len(time_s))
+    assert np.std(offset - design @ np.linalg.lstsq(design, offset, rcond=None)[0]) > 0.05

@@ -1,1 +1,0 @@
-"""Forms, cases and what is true of them; see `tests.truth`."""
