@@ -146,7 +146,8 @@ def watched_by_page(
     assert process.stderr is not None
     try:
         pipe = PagePipe(process.stdin.fileno())
-        pipe.send(begin(request))
+        with suppress(BrokenPipeError):  # a page that has ended already: what it said of it is read below
+            pipe.send(begin(request))
         ready(_address(process))
     except BaseException:
         process.kill()

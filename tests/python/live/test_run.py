@@ -16,6 +16,8 @@ from tests.programs import called
 from tests.python.live.watched import TIMEOUT_S, long_plan, watched
 
 from hexdbb.capture import page_feed
+from hexdbb.capture.observation import Message, begin
+from hexdbb.capture.request import Request
 from hexdbb.cli import run_watched
 from hexdbb.record import Record, read_record
 
@@ -95,10 +97,16 @@ def test_without_its_framework_the_page_is_refused_before_anything_moves(
     assert not (tmp_path / "run.parquet").exists()
 
 
+@pytest.mark.parametrize("ends_first", [False, True])
 def test_a_page_that_does_not_start_ends_the_run_before_anything_moves(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ends_first: bool
 ) -> None:
+    def begin_late(request: Request) -> Message:
+        time.sleep(0.5 if ends_first else 0.0)
+        return begin(request)
+
     monkeypatch.setattr(page_feed.sys, "executable", "/bin/false")
+    monkeypatch.setattr(page_feed, "begin", begin_late)
     (tmp_path / "plan.toml").write_text(long_plan(1))
     done = called("hexdbb-run", "--plan", "plan.toml", "-o", "run.parquet", "--watch", folder=tmp_path)
     assert done.returncode == 1
