@@ -99,9 +99,12 @@ def try_faults(faults: Sequence[Fault], *, lockstep: bool, seed: int) -> Trial:
 
 def _reached(faults: Sequence[Fault], done: Run) -> bool:
     """Return whether a run lasted until the moment of its faults, and was not ended by this computer."""
-    cycles = done.log.since_enabled
+    cycles = done.log.since_enabled or 0
     return not done.message.startswith(BLAMES_COMPUTER) and all(
-        fault.begins_s == 0.0 or (cycles or 0) / RATE_HZ >= fault.begins_s for fault in faults
+        fault.begins_s == 0.0
+        # The SYNC in which a connection ends does not reach the proxy's log.
+        or (cycles + fault.cuts_off) / RATE_HZ >= fault.begins_s
+        for fault in faults
     )
 
 

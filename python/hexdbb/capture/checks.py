@@ -179,6 +179,12 @@ def _lasting_bits(watch: Watch) -> Fault | None:
 
 
 def _jump(watch: Watch) -> Fault | None:
+    # First what has come back: it is the sample before this one that was wrong.
+    spike = watch.plausibility.position_spike()
+    if spike is not None:
+        slot, off_mm, limit_mm, cycles = spike
+        what = f"object 6064:00 jumped by {off_mm:+.3f} mm and back (expected at most {limit_mm:.3f} mm)"
+        return Fault(watch.labels[slot], what, cycles)
     found = watch.plausibility.jump()
     if found is None:
         return None

@@ -21,6 +21,9 @@ DISTURBANCE_MM = 0.1
 reversal with stiction (some micrometres), far below what a lost or doubled encoder word makes."""
 AFTER_REVERSAL = 5
 """SYNCs after a reversal of any slider in which the reading may step: play is taken up, stiction ends."""
+SPIKE_SHARE = 0.3
+"""Share of a possible change of the following error that no loop makes within one SYNC and takes back within the next:
+a loop so fast has a time constant of a cycle at most, at 50 Hz a fifth of the slowest."""
 COMMANDED_SYNCS = 50
 """SYNCs over which a change of the commanded velocity acts on: 0.2 s at 250 Hz, two of the slowest time constants."""
 
@@ -67,6 +70,8 @@ class Plausibility:
     _position_steps: list[int] = field(default_factory=list)
     _error_steps: list[int] = field(default_factory=list)
     _recent: deque[list[int]] = field(default_factory=lambda: deque(maxlen=3))
+    _errors: deque[tuple[int, list[int]]] = field(default_factory=lambda: deque(maxlen=3))
+    _cycle: int = 0
     _targets: list[int] | None = None
     _target_steps: list[int] | None = None
     _accelerations: deque[float] = field(default_factory=lambda: deque(maxlen=COMMANDED_SYNCS))
@@ -92,6 +97,7 @@ class Plausibility:
         """
         self._command(expected, missed)
         self._position_steps, self._error_steps = [], []
+        self._cycle += 1 + missed
         if not feedback.settled or missed:
             self._before = None
             self._readings.clear()
@@ -103,6 +109,7 @@ class Plausibility:
                 self._error_steps = [a - b for a, b in zip(errors, before, strict=True)]
                 self._recent.append(self._error_steps)
             self._before = (list(feedback.position), errors)
+            self._errors.append((self._cycle, errors))
             if not gauge_watched:
                 self.lag.pause()
             elif self._target_steps is not None:
@@ -142,13 +149,36 @@ class Plausibility:
         for slot, step in enumerate(self._position_steps):
             if abs(step) > limit:
                 return slot, step / self.counts_per_mm, limit / scale
-        # The commanded acceleration acts on for a while; its sum bounds what any loop makes of it.
-        follows = SLOWEST_LOOP_S * max(self._accelerations, default=0.0) + DISTURBANCE_MM * scale + 2.0
+        follows = self._follows() + DISTURBANCE_MM * scale + 2.0
         for slot, (step, moved) in enumerate(zip(self._error_steps, self._position_steps, strict=True)):
             # A slider that jams lags behind more and more; one that jumps moves.
             if abs(step) > follows and abs(moved) > follows:
                 return slot, -step / self.counts_per_mm, follows / scale
         return None
+
+    def position_spike(self) -> tuple[int, float, float, int] | None:
+        """Return a position that jumped and came back, or None: slot, size and limit (mm), cycles since.
+
+        The following error of the last SYNC but one against its neighbours. Cycles missed or without an answer between
+        them hide no such jump: targets stand still for them, and the error stays what it is or falls.
+        """
+        if len(self._errors) < 3:
+            return None
+        (_, first), (at, middle), (now, last) = self._errors
+        scale = abs(self.counts_per_mm)
+        limit = SPIKE_SHARE * self._follows() + DISTURBANCE_MM * scale + 2.0
+        for slot in range(len(middle)):
+            off = middle[slot] - 0.5 * (first[slot] + last[slot])
+            if abs(off) > limit and abs(last[slot] - first[slot]) < 0.5 * abs(off):
+                return slot, -off / self.counts_per_mm, limit / scale, now - at
+        return None
+
+    def _follows(self) -> float:
+        """Return the largest change of a following error by commanded motion, counts.
+
+        The commanded acceleration acts on for a while; its sum bounds what any loop makes of it.
+        """
+        return SLOWEST_LOOP_S * max(self._accelerations, default=0.0)
 
     def left_behind(self) -> tuple[int, float] | None:
         """Return the slot of the axis that fell behind its target most of late, and by how much, mm; or None."""

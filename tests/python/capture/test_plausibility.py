@@ -47,6 +47,7 @@ def test_a_plain_circle_raises_nothing() -> None:
     for expected, feedback in answers(5000):
         plausible.update(feedback, expected, 0, gauge_watched=True)
         assert plausible.jump() is None
+        assert plausible.position_spike() is None
         assert plausible.spike() is None
         assert not plausible.is_frozen()
         assert plausible.lag.shifted() is None
@@ -84,6 +85,28 @@ def test_a_position_that_jumps_is_found_at_once(by_mm: float, slot: int) -> None
             break
 
 
+@pytest.mark.parametrize("missed", [(289,), (299,), (301,), (299, 301), (298, 299, 301, 302)])
+def test_a_position_that_jumps_near_missed_cycles_is_found(missed: tuple[int, ...]) -> None:
+    plausible, waiting, found, number = histories(), 0, None, 0
+    for number, (expected, feedback) in enumerate(answers(400)):
+        if number in missed:
+            waiting += 1  # the controller was late and left out this SYNC
+            continue
+        if number == 300:
+            feedback.position[1] += round(1.5 * SCALE)
+        plausible.update(feedback, expected, waiting, gauge_watched=True)
+        waiting = 0
+        jump, found = plausible.jump(), plausible.position_spike()
+        if found is None and jump is not None:
+            found = (*jump, 0)
+        if found is not None:
+            break
+    assert found is not None
+    slot, off_mm, _, cycles = found
+    assert (slot, number - cycles) == (1, 300)
+    assert off_mm == pytest.approx(1.5, abs=0.1)
+
+
 def test_a_slider_that_jams_has_not_jumped() -> None:
     plausible, stuck = histories(), None
     for number, (expected, feedback) in enumerate(answers(600)):
@@ -92,6 +115,7 @@ def test_a_slider_that_jams_has_not_jumped() -> None:
             feedback.position[4] = stuck
         plausible.update(feedback, expected, 0, gauge_watched=True)
         assert plausible.jump() is None
+        assert plausible.position_spike() is None
 
 
 @pytest.mark.parametrize("lasting", [False, True])
@@ -139,4 +163,5 @@ def test_missed_cycles_are_no_jump() -> None:
             continue  # the controller stalled; the drives stood, then went on
         plausible.update(feedback, expected, 10 if number == 310 else 0, gauge_watched=True)
         assert plausible.jump() is None
+        assert plausible.position_spike() is None
         assert plausible.spike() is None
