@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -48,6 +49,16 @@ class Mounted:
     ball_offset_mm: Point
     bar_length_mm: float
 
+    @cached_property
+    def cup(self) -> Array:
+        """`cup_mm` as an array, shape (3,)."""
+        return np.array(self.cup_mm, dtype=float)
+
+    @cached_property
+    def ball(self) -> Array:
+        """`ball_offset_mm` as an array, shape (3,)."""
+        return np.array(self.ball_offset_mm, dtype=float)
+
 
 @dataclass(frozen=True)
 class SetupErrors:
@@ -56,6 +67,16 @@ class SetupErrors:
     cup_mm: Mapping[int, Point]
     ball_offset_mm: Point
     bar_length_mm: float
+
+    @cached_property
+    def cups(self) -> dict[int, Array]:
+        """`cup_mm` as arrays, shape (3,)."""
+        return {mount: np.array(cup_mm, dtype=float) for mount, cup_mm in self.cup_mm.items()}
+
+    @cached_property
+    def ball(self) -> Array:
+        """`ball_offset_mm` as an array, shape (3,)."""
+        return np.array(self.ball_offset_mm, dtype=float)
 
 
 @dataclass(frozen=True)
@@ -91,15 +112,20 @@ class Machine:
         RunError
             The machine has no pose for these positions.
         """
-        sliders_mm = drive_mm + push.slider_mm
-        hexapod = Hexapod(
-            self.geometry.slider_joints_mm(sliders_mm) + push.slider_joint_mm,
-            self.geometry.joints_mm + push.platform_joint_mm,
-            self.geometry.lengths_mm + push.leg_mm,
-        )
+        geometry, sliders_mm = self.geometry, drive_mm
+        if not self.mechanisms and len(drive_mm) == 1:  # on the bus, most often; zeros need not be added
+            joints, lengths = geometry.joints_mm[None], geometry.lengths_mm[None]
+            hexapod = Hexapod(geometry.slider_joints_mm(sliders_mm), joints, lengths)
+        else:
+            sliders_mm = drive_mm + push.slider_mm
+            hexapod = Hexapod(
+                geometry.slider_joints_mm(sliders_mm) + push.slider_joint_mm,
+                geometry.joints_mm + push.platform_joint_mm,
+                geometry.lengths_mm + push.leg_mm,
+            )
         try:
             poses = solve_poses(hexapod, guess)
-            if push.compliance_mm_n.any():
+            if self.mechanisms and push.compliance_mm_n.any():
                 poses = self._balanced(hexapod, push.compliance_mm_n, poses)
         except NoPoseError as error:
             where = np.round(sliders_mm[error.instant], 3).tolist()
@@ -131,10 +157,11 @@ class Machine:
         numpy.ndarray
             Readings, mm, shape (n,).
         """
-        ball = np.add(mounted.ball_offset_mm, self.setup_errors.ball_offset_mm) + push.ball_mm
-        cup = np.add(mounted.cup_mm, self.setup_errors.cup_mm.get(mounted.mount, (0.0, 0.0, 0.0))) + push.cup_mm
-        bar = poses.position_mm + np.einsum("nij,nj->ni", poses.rotation, ball) - cup
-        length = np.sqrt(np.einsum("ni,ni->n", bar, bar))
+        errors = self.setup_errors
+        ball = mounted.ball + errors.ball + push.ball_mm
+        cup = mounted.cup + errors.cups.get(mounted.mount, 0.0) + push.cup_mm
+        bar = poses.position_mm + (poses.rotation @ ball[:, :, None])[:, :, 0] - cup
+        length = np.sqrt((bar * bar).sum(axis=1))
         change = length - (mounted.bar_length_mm + self.setup_errors.bar_length_mm)
         reading: Array = (1.0 + push.gain) * change + push.reading_mm
         return reading
