@@ -31,6 +31,11 @@ OF_RECORDS: tuple[Option, ...] = (
     ),
     ("plan", "--plan", {"metavar": "PLAN", "help": "Plan that was driven: a plan file or a shipped plan."}),
     ("circle", "--circle", {"metavar": "ID", "type": int, "help": "Circle of the plan."}),
+    (
+        "mount",
+        "--mount",
+        {"metavar": "NAME", "help": "Name of the set-up that all files share: the cup was not touched between them."},
+    ),
 )
 """Options of every command that takes records."""
 OF_CONVERT: tuple[Option, ...] = (

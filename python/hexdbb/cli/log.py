@@ -9,11 +9,14 @@ import click
 from rich.table import Table
 
 from hexdbb.cli.consoles import message_console, output_console, say
+from hexdbb.cli.import_options import OF_RECORDS, import_options, wanted_mapping
 from hexdbb.cli.shared_options import json_option
 from hexdbb.cli.trend import command as trend_command
 from hexdbb.errors import RunError
 from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
+from hexdbb.importing import read_measured
 from hexdbb.logbook.json_form import log_json
+from hexdbb.record import Record
 
 folder_argument = click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
 
@@ -38,23 +41,35 @@ def command() -> None:
 @command.command("add")
 @folder_argument
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@import_options(OF_RECORDS)
 @click.option("--date", help="When FILE was measured or made, where it does not say: 2026-03-01 or 2026-03-01T08:30.")
 def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
     """Add FILE... to the logbook in FOLDER, which is made where there is none, for the machine of the first FILE.
 
-    A file is a record (.parquet or .csv), a model, what a command printed with --json, or a compensation file. The
-    same content added twice is one entry. A file of another machine is refused.
+    A file is a record, readings of another program (as of hexdbb convert), a model, what a command printed with --json,
+    or a compensation file. The same content added twice is one entry. A file of another machine is refused.
 
     \b
     Examples:
       hexdbb log add glider monday.parquet
       hexdbb log add glider old.csv --date 2025-03-01
+      hexdbb log add glider front.csv side.csv --plan plan.toml --mount march --date 2026-03-01
       hexdbb discover monday.parquet -m model.toml --json > verdict.json; hexdbb log add glider verdict.json
     """
     messages = message_console()
+    wanted = wanted_mapping()
+
+    def tell(line: str) -> None:
+        messages.print(line, markup=False, highlight=False, soft_wrap=True)
+
+    def read(path: Path) -> Record:
+        return read_measured(path, wanted, tell)
+
     for path in files:
         with messages.status(f"reading {path}"):
-            content = content_of(path)
+            # Without a name of the set-up a Parquet record is kept as it is, byte by byte.
+            own = path.suffix == ".parquet" and wanted.mount is None
+            content = content_of(path) if own else content_of(path, read=read)
             if content.machine is not None:
                 logbook = Logbook.of(folder, content.machine)
             else:
