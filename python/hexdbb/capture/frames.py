@@ -20,7 +20,8 @@ from hexdbb.capture.bursts import ReceivedBurst, SentBurst
 from hexdbb.capture.socketcand import Frame, SocketcandBus, as_frame, as_message
 from hexdbb.capture.transport import one_line
 
-P, T = ParamSpec("P"), TypeVar("T")
+P = ParamSpec("P")
+T = TypeVar("T")
 
 NODE_MASK = 0x7F
 NMT, EMCY_BASE, SDO_ANSWER_BASE, HEARTBEAT_BASE = 0x000, 0x080, 0x580, 0x700

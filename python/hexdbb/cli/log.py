@@ -13,8 +13,8 @@ from hexdbb.cli.import_options import OF_RECORDS, import_options, wanted_mapping
 from hexdbb.cli.shared_options import json_option
 from hexdbb.cli.trend import command as trend_command
 from hexdbb.errors import RunError
-from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
 from hexdbb.importing import read_measured
+from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
 from hexdbb.logbook.json_form import log_json
 from hexdbb.record import Record
 

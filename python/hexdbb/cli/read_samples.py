@@ -32,9 +32,8 @@ def _of_set_ups(records: Sequence[Record]) -> list[str]:
     apart = [record for record in records if "imported" in record.metadata and record.mounts[0].fixing is None]
     if len(records) > 1 and apart:
         which = "each" if len(apart) == len(records) else ", ".join(record.name for record in apart)
-        said.append(
-            f"{len(records)} files, {which} with a set-up of its own (--mount NAME: the cup was not touched between them)"
-        )
+        unless = "--mount NAME: the cup was not touched between them"
+        said.append(f"{len(records)} files, {which} with a set-up of its own ({unless})")
     return said
 
 

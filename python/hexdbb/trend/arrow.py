@@ -1,7 +1,8 @@
 """The linear system of records fitted together: one machine, a set-up for each record, and values that change.
 
 A record's own unknowns w_r = (z_r, v_r), its set-up and its departures, meet those of other records in the shared
-values x alone (the machine's, and those of fixings of the cup that several records share), so the system has the form of an arrow and is reduced to x by Schur complements:
+values x alone (the machine's, and those of fixings of the cup that several records share), so the system has the form
+of an arrow and is reduced to x by Schur complements:
     S = P + sum (H_xx - H_xw A_w^-1 H_wx),  A_w = H_ww + P_w;   a year of daily records costs 365 small systems.
 Covariances are those of the whole system; that of x is carried into every w_r.
 """

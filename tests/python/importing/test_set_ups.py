@@ -20,7 +20,7 @@ from hexdbb.plan import Mount, Plan, load_plan
 from hexdbb.record import Record, read_record, write_record
 from hexdbb.rig.truth import TruthFile
 from hexdbb.samples import Samples
-from hexdbb.trend.joint import Part, fit_together, started
+from hexdbb.trend.joint import JointFit, Part, fit_together, started
 from hexdbb_truth.simulate import simulate
 
 CIRCLES = (0, 1, 3)
@@ -67,7 +67,7 @@ def test_shared_geometry_is_better_determined_by_files_of_one_set_up(files: list
 
 
 def test_records_fitted_over_time_share_it_too(files: list[Path]) -> None:
-    def fitted(records: list[Record]):
+    def fitted(records: list[Record]) -> JointFit:
         parts = [Part.of(Samples.of([record])) for record in records]
         return fit_together(parts, started(parts, new_model(records[0].machine, ["platform_side", "cup_position"])))
 
