@@ -9,7 +9,7 @@ import click
 from rich.table import Table
 
 from hexdbb.cli.consoles import message_console, output_console, say
-from hexdbb.cli.import_options import OF_RECORDS, import_options, wanted_mapping
+from hexdbb.cli.import_options import OF_RECORDS, import_options, pointing_to_convert, wanted_mapping
 from hexdbb.cli.shared_options import json_option
 from hexdbb.cli.trend import command as trend_command
 from hexdbb.errors import RunError
@@ -63,7 +63,8 @@ def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
         messages.print(line, markup=False, highlight=False, soft_wrap=True)
 
     def read(path: Path) -> Record:
-        return read_measured(path, wanted, tell)
+        with pointing_to_convert(path):
+            return read_measured(path, wanted, tell)
 
     for path in files:
         with messages.status(f"reading {path}"):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from hexdbb.cli.import_options import wanted_mapping
+from hexdbb.cli.import_options import pointing_to_convert, wanted_mapping
 from hexdbb.importing import read_measured
 from hexdbb.record import Record, doubts
 from hexdbb.samples import Samples, shared_words
@@ -20,7 +20,10 @@ def read_records(paths: Sequence[Path], messages: Console) -> list[Record]:
     def tell(line: str) -> None:
         messages.print(line, markup=False, highlight=False, soft_wrap=True)
 
-    records = [read_measured(path, wanted, tell) for path in paths]
+    records = []
+    for path in paths:
+        with pointing_to_convert(path):
+            records.append(read_measured(path, wanted, tell))
     for line in _of_set_ups(records):
         tell(line)
     return records
