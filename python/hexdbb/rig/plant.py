@@ -22,6 +22,7 @@ from hexdbb.rig.mechanisms import Mechanism, Motion, Push
 from hexdbb.rig.pose_solver import Hexapod, NoPoseError, Poses, leg_forces_n, solve_poses
 
 Point = tuple[float, float, float]
+_ONES = np.ones(3)
 
 BALANCE_ROUNDS = 3
 """Iterations of the equilibrium. Each divides the error by leg length over sag, more than 1000: three leave less than
@@ -158,11 +159,13 @@ class Machine:
             Readings, mm, shape (n,).
         """
         errors = self.setup_errors
-        ball = mounted.ball + errors.ball + push.ball_mm
-        cup = mounted.cup + errors.cups.get(mounted.mount, 0.0) + push.cup_mm
-        bar = poses.position_mm + (poses.rotation @ ball[:, :, None])[:, :, 0] - cup
-        length = np.sqrt((bar * bar).sum(axis=1))
-        change = length - (mounted.bar_length_mm + self.setup_errors.bar_length_mm)
+        ball, cup = mounted.ball + errors.ball, mounted.cup + errors.cups.get(mounted.mount, 0.0)
+        if self.mechanisms:
+            ball, cup = ball + push.ball_mm, cup + push.cup_mm
+        bar = poses.position_mm + (poses.rotation @ ball[..., None])[:, :, 0] - cup
+        change = np.sqrt((bar * bar) @ _ONES) - (mounted.bar_length_mm + errors.bar_length_mm)
+        if not self.mechanisms:
+            return change
         reading: Array = (1.0 + push.gain) * change + push.reading_mm
         return reading
 
