@@ -16,7 +16,7 @@ from hexdbb.errors import RunError
 from hexdbb.importing import read_measured
 from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
 from hexdbb.logbook.json_form import log_json
-from hexdbb.record import Record
+from hexdbb.record import Record, read_record
 
 folder_argument = click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
 
@@ -85,6 +85,17 @@ def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
             say(f"{path}: in {folder} already, its missing file is back: {where}")
         else:
             say(f"{path}: in {folder} already, added as {entry.name} on {entry.added[:10]}: {where}")
+        if wanted.mount is not None and not added.is_new and content.record is not None:
+            _say_kept_set_up(path, read_record(logbook.path_of(entry)), wanted.mount)
+
+
+def _say_kept_set_up(path: Path, kept: Record, given: str) -> None:
+    """Say that a record that is in a logbook keeps its set-up, where another is given now."""
+    names = {mount.fixing for mount in kept.mounts}
+    if names != {given}:
+        name = ", ".join(f'"{each}"' for each in names if each is not None) or "a set-up of its own"
+        kept_as = f"keeps {name} (--mount {given}: nothing in a logbook is written twice)"
+        message_console().print(f"note: {path}: {kept_as}", markup=False, highlight=False, soft_wrap=True)
 
 
 @command.command("list")

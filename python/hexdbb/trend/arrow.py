@@ -88,11 +88,14 @@ class Layout:
         Places of each record's own free values of the set-up.
     places : tuple of ndarray of int
         Places of the shared values in each record's model: the machine's are the same in all.
+    of_fixings : int
+        How many of the shared values, the last ones, are those of shared fixings.
     """
 
     shared: Ints
     set_up: tuple[Ints, ...]
     places: tuple[Ints, ...]
+    of_fixings: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +165,8 @@ def solve(
     """
     columns = np.array([column for each in changing for column in each.columns], dtype=np.intp)
     scales = np.array([each.scale for each in changing for _ in each.columns])
-    total = np.eye(len(layout.shared))
+    damped = np.arange(len(layout.shared)) >= len(layout.shared) - layout.of_fixings
+    total = np.diag(1.0 + damping * damped)
     downhill = np.zeros(len(layout.shared))
     kept, log_evidence = [], 0.0
     for number, (each, set_up, shared) in enumerate(zip(equations, layout.set_up, layout.places, strict=True)):

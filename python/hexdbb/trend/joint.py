@@ -202,9 +202,10 @@ def _layout(models: Sequence[Model]) -> Layout:
         # Shape parameters of the user's effects are held: they are not fitted by these equations.
         machine = ~is_own & np.array([each.shape is None for each in parameters])
         # Mounts after all else: shared values then stand in one order in all records.
-        places.append(np.concatenate([np.flatnonzero(machine & model.free), np.flatnonzero(of_joint & model.free)]))
+        of_fixings = np.flatnonzero(of_joint & model.free)
+        places.append(np.concatenate([np.flatnonzero(machine & model.free), of_fixings]))
         own.append(np.flatnonzero(is_own & ~of_joint & model.free))
-    return Layout(places[0], tuple(own), tuple(places))
+    return Layout(places[0], tuple(own), tuple(places), len(of_fixings))
 
 
 def _of_mounts(model: Model, mounts: tuple[MountKey, ...]) -> Model:

@@ -158,3 +158,17 @@ def test_a_plan_may_name_a_cup_that_stays(files: list[Path]) -> None:
     stays = plan.model_dump(by_alias=True, exclude_none=True)
     stays["mount"] = [{**each, "fixing": "table"} for each in stays["mount"]]
     assert Plan.model_validate(stays).mounts[0].fixing == "table"
+
+
+def test_a_record_in_the_logbook_keeps_its_set_up_and_says_so(files: list[Path], tmp_path: Path) -> None:
+    write_record(read(files, "bench")[0], tmp_path / "record.parquet")
+    words = ["log", "add", str(tmp_path / "glider"), str(tmp_path / "record.parquet"), "--date", "2026-03-01"]
+    for options, note in (
+        ([], ""),
+        (["--mount", "bench"], ""),
+        (["--mount", "other"], 'keeps "bench" (--mount other: '),
+    ):
+        added = CliRunner().invoke(cli, [*words, *options])
+        assert added.exit_code == 0, added.output
+        assert note in added.stderr
+        assert ("keeps" in added.stderr) == bool(note)
