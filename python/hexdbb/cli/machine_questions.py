@@ -40,6 +40,10 @@ def _counted(*counts: int) -> Callable[[str], Any]:
     return numbers
 
 
+def _one_number(text: str) -> Any:
+    return _counted(1)(text)
+
+
 def _travels(text: str) -> Any:
     """Return one pair of numbers, or a list of six pairs, of a text."""
     pairs = [_counted(2)(each) for each in text.split(";")]
@@ -72,7 +76,7 @@ class Question:
     key: tuple[str, ...]
     text: str
     default: Callable[[Answers], str]
-    parse: Callable[[str], Any] = _counted(1)
+    parse: Callable[[str], Any] = _one_number
     form: str = "a number"
 
     def value(self, text: str) -> Any:
