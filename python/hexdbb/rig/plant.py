@@ -11,7 +11,7 @@ Units: mm, s, N.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -137,7 +137,7 @@ class Machine:
         pressed = stiff
         for _ in range(BALANCE_ROUNDS):
             forces = leg_forces_n(pressed, poses, self.geometry.weight_n)
-            pressed = replace(stiff, lengths_mm=stiff.lengths_mm - compliance_mm_n * forces)
+            pressed = stiff._replace(lengths_mm=stiff.lengths_mm - compliance_mm_n * forces)
             poses = solve_poses(pressed, poses)
         return poses
 

@@ -12,8 +12,7 @@ Units: mm, rad, N.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,8 +45,7 @@ class NoPoseError(RunError):
         self.instant = instant
 
 
-@dataclass(frozen=True)
-class Hexapod:
+class Hexapod(NamedTuple):
     """Points of the machine at n instants.
 
     Attributes
@@ -65,8 +63,7 @@ class Hexapod:
     lengths_mm: Array
 
 
-@dataclass(frozen=True)
-class Poses:
+class Poses(NamedTuple):
     """Poses of the platform at n instants: position (n, 3), mm, base frame; rotation (n, 3, 3)."""
 
     position_mm: Array
