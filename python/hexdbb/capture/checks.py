@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import sub
 
 from hexdbb.capture.blame import blamed, controller_missed, drives_time_out, half_a_cycle, never
 from hexdbb.capture.cia402 import (
@@ -239,6 +240,8 @@ def _following(watch: Watch) -> Fault | None:
     if not watch.feedback.settled:
         return None
     window = watch.window
+    if max(map(abs, map(sub, watch.expected, watch.feedback.position))) <= window:
+        return None
     for slot, (target, position) in enumerate(zip(watch.expected, watch.feedback.position, strict=True)):
         if not -window <= target - position <= window:
             error_mm = (target - position) / watch.counts_per_mm

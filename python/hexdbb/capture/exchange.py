@@ -16,10 +16,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Sequence
 
-import can
-
+from hexdbb.capture.bursts import ReceivedBurst, SentBurst
 from hexdbb.capture.frames import GuardedBus
-from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID
+from hexdbb.capture.pdo import DRIVE_RPDO, DRIVE_TPDO, GAUGE_TPDO, SYNC_ID, together
 from hexdbb.capture.socketcand import Frame
 
 GAUGE_SLOT = 6
@@ -125,12 +124,21 @@ class Exchange:
     ) -> None:
         self._bus, self._other = bus, other
         self._sync_overflow = sync_overflow
-        self._targets = [_message(DRIVE_RPDO.cob_id(node), DRIVE_RPDO.bytes) for node in drive_nodes]
-        self._sync = _message(SYNC_ID, 1 if sync_overflow else 0)
-        self._sync_alone, self._sync_after_targets = [self._sync], [*self._targets, self._sync]
+        targets = [(DRIVE_RPDO.cob_id(node), DRIVE_RPDO.bytes) for node in drive_nodes]
+        sync = (SYNC_ID, 1 if sync_overflow else 0)
+        self._targets, self._sync, self._both = SentBurst(targets), SentBurst([sync]), SentBurst([*targets, sync])
+        self._answers = ReceivedBurst(
+            [
+                *((DRIVE_TPDO.cob_id(node), DRIVE_TPDO.bytes) for node in drive_nodes),
+                (GAUGE_TPDO.cob_id(gauge_node), GAUGE_TPDO.bytes),
+            ]
+        )
         self._slots = {DRIVE_TPDO.cob_id(node): slot for slot, node in enumerate(drive_nodes)}
         self._slots[GAUGE_TPDO.cob_id(gauge_node)] = GAUGE_SLOT
-        self._rpdo, self._drive, self._gauge = DRIVE_RPDO.struct, DRIVE_TPDO.struct, GAUGE_TPDO.struct
+        self._drive, self._gauge = DRIVE_TPDO.struct, GAUGE_TPDO.struct
+        self._rpdos = together([DRIVE_RPDO] * len(drive_nodes))
+        self._tpdos = together([DRIVE_TPDO] * len(drive_nodes) + [GAUGE_TPDO])
+        self._packed, self._number = bytes(self._rpdos.size), 0
         self.feedback = Feedback()
         self.late_s: dict[int, float] = {}
         self.doubtful = False
@@ -151,20 +159,25 @@ class Exchange:
         counts : sequence of int
             Object 607Ah of each drive, shape (6,).
         """
-        pack = self._rpdo.pack_into
-        for message, controlword, count in zip(self._targets, controlwords, counts, strict=True):
-            pack(message.data, 0, controlword, count)
+        values: list[int] = [0] * (2 * GAUGE_SLOT)
+        values[0::2], values[1::2] = controlwords, counts
+        self._packed = self._rpdos.pack(*values)
 
     def send_targets(self) -> None:
         """Send the RPDOs as packed last; raises `can.CanError` if the bus cannot send."""
-        self._bus.send_all(self._targets)
+        self._bus.send_burst(self._targets, self._packed)
 
     def send_sync(self, with_targets: bool = False) -> None:
         """Send the SYNC, the RPDOs before it if asked for; raises `can.CanError` if the bus cannot send."""
+        number = b""
         if self._sync_overflow:
-            self._sync.data[0] = self._sync.data[0] % self._sync_overflow + 1
+            self._number = self._number % self._sync_overflow + 1
+            number = bytes((self._number,))
         self.feedback.settled = not any(self._owed)
-        self._bus.send_all(self._sync_after_targets if with_targets else self._sync_alone)
+        if with_targets:
+            self._bus.send_burst(self._both, self._packed + number)
+        else:
+            self._bus.send_burst(self._sync, number)
         self.sync_s = time.monotonic()
         self.feedback.cycle += 1
         self._outstanding = set(range(SLOTS))
@@ -184,6 +197,11 @@ class Exchange:
         """
         end_s = time.monotonic() + timeout_s
         take, outstanding, given_up, backlog = self._bus.take, self._outstanding, self._given_up, MAX_BACKLOG
+        if len(outstanding) == SLOTS and not given_up:
+            data = self._bus.take_burst(self._answers, timeout_s)
+            if data is not None:
+                self._decode_all(data)
+                outstanding.clear()
         while backlog and not outstanding <= given_up:
             left_s = end_s - time.monotonic()
             backlog -= left_s <= 0.0
@@ -267,6 +285,12 @@ class Exchange:
         elif self._decode(slot, data):
             self._outstanding.discard(slot)
 
+    def _decode_all(self, data: bytes) -> None:
+        """Decode the answers of all slots in order."""
+        feedback, values = self.feedback, self._tpdos.unpack(data)
+        feedback.statusword[:], feedback.position[:], feedback.mode[:] = values[0:18:3], values[1:18:3], values[2:18:3]
+        feedback.reading_um, feedback.gauge_status = values[18:]
+
     def _decode(self, slot: int, data: bytes | bytearray) -> bool:
         """Decode one answer; return False if its length is not the configured one, so that it counts as missing."""
         feedback = self.feedback
@@ -279,7 +303,3 @@ class Exchange:
         else:
             feedback.statusword[slot], feedback.position[slot], feedback.mode[slot] = layout.unpack(data)
         return True
-
-
-def _message(can_id: int, length: int) -> can.Message:
-    return can.Message(arbitration_id=can_id, is_extended_id=False, data=bytearray(length))

@@ -12,12 +12,16 @@ import struct
 import time
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Protocol
+from typing import ParamSpec, Protocol, TypeVar
 
 import can
 
+from hexdbb.capture.bursts import ReceivedBurst, SentBurst
 from hexdbb.capture.socketcand import Frame, SocketcandBus, as_frame, as_message
 from hexdbb.capture.transport import one_line
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 NODE_MASK = 0x7F
 NMT, EMCY_BASE, SDO_ANSWER_BASE, HEARTBEAT_BASE = 0x000, 0x080, 0x580, 0x700
@@ -67,8 +71,11 @@ class GuardedBus:
         self._next: Callable[[float | None], Frame | can.Message | None] = self._next_of_any
         self._send_all: Callable[[Sequence[can.Message]], None] = self._send_each
         self._received: deque[Frame | can.Message] = deque()
+        self._send_burst: Callable[[SentBurst, bytes], None] = lambda burst, data: self._send_each(burst.filled(data))
+        self._next_burst: Callable[[ReceivedBurst, float | None], bytes | None] = lambda burst, timeout: None
         if isinstance(bus, SocketcandBus):
             self._next, self._send_all, self._received = bus.receive, bus.send_all, bus.received
+            self._send_burst, self._next_burst = bus.send_burst, bus.receive_burst
         self.foreign: deque[str] = deque(maxlen=KEPT_FOREIGN)
 
     def take(self, timeout: float | None = None) -> Frame | None:
@@ -90,6 +97,19 @@ class GuardedBus:
                 return frame
         return None
 
+    def take_burst(self, burst: ReceivedBurst, timeout: float | None = None) -> bytes | None:
+        """Return the data of frames that arrive together, and alone, from a server that sends them so; or None.
+
+        Waits `timeout` seconds at most, and on a bus without such a server not at all. What else arrives is left to
+        `take`.
+
+        Raises
+        ------
+        can.CanError
+            The bus cannot receive.
+        """
+        return _guarded("receive", self._next_burst, burst, timeout)
+
     def recv(self, timeout: float | None = None) -> can.Message | None:
         """Return what `take` returns as python-can represents it."""
         frame = self.take(timeout)
@@ -101,13 +121,11 @@ class GuardedBus:
 
     def send_all(self, messages: Sequence[can.Message]) -> None:
         """Send frames in order; raises `can.CanError` if the bus cannot."""
-        try:
-            self._send_all(messages)
-        except (can.CanError, OSError):
-            raise
-        except Exception as error:
-            # Drivers raise whatever their libraries raise (ctypes, serial ports): the bus is lost, by any name.
-            raise can.CanOperationError(f"cannot send: {one_line(error)}") from error
+        _guarded("send", self._send_all, messages)
+
+    def send_burst(self, burst: SentBurst, data: bytes) -> None:
+        """Send frames in order with the data of all of them; raises `can.CanError` if the bus cannot."""
+        _guarded("send", self._send_burst, burst, data)
 
     def notes(self) -> list[str]:
         """Return one line for each kind of thing that was skipped, with the last of them."""
@@ -125,13 +143,17 @@ class GuardedBus:
             self._bus.send(message)
 
     def _receive(self, timeout: float | None) -> Frame | can.Message | None:
-        try:
-            return self._next(timeout)
-        except (can.CanError, OSError):
-            raise
-        except Exception as error:
-            # Drivers parse what comes from outside, and raise what their parsers raise: the bus is lost, by any name.
-            raise can.CanOperationError(f"cannot receive: {one_line(error)}") from error
+        return _guarded("receive", self._next, timeout)
+
+
+def _guarded(what: str, call: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> T:
+    """Call a driver, which raises what its libraries and parsers raise: the bus is lost, by any name."""
+    try:
+        return call(*arguments, **named)
+    except (can.CanError, OSError):
+        raise
+    except Exception as error:
+        raise can.CanOperationError(f"cannot {what}: {one_line(error)}") from error
 
 
 def service_of(can_id: int) -> tuple[int, int]:

@@ -44,11 +44,11 @@ STOPPED_STATES = (
 )
 
 VERIFY_SYNCS = 25
-"""SYNCs in lockstep between two looks for answers too many: 1 ms of silence each, a tenth of the time that so many
-cycles take. What is not verified is dropped if there is one: of a circle of 2,500 samples one in a hundred."""
+"""Fewest SYNCs in lockstep between two looks for answers too many: 1 ms of silence each, a quarter of the time that so
+many cycles take. What is not verified is dropped if there is one: of a circle of 2,500 samples one in a hundred."""
 VERIFY_S = 0.1
-"""Longest time between two such looks, s, where the computer is so busy that 25 SYNCs take longer: samples that are not
-verified are not on disk, and would be lost if the controller were killed."""
+"""Longest time between two such looks, s, where the computer is so busy that these SYNCs take longer: samples that are
+not verified are not on disk, and would be lost if the controller were killed."""
 
 
 class Rows(Protocol):
@@ -159,7 +159,13 @@ class AxisGroup:
             self._until(command, self._all_in(state), state.label, follow=state is not DriveState.OPERATION_ENABLED)
         return list(self._loop.counts)
 
-    def follow(self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]]) -> None:
+    def follow(
+        self,
+        rows: Iterable[Row],
+        kept: Rows,
+        pauses: Mapping[int, Callable[[], None]],
+        verify_syncs: int = VERIFY_SYNCS,
+    ) -> None:
         """Send targets, one row per cycle, and check every answer.
 
         Parameters
@@ -170,6 +176,8 @@ class AxisGroup:
             Takes the answers that belong to each row.
         pauses : mapping of int to callable
             Work to be done before a row is sent, while the targets are held.
+        verify_syncs : int
+            SYNCs in lockstep between two looks for answers too many, after which what was kept is settled.
 
         Raises
         ------
@@ -184,12 +192,14 @@ class AxisGroup:
         # A long wait for answers must not keep samples from the disk that are certain already.
         loop.while_waiting = lambda: kept.settle(loop.confirm(), held=0)
         try:
-            self._follow(rows, kept, pauses)
+            self._follow(rows, kept, pauses, verify_syncs)
         finally:
             loop.while_waiting = nothing
         kept.settle(loop.confirm(), held=0)
 
-    def _follow(self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]]) -> None:
+    def _follow(
+        self, rows: Iterable[Row], kept: Rows, pauses: Mapping[int, Callable[[], None]], verify_syncs: int
+    ) -> None:
         watch, loop, enabled = self._watch, self._loop, [Command.ENABLE_OPERATION] * 6
         sent: Row | None = None
         verified_s = time.monotonic()
@@ -210,7 +220,7 @@ class AxisGroup:
             sent = row
             if loop.clock.real_time:
                 self._settle(kept)
-            elif feedback.cycle % VERIFY_SYNCS == 0 or time.monotonic() - verified_s > VERIFY_S:
+            elif feedback.cycle % verify_syncs == 0 or time.monotonic() - verified_s > VERIFY_S:
                 self._settle(kept)
                 verified_s = time.monotonic()
 

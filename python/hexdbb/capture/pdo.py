@@ -8,6 +8,7 @@ Source: CiA 301 (PDO parameters 1400h, 1600h, 1800h, 1A00h; predefined connectio
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 SYNC_ID = 0x080
@@ -76,7 +77,7 @@ class PdoLayout:
     @property
     def struct(self) -> struct.Struct:
         """Packing of the whole PDO."""
-        return struct.Struct("<" + "".join(mapped.code for mapped in self.objects))
+        return together([self])
 
     @property
     def bytes(self) -> int:
@@ -103,3 +104,8 @@ DRIVE_TPDO = PdoLayout(
     0x180, 0x1800, 0x1A00, (STATUSWORD, POSITION, MODE_DISPLAY), "it does not answer in time with SYNC"
 )
 GAUGE_TPDO = PdoLayout(0x180, 0x1800, 0x1A00, (READING, GAUGE_STATUS), "it does not answer in time with SYNC")
+
+
+def together(layouts: Sequence[PdoLayout]) -> struct.Struct:
+    """Return the packing of several PDOs one after the other."""
+    return struct.Struct("<" + "".join(mapped.code for layout in layouts for mapped in layout.objects))

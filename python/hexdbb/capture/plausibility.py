@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, field
+from operator import mul, sub
 
 from hexdbb.capture.exchange import Feedback
 from hexdbb.capture.lag import LagWatch
@@ -101,12 +102,12 @@ class Plausibility:
         if not feedback.settled or missed:
             self._before = None
             self._readings.clear()
-        errors = [target - position for target, position in zip(expected, feedback.position, strict=True)]
+        errors = list(map(sub, expected, feedback.position))
         if feedback.settled:
             if self._before is not None:
                 positions, before = self._before
-                self._position_steps = [a - b for a, b in zip(feedback.position, positions, strict=True)]
-                self._error_steps = [a - b for a, b in zip(errors, before, strict=True)]
+                self._position_steps = list(map(sub, feedback.position, positions))
+                self._error_steps = list(map(sub, errors, before))
                 self._recent.append(self._error_steps)
             self._before = (list(feedback.position), errors)
             self._errors.append((self._cycle, errors))
@@ -118,14 +119,17 @@ class Plausibility:
 
     def _command(self, expected: list[int], missed: int) -> None:
         if self._targets is not None:
-            steps = [a - b for a, b in zip(expected, self._targets, strict=True)]
+            steps = list(map(sub, expected, self._targets))
             if missed:
                 # The target stood still for the cycles missed: the drives stopped and started again.
                 self._accelerations.append(max(map(abs, steps)) / self.cycle_s)
             if self._target_steps is not None:
-                changes = [abs(a - b) for a, b in zip(steps, self._target_steps, strict=True)]
-                self._accelerations.append(max(changes) / self.cycle_s)
-                turned = any(a * b <= 0 and a != b for a, b in zip(steps, self._target_steps, strict=True))
+                before = self._target_steps
+                self._accelerations.append(max(map(abs, map(sub, steps, before))) / self.cycle_s)
+                # Most often no axis turns or rests, which the signs of six products tell.
+                turned = min(map(mul, steps, before)) <= 0 and any(
+                    a * b <= 0 and a != b for a, b in zip(steps, before, strict=True)
+                )
                 self._since_reversal = 0 if turned else self._since_reversal + 1
             self._target_steps = steps
         self._targets = list(expected)
@@ -146,10 +150,12 @@ class Plausibility:
         """Return the slot of a position that jumped, its step and the limit (mm), or None."""
         scale = abs(self.counts_per_mm)
         limit = 1.1 * self.velocity_mm_s * self.cycle_s * scale + 2.0
-        for slot, step in enumerate(self._position_steps):
-            if abs(step) > limit:
-                return slot, step / self.counts_per_mm, limit / scale
+        if max(map(abs, self._position_steps), default=0) > limit:
+            slot, step = next((slot, step) for slot, step in enumerate(self._position_steps) if abs(step) > limit)
+            return slot, step / self.counts_per_mm, limit / scale
         follows = self._follows() + DISTURBANCE_MM * scale + 2.0
+        if max(map(abs, self._error_steps), default=0) <= follows:
+            return None
         for slot, (step, moved) in enumerate(zip(self._error_steps, self._position_steps, strict=True)):
             # A slider that jams lags behind more and more; one that jumps moves.
             if abs(step) > follows and abs(moved) > follows:
@@ -167,6 +173,9 @@ class Plausibility:
         (_, first), (at, middle), (now, last) = self._errors
         scale = abs(self.counts_per_mm)
         limit = SPIKE_SHARE * self._follows() + DISTURBANCE_MM * scale + 2.0
+        # What came back by so much has moved by three quarters of it in the last SYNC at least.
+        if max(map(abs, map(sub, last, middle))) <= 0.75 * limit:
+            return None
         for slot in range(len(middle)):
             off = middle[slot] - 0.5 * (first[slot] + last[slot])
             if abs(off) > limit and abs(last[slot] - first[slot]) < 0.5 * abs(off):

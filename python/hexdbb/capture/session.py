@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from hexdbb.capture.boot import Devices, add_devices, boot, refuse_unfit, release
 from hexdbb.capture.captured_rows import CapturedRows
+from hexdbb.capture.checks import MAX_REPEATED
 from hexdbb.capture.cia402 import Command
 from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange
@@ -24,7 +25,7 @@ from hexdbb.capture.latency import shown_ms
 from hexdbb.capture.lateness import NOTED_S, Lateness
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
-from hexdbb.capture.motion import AxisGroup, MotionFaultError
+from hexdbb.capture.motion import VERIFY_SYNCS, AxisGroup, MotionFaultError
 from hexdbb.capture.real_time_check import advice, judged, words
 from hexdbb.capture.request import Request, RunProgress
 from hexdbb.capture.sample_buffer import SampleBuffer
@@ -245,6 +246,8 @@ class _Run:
             targets,
             CapturedRows(samples, self.loop, progress),
             pauses(setup_changes(programme), self.request.plan.gauge, self.devices.gauge, self.request.confirm),
+            # The answers too many that a run survives cost no more samples than a record may lack.
+            max(VERIFY_SYNCS, int(MAX_LOST * int(programme.captured.sum()) / MAX_REPEATED)),
         )
 
     def _stopped(self, error: Exception, samples: SampleBuffer) -> str:

@@ -18,6 +18,8 @@ from collections.abc import Sequence
 
 import can
 
+from hexdbb.capture.bursts import ReceivedBurst, SentBurst
+
 Frame = tuple[int, bytes | bytearray, float]
 """A data frame with an 11-bit identifier: identifier, data, timestamp (s)."""
 
@@ -82,9 +84,15 @@ class SocketcandBus(can.BusABC):
 
     def send_all(self, messages: Sequence[can.Message]) -> None:
         """Send frames in order, in one segment; raises `can.CanOperationError` if the server does not take them."""
-        text = "".join([_sent(message) for message in messages])
+        self._send("".join([_sent(message) for message in messages]).encode("ascii"))
+
+    def send_burst(self, burst: SentBurst, data: bytes) -> None:
+        """Send frames in one segment; raises `can.CanOperationError` if the server does not take them."""
+        self._send(burst.text(data))
+
+    def _send(self, text: bytes) -> None:
         try:
-            self._connection.sendall(text.encode("ascii"))
+            self._connection.sendall(text)
             self._acknowledge_at_once()
         except OSError as error:
             raise can.CanOperationError(f"cannot send: {error.strerror or error}") from None
@@ -97,15 +105,38 @@ class SocketcandBus(can.BusABC):
         can.CanOperationError
             The connection is lost.
         """
-        if not self.received:
-            try:
-                ready, _, _ = select.select([self._connection], [], [], timeout)
-                if ready:
-                    self._parse(self._connection.recv(RECEIVE_BYTES))
-                    self._acknowledge_at_once()
-            except OSError as error:
-                raise can.CanOperationError(f"cannot receive: {error.strerror or error}") from None
+        if not self.received and (text := self._read(timeout)) is not None:
+            self._parse(text)
         return self.received.popleft() if self.received else None
+
+    def receive_burst(self, burst: ReceivedBurst, timeout: float | None) -> bytes | None:
+        """Return the data of frames that arrive together, and alone; None where anything else, or nothing, arrives.
+
+        What else arrives is received by `receive`, frame by frame.
+
+        Raises
+        ------
+        can.CanOperationError
+            The connection is lost.
+        """
+        if self.received or (text := self._read(timeout)) is None:
+            return None
+        data = None if self._text else burst.data_of(text)
+        if data is None:
+            self._parse(text)
+        return data
+
+    def _read(self, timeout: float | None) -> bytes | None:
+        """Return what has arrived, or None after `timeout` seconds."""
+        try:
+            ready, _, _ = select.select([self._connection], [], [], timeout)
+            if not ready:
+                return None
+            text = self._connection.recv(RECEIVE_BYTES)
+            self._acknowledge_at_once()
+        except OSError as error:
+            raise can.CanOperationError(f"cannot receive: {error.strerror or error}") from None
+        return text
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
         frame = self.receive(timeout)

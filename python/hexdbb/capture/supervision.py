@@ -160,9 +160,11 @@ class Supervision:
         """
         if not self.heard_s:
             return None
-        node, heard_s = min(self.heard_s.items(), key=itemgetter(1))
-        age_s = time.monotonic() - heard_s
-        return (self.nodes.index(node), age_s) if age_s > self.heartbeat_limit_s else None
+        age_s = time.monotonic() - min(self.heard_s.values())
+        if age_s <= self.heartbeat_limit_s:
+            return None
+        node, _ = min(self.heard_s.items(), key=itemgetter(1))
+        return self.nodes.index(node), age_s
 
     def _emergency(self, node: int, data: bytes | bytearray) -> None:
         code = emergency_code(data)

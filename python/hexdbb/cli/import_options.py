@@ -6,7 +6,10 @@ them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+import shlex
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +34,11 @@ OF_RECORDS: tuple[Option, ...] = (
     ),
     ("plan", "--plan", {"metavar": "PLAN", "help": "Plan that was driven: a plan file or a shipped plan."}),
     ("circle", "--circle", {"metavar": "ID", "type": int, "help": "Circle of the plan."}),
+    (
+        "mount",
+        "--mount",
+        {"metavar": "NAME", "help": "Name of the set-up that all files share: the cup was not touched between them."},
+    ),
 )
 """Options of every command that takes records."""
 OF_CONVERT: tuple[Option, ...] = (
@@ -60,6 +68,7 @@ OF_CONVERT: tuple[Option, ...] = (
     ("arc_deg", "--arc", {"metavar": "DEG", "type": float, "help": "Renishaw: angle from first to last reading."}),
 )
 """Options of the command that imports."""
+_CONVERT_ONLY = {names for key, names, _ in OF_CONVERT if key not in {each for each, _, _ in OF_RECORDS}}
 
 
 def import_options(options: tuple[Option, ...]) -> Decorator:
@@ -96,6 +105,20 @@ def wanted_mapping() -> Mapping:
         given["direction"] = DIRECTIONS[given["direction"]]
     wanted = mapping_of("options", **given)
     return wanted if path is None else wanted.over(load_mapping(Path(path)))
+
+
+@contextmanager
+def pointing_to_convert(path: Path) -> Iterator[None]:
+    """Add to an error that asks for an option of `convert`, which other commands lack, where it can be said."""
+    try:
+        yield
+    except InputError as error:
+        asked = dict.fromkeys(re.findall(r"--[a-z][a-z-]*", str(error)))
+        elsewhere = [option for option in asked if option in _CONVERT_ONLY]
+        if not elsewhere:
+            raise
+        kept = f"--save-mapping {shlex.quote(str(path.with_suffix('.toml')))} keeps it for this command"
+        raise InputError(f"{error}; {elsewhere[0]} is an option of hexdbb convert, whose {kept}") from None
 
 
 def given_options() -> list[str]:

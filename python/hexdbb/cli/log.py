@@ -9,11 +9,14 @@ import click
 from rich.table import Table
 
 from hexdbb.cli.consoles import message_console, output_console, say
+from hexdbb.cli.import_options import OF_RECORDS, import_options, pointing_to_convert, wanted_mapping
 from hexdbb.cli.shared_options import json_option
 from hexdbb.cli.trend import command as trend_command
 from hexdbb.errors import RunError
+from hexdbb.importing import read_measured
 from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
 from hexdbb.logbook.json_form import log_json
+from hexdbb.record import Record, read_record
 
 folder_argument = click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
 
@@ -38,23 +41,36 @@ def command() -> None:
 @command.command("add")
 @folder_argument
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(path_type=Path))
+@import_options(OF_RECORDS)
 @click.option("--date", help="When FILE was measured or made, where it does not say: 2026-03-01 or 2026-03-01T08:30.")
 def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
     """Add FILE... to the logbook in FOLDER, which is made where there is none, for the machine of the first FILE.
 
-    A file is a record (.parquet or .csv), a model, what a command printed with --json, or a compensation file. The
-    same content added twice is one entry. A file of another machine is refused.
+    A file is a record, readings of another program (as of hexdbb convert), a model, what a command printed with --json,
+    or a compensation file. The same content added twice is one entry. A file of another machine is refused.
 
     \b
     Examples:
       hexdbb log add glider monday.parquet
       hexdbb log add glider old.csv --date 2025-03-01
+      hexdbb log add glider front.csv side.csv --plan plan.toml --mount march --date 2026-03-01
       hexdbb discover monday.parquet -m model.toml --json > verdict.json; hexdbb log add glider verdict.json
     """
     messages = message_console()
+    wanted = wanted_mapping()
+
+    def tell(line: str) -> None:
+        messages.print(line, markup=False, highlight=False, soft_wrap=True)
+
+    def read(path: Path) -> Record:
+        with pointing_to_convert(path):
+            return read_measured(path, wanted, tell)
+
     for path in files:
         with messages.status(f"reading {path}"):
-            content = content_of(path)
+            # Without a name of the set-up a Parquet record is kept as it is, byte by byte.
+            own = path.suffix == ".parquet" and wanted.mount is None
+            content = content_of(path) if own else content_of(path, read=read)
             if content.machine is not None:
                 logbook = Logbook.of(folder, content.machine)
             else:
@@ -69,6 +85,17 @@ def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
             say(f"{path}: in {folder} already, its missing file is back: {where}")
         else:
             say(f"{path}: in {folder} already, added as {entry.name} on {entry.added[:10]}: {where}")
+        if wanted.mount is not None and not added.is_new and content.record is not None:
+            _say_kept_set_up(path, read_record(logbook.path_of(entry)), wanted.mount)
+
+
+def _say_kept_set_up(path: Path, kept: Record, given: str) -> None:
+    """Say that a record that is in a logbook keeps its set-up, where another is given now."""
+    names = {mount.fixing for mount in kept.mounts}
+    if names != {given}:
+        name = ", ".join(f'"{each}"' for each in names if each is not None) or "a set-up of its own"
+        kept_as = f"keeps {name} (--mount {given}: nothing in a logbook is written twice)"
+        message_console().print(f"note: {path}: {kept_as}", markup=False, highlight=False, soft_wrap=True)
 
 
 @command.command("list")

@@ -29,9 +29,26 @@ def _numbers(text: str) -> Any:
     return found[0] if len(found) == 1 else found
 
 
+def _counted(*counts: int) -> Callable[[str], Any]:
+    """Return a parser of as many numbers as one of some counts says."""
+
+    def numbers(text: str) -> Any:
+        if text.count(",") + 1 not in counts:
+            raise ValueError(text)
+        return _numbers(text)
+
+    return numbers
+
+
+def _one_number(text: str) -> Any:
+    return _counted(1)(text)
+
+
 def _travels(text: str) -> Any:
-    """Return one pair of numbers, or a list of pairs, of a text."""
-    pairs = [_numbers(each) for each in text.split(";")]
+    """Return one pair of numbers, or a list of six pairs, of a text."""
+    pairs = [_counted(2)(each) for each in text.split(";")]
+    if len(pairs) not in (1, 6):
+        raise ValueError(text)
     return pairs[0] if len(pairs) == 1 else pairs
 
 
@@ -59,7 +76,7 @@ class Question:
     key: tuple[str, ...]
     text: str
     default: Callable[[Answers], str]
-    parse: Callable[[str], Any] = _numbers
+    parse: Callable[[str], Any] = _one_number
     form: str = "a number"
 
     def value(self, text: str) -> Any:
@@ -100,6 +117,7 @@ QUESTIONS = (
         ("base", "guideway_angles_deg"),
         "Directions of guideways 1 to 3 seen from above, deg",
         _fixed(THIRDS_DEG),
+        _counted(3),
         form="three numbers with commas",
     ),
     Question(
@@ -113,6 +131,7 @@ QUESTIONS = (
         ("platform", "joint_angles_deg"),
         "Directions of ball joints 1 to 3 on the platform, deg",
         _fixed(THIRDS_DEG),
+        _counted(3),
         form="three numbers with commas",
     ),
     Question(
@@ -132,6 +151,7 @@ QUESTIONS = (
         ("legs", "length_mm"),
         "l: length of the legs, mm; six numbers with commas where they differ",
         _of_inradius(SHIPPED.legs.lengths_mm[0]),
+        _counted(1, 6),
         form="one number, or six with commas",
     ),
     Question(
@@ -159,6 +179,7 @@ QUESTIONS = (
         ("can", "drive_nodes"),
         "CAN node ids of the drives of sliders 1 to 6",
         _fixed(_CAN.drive_nodes),
+        _counted(6),
         form="six whole numbers with commas",
     ),
     Question(

@@ -17,7 +17,7 @@ from hexdbb.units import readable_unit, shown_factor, shown_unit
 def fit_mounts(samples: Samples, model: Model) -> tuple[Model, list[str]]:
     """Fit where the cups of mounts stand that a model does not know, holding all else: a set-up, not the machine.
 
-    Records are fitted one after another, each at the noise of its own readings.
+    Records are fitted one after another, each at the noise of its own readings; those that share a fixing together.
 
     Returns
     -------
@@ -27,14 +27,19 @@ def fit_mounts(samples: Samples, model: Model) -> tuple[Model, list[str]]:
         What was found, one sentence for each mount.
     """
     said: list[str] = []
-    for record, part in samples.of_each_record():
-        unseen = [
-            samples.mounts[place] for place in np.unique(part["mount"]) if samples.mounts[place] not in model.mounts
-        ]
-        if unseen:
-            model, places = _fitted(part, model, unseen)
-            said += [_sentence(record.name, model, element, key) for element, key in places.items()]
+    for _, part in samples.of_each_record():
+        places = [place for place in np.unique(part["mount"]) if samples.mounts[place] not in model.mounts]
+        if places:
+            part = samples.part(np.isin(samples["mount"], places))
+            model, elements = _fitted(part, model, [samples.mounts[place] for place in places])
+            said += [_sentence(_names(samples, key), model, element, key) for element, key in elements.items()]
     return model, said
+
+
+def _names(samples: Samples, key: MountKey) -> str:
+    """Return the records that have a mount."""
+    numbers = np.unique(samples["record"][samples["mount"] == samples.mounts.index(key)])
+    return ", ".join(samples.records[number].name for number in numbers)
 
 
 def _fitted(samples: Samples, model: Model, unseen: list[MountKey]) -> tuple[Model, dict[str, MountKey]]:

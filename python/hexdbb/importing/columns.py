@@ -112,11 +112,13 @@ def _column(table: Table, quantity: str, place: int, mapping: Mapping) -> Column
 
 
 def _checked(table: Table, found: dict[str, Column]) -> dict[str, Column]:
-    headings = ", ".join(f'"{each}"' for each in table.headings if each) or f"{len(table.headings)} without names"
+    named = [f'"{each}"' for each in table.headings if each]
+    headings = ", ".join(named) or f"{len(table.headings)} without names"
+    how = "NAME" if named else "NUMBER, from 1"
     if "angle" not in found:
-        raise InputError(f"{table.grid.name}: no column of angles among {headings} (expected --column angle=NAME)")
+        raise InputError(f"{table.grid.name}: no column of angles among {headings} (expected --column angle={how})")
     if not {"reading", "reading_ccw", "reading_cw"} & set(found):
-        raise InputError(f"{table.grid.name}: no column of readings among {headings} (expected --column reading=NAME)")
+        raise InputError(f"{table.grid.name}: no column of readings among {headings} (expected --column reading={how})")
     return found
 
 

@@ -49,6 +49,8 @@ def imported(path: Path, mapping: Mapping, tell: Tell) -> Record:
     columns, computed, lines = samples_of(series, setting)
     circles = tuple(each for each in setting.plan.circles if each.id in set(np.unique(columns["circle"])))
     mounts = tuple(each for each in setting.plan.mounts if each.id in {circle.mount for circle in circles})
+    if mapping.mount is not None:
+        mounts = tuple(each.model_copy(update={"fixing": mapping.mount}) for each in mounts)
     how = _words(series, columns, setting, computed.model_dump(exclude_none=True))
     record = Record(
         columns=columns,

@@ -19,7 +19,7 @@ from hexdbb.files.atomic_file import refuse_existing, write_text
 from hexdbb.files.validation import BadValueError, FileModel, Number, Positive, dump_toml, load_toml, validation_line
 from hexdbb.importing.quantities import QUANTITIES, UNITS_OF, nearest_quantity
 from hexdbb.machine import SHIPPED_MACHINE
-from hexdbb.plan import Direction, shipped_plans
+from hexdbb.plan import Direction, FixingName, shipped_plans
 
 SCHEMA = "hexdbb.mapping/1"
 DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "space": " "}
@@ -43,6 +43,9 @@ class Mapping(FileModel):
     """Machine file in place of the plan's: a path relative to this file, or the name of the shipped one, `sp120`."""
     circle: Annotated[int, Field(ge=0, le=2**31 - 1)] | None = None
     """Id of the plan's circle; needed where the plan has several and the file has no column for it."""
+    mount: FixingName | None = None
+    """Name of the set-up: files of the same name were measured without touching the cup between them, so that one
+    position of it is fitted for all. Without it every file counts as a set-up of its own."""
     feed_mm_min: Positive | None = None
     """Commanded feed; needed where the circle has several and the file has no column for it."""
     direction: Direction | None = None

@@ -28,7 +28,7 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
         same name beside it), or a file of another program: delimited text, an Excel sheet, a Renishaw test.
     mapping : Mapping, optional
         How to read a file of another program. Keys that it lacks are those of the mapping file `NAME.toml` beside the
-        file, where there is one.
+        file, where there is one. Its name of the set-up (`mount`) holds for records too.
     tell : callable
         Is told in one line what was detected in a file of another program.
 
@@ -40,7 +40,8 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
     path = Path(path)
     wanted = mapping or Mapping()
     if _is_own(path):
-        return read_own_record(path)
+        record = read_own_record(path)
+        return record if wanted.mount is None else record.of_fixing(wanted.mount)
     from hexdbb.importing.foreign import (  # what our own records need not wait for: a tenth of the start
         READERS,
         imported,

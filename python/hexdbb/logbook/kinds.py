@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,9 @@ from hexdbb.record import Record, read_record, write_record
 FOLDERS = {"record": "records", "model": "models", "verdict": "verdicts", "compensation": "compensations"}
 """Kinds of entries, and the folder of each."""
 SUFFIXES = {"record": ".parquet", "model": ".toml", "verdict": ".json", "compensation": ".hexcomp"}
+MEASURED = (".parquet", ".csv", ".txt", ".tsv", ".dat", ".asc", ".xlsx", ".xlsm", ".b5r", ".xml")
+"""Suffixes of records, and of readings of other programs."""
+ReadRecord = Callable[[Path], Record]
 MODEL_SCHEMA, RESULT_SCHEMA = "hexdbb.model/", "hexdbb."
 
 
@@ -85,7 +89,7 @@ class Content:
             temporary.write_bytes(self.path.read_bytes())
 
 
-def content_of(path: Path, machine: MachineFile | None = None) -> Content:
+def content_of(path: Path, machine: MachineFile | None = None, read: ReadRecord = read_record) -> Content:
     """Read and check a file.
 
     Parameters
@@ -93,6 +97,8 @@ def content_of(path: Path, machine: MachineFile | None = None) -> Content:
     path : Path
     machine : MachineFile, optional
         Of the logbook, by which a compensation file is checked.
+    read : callable
+        Reads a record, or readings of another program as one.
 
     Raises
     ------
@@ -101,12 +107,15 @@ def content_of(path: Path, machine: MachineFile | None = None) -> Content:
     """
     if not path.is_file():
         raise InputError(f"{path}: no such file")
-    reader = {".parquet": _record, ".csv": _record, ".toml": _model, ".json": _verdict}.get(path.suffix)
+    suffix = path.suffix.lower()
+    if suffix in MEASURED:
+        return _record(path, read)
+    reader = {".toml": _model, ".json": _verdict}.get(suffix)
     return reader(path) if reader is not None else _compensation(path, machine)
 
 
-def _record(path: Path) -> Content:
-    record = read_record(path)
+def _record(path: Path, read: ReadRecord) -> Content:
+    record = read(path)
     readings = record.columns["reading_um"]
     facts = {
         "samples": len(record),
@@ -124,7 +133,7 @@ def _record(path: Path) -> Content:
         None if stated is None else str(stated),
         facts,
         record,
-        as_it_is=path.suffix == ".parquet",
+        as_it_is=path.suffix == ".parquet" and read is read_record,
     )
 
 

@@ -57,7 +57,10 @@ class EffectEntry(StrictModel):
 
 
 class MountEntry(StrictModel):
-    """A fixing of the cup: the record that has it, by the hash of its content, and its id there."""
+    """A fixing of the cup: the record that has it, by the hash of its content, and its id there.
+
+    Where several records share it, its name stands for them (``fixing NAME``).
+    """
 
     record_sha256: str
     id: int

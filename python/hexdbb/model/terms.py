@@ -17,9 +17,10 @@ Bools = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class MountKey:
-    """One fixing of the cup: every record's mounts count as fixings of their own."""
+    """One fixing of the cup: a record's mounts count as fixings of its own, unless they have the name of one."""
 
     record_hash: str
+    """Of the record's content; ``fixing NAME`` where several records share it."""
     mount_id: int
 
 

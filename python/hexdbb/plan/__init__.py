@@ -4,7 +4,7 @@ from hexdbb.plan.circle import Circle, Direction
 from hexdbb.plan.conditions import Conditions
 from hexdbb.plan.file import CircleRun, Circles, Mounts, Plan, check_ids, load_plan, shipped_plans
 from hexdbb.plan.gauge import LEAST_NOISE_MM, Gauge
-from hexdbb.plan.mount import Mount
+from hexdbb.plan.mount import FixingName, Mount
 from hexdbb.plan.saved import save_plan
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "Circles",
     "Conditions",
     "Direction",
+    "FixingName",
     "Gauge",
     "Mount",
     "Mounts",

@@ -27,6 +27,7 @@ from hexdbb.files.atomic_file import refuse_existing, sync_directory
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Gauge, Mount
 from hexdbb.record.abandoned import make_way
+from hexdbb.record.arrow import array_of
 from hexdbb.record.columns import REQUIRED_COLUMNS, BadRowError, Columns, RowSource, normalise
 from hexdbb.record.journal_stream import write_batch
 from hexdbb.record.parquet import SUFFIX, write_parquet
@@ -227,7 +228,7 @@ class Journal:
     def _rehearse(self) -> None:
         """Write a batch to memory: what a first one costs must not be paid while axes move."""
         columns = {name: np.zeros(REHEARSED_ROWS, kind) for name, kind in REQUIRED_COLUMNS.items()}
-        table = pa.table({name: pa.array(values) for name, values in columns.items()}, metadata=self._metadata)
+        table = pa.table({name: array_of(values) for name, values in columns.items()}, metadata=self._metadata)
         with pa.ipc.new_stream(pa.BufferOutputStream(), table.schema) as stream:
             for batch in table.to_batches():
                 write_batch(stream, batch, 0)
@@ -263,7 +264,7 @@ class Journal:
         if not queued:
             return
         columns = {name: np.concatenate([rows[name] for rows in queued]) for name in queued[0]}
-        table = pa.table({name: pa.array(values) for name, values in columns.items()}, metadata=self._metadata)
+        table = pa.table({name: array_of(values) for name, values in columns.items()}, metadata=self._metadata)
         if self._stream is None:
             self._stream = pa.ipc.new_stream(self._file, table.schema)
         for batch in table.to_batches():

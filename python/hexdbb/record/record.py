@@ -136,6 +136,10 @@ class Record:
         complete = None if self.complete else False
         return Measurement(machine=machine, complete=complete, gauge=self.gauge, mount=self.mounts, circle=self.circles)
 
+    def of_fixing(self, name: str) -> Record:
+        """Return the record with its mounts named as those of one fixing of the cup (`hexdbb.plan.Mount.fixing`)."""
+        return replace(self, mounts=tuple(mount.model_copy(update={"fixing": name}) for mount in self.mounts))
+
     def part(self, rows: NDArray[np.bool_]) -> Record:
         """Return the samples selected by a mask of shape (n,) as a record with the identity of the whole one.
 
@@ -147,8 +151,8 @@ class Record:
     def content_hash(self) -> str:
         """Return the SHA-256 (hex) of required columns, gauge, mounts, circles and machine; equal in every format.
 
-        What only reports show (conditions, serial numbers, calibration, limits) is not in it: a note corrected later
-        leaves a record what it was.
+        What only reports show (conditions, serial numbers, calibration, limits) is not in it, nor the names of
+        fixings: a note corrected later leaves a record what it was.
         """
         return self.whole_hash if self.whole_hash is not None else self._own_hash
 
@@ -159,7 +163,11 @@ class Record:
             digest.update(name.encode())
             digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
         nameless = self.gauge.model_copy(update={"serial_number": None, "calibrated": None})
-        digest.update(_toml(_Stated(self.measurement("machine").model_copy(update={"gauge": nameless}))))
+        # Which records share a fixing is stated about a record, and may be stated later.
+        mounts = tuple(mount.model_copy(update={"fixing": None}) for mount in self.mounts)
+        digest.update(
+            _toml(_Stated(self.measurement("machine").model_copy(update={"gauge": nameless, "mounts": mounts})))
+        )
         described: dict[str, Any] = {"serial_number": None, "tolerance": None, "watch": None}
         digest.update(_toml(_Stated(self.machine.model_copy(update=described))))
         return digest.hexdigest()

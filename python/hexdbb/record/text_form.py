@@ -19,6 +19,7 @@ from hexdbb.files.atomic_file import refuse_existing, replacing
 from hexdbb.files.delimited import read_rows
 from hexdbb.files.validation import dump_toml, format_name, load_toml
 from hexdbb.machine import machine_beside
+from hexdbb.record.arrow import array_of
 from hexdbb.record.cells import first_bad_cell, line_of_row
 from hexdbb.record.checks import check_record
 from hexdbb.record.columns import COLUMN_TYPES, REQUIRED_COLUMNS, Columns, RowSource, normalise
@@ -128,4 +129,4 @@ def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
     with replacing(path) as temporary, temporary.open("wb") as stream:
         stream.write(_line(record.columns).encode())
         options = pa.csv.WriteOptions(include_header=False)
-        pa.csv.write_csv(pa.table({name: pa.array(values) for name, values in record.columns.items()}), stream, options)
+        pa.csv.write_csv(pa.table({name: array_of(values) for name, values in record.columns.items()}), stream, options)

@@ -118,10 +118,10 @@ class Rig:
 
     def receive(self, cob_id: int, data: bytes) -> None:
         """Process one frame from the bus."""
-        if cob_id == SYNC:
+        if (handle := self._rpdo_handlers.get(cob_id)) is not None:
+            handle(data, time.monotonic())
+        elif cob_id == SYNC:
             self._on_sync(data)
-        elif (node := self._rpdo_nodes.get(cob_id)) is not None:
-            node.handle_rpdo(data, time.monotonic())
         elif cob_id == NMT:
             self._on_nmt(data)
         elif HEARTBEAT_BASE < cob_id <= HEARTBEAT_BASE + 127:
@@ -129,7 +129,8 @@ class Rig:
                 listener.handle_heartbeat(cob_id - HEARTBEAT_BASE, time.monotonic())
         elif (node := self.nodes.get(cob_id - SDO_REQUEST_BASE)) is not None:
             node.handle_sdo(data)
-        self.flush()
+        if self._outbox:
+            self.flush()
 
     def flush(self) -> None:
         """Transmit the frames that the nodes have sent."""
@@ -141,9 +142,8 @@ class Rig:
         self._outbox.append((cob_id, data))
 
     def _route(self) -> None:
-        self._rpdo_nodes = {
-            node.rpdo.cob_id: node for node in self.nodes.values() if node.rpdo is not None and node.rpdo.valid
-        }
+        pairs = [(node.rpdo, node.handle_rpdo) for node in self.nodes.values()]
+        self._rpdo_handlers = {rpdo.cob_id: handle for rpdo, handle in pairs if rpdo is not None and rpdo.valid}
 
     def _on_nmt(self, data: bytes) -> None:
         if len(data) < 2:
@@ -177,7 +177,8 @@ class Rig:
         self._step_plant(self.dt_s)
         if self.enabled_s is None and all(drive.enabled for drive in self.drives):
             self.enabled_s = self.plant.time_s
-        self._inject()
+        if self._injections:
+            self._inject()
 
     def _period_s(self) -> float:
         """Return the time that one SYNC stands for, s: its period, or the interpolation period where it has none."""

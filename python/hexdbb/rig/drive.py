@@ -34,6 +34,8 @@ STAY_IN_QUICK_STOP = (5, 6)
 ABORT_FAULT, ABORT_DISABLE, ABORT_QUICK_STOP = 1, 2, 3
 """Abort connection option codes 6007h."""
 _ALWAYS = cia402.VOLTAGE_ENABLED | cia402.REMOTE
+_ENABLED, _QUICK_STOP = DriveState.OPERATION_ENABLED, DriveState.QUICK_STOP_ACTIVE
+"""Looked up in every cycle: a member of an enumeration costs much more than a name of the module."""
 _POWERED = (DriveState.OPERATION_ENABLED, DriveState.QUICK_STOP_ACTIVE, DriveState.FAULT_REACTION_ACTIVE)
 
 
@@ -119,6 +121,7 @@ class DriveNode(Node):
         self.limit_inputs = 0
         self._limited = False
         self._previous_controlword = 0
+        self._obeyed_in: DriveState | None = None
         self._late_s = 0.0
         self.dictionary.hooks[0x6060, 0] = self._check_mode
         self._controlword, self._statusword = entry(0x6040), entry(0x6041)
@@ -141,11 +144,7 @@ class DriveNode(Node):
     @property
     def enabled(self) -> bool:
         """Whether the drive follows or may follow targets."""
-        return self.state is DriveState.OPERATION_ENABLED
-
-    @property
-    def _halted(self) -> bool:
-        return bool(int(self._controlword.value) & cia402.HALT_BIT)
+        return self.state is _ENABLED
 
     @property
     def stopping(self) -> bool:
@@ -153,34 +152,53 @@ class DriveNode(Node):
         return not self.enabled and (not self.axis.at_standstill or self._after_stop() is not None)
 
     def on_sample(self) -> None:
-        """Write the values of this SYNC."""
-        self.refresh()
+        """Write the values of this SYNC, as far as the TPDO carries them."""
+        if self._carries_rest:
+            self.refresh()
+        else:
+            self._write_position_and_status()
+
+    def on_mapping_changed(self) -> None:
+        """Look whether the TPDO carries more than positions and status."""
+        self._carries_rest = any(entry in self.tpdo.entries for entry in (self._velocity, self._error, self._inputs))
 
     def refresh(self) -> None:
         """Write the present position, velocity, following error and statusword."""
         axis, scale = self.axis, self.setup.counts_per_mm
-        self._position.value = round(axis.position_mm * scale)
         self._velocity.value = round(axis.velocity_mm_s * scale)
         self._error.value = round(axis.following_error_mm * scale)
         self._inputs.value = self.limit_inputs
+        self._write_position_and_status()
+
+    def _write_position_and_status(self) -> None:
+        self._position.value = round(self.axis.position_mm * self.setup.counts_per_mm)
         word = self.state | _ALWAYS
         if self.homed:
             word |= cia402.HOMED
-        if self._limited or self.limit_inputs:
+        limited = self._limited
+        if limited or self.limit_inputs:
             word |= cia402.INTERNAL_LIMIT
         if self._late_s > 0.0:
             word |= cia402.FOLLOWING_ERROR
-        following = self.enabled and self._mode_display.value == CYCLIC_SYNCHRONOUS_POSITION
-        if following and not self._limited and not self._halted:
+        if not limited and self._follows:
             word |= cia402.FOLLOWS_COMMAND
         self._statusword.value = word
+
+    @property
+    def _follows(self) -> bool:
+        """Whether the drive is enabled in mode 8 and not halted."""
+        return (
+            self.state is _ENABLED
+            and self._mode_display.value == CYCLIC_SYNCHRONOUS_POSITION
+            and not int(self._controlword.value) & cia402.HALT_BIT
+        )
 
     def on_cycle(self, dt_s: float) -> None:
         """Obey the controlword, move, supervise the following error."""
         self._obey_controlword()
         if self._mode.value in (0, CYCLIC_SYNCHRONOUS_POSITION):
             self._mode_display.value = self._mode.value
-        if self.enabled and self._mode_display.value == CYCLIC_SYNCHRONOUS_POSITION and not self._halted:
+        if self._follows:
             self._follow(dt_s)
         else:
             self._limited = False
@@ -189,19 +207,20 @@ class DriveNode(Node):
         self._supervise_following_error(dt_s)
 
     def _follow(self, dt_s: float) -> None:
-        scale = self.setup.counts_per_mm
-        low, high = self._limits
-        target = int(self._target.value)
-        clamped = min(max(target, int(low.value)), int(high.value))
+        scale, target = self.setup.counts_per_mm, int(self._target.value)
+        low, high = int(self._limits[0].value), int(self._limits[1].value)
+        within = target if low <= target <= high else min(max(target, low), high)
         period, exponent = self._interpolation
         interpolation_s = int(period.value) * 10.0 ** int(exponent.value)
-        held_back = self.axis.follow(clamped / scale, interpolation_s, dt_s, int(self._max_velocity.value) / abs(scale))
-        self._limited = held_back or clamped != target
+        held_back = self.axis.follow(within / scale, interpolation_s, dt_s, int(self._max_velocity.value) / abs(scale))
+        self._limited = held_back or within != target
 
     def _obey_controlword(self) -> None:
         word = int(self._controlword.value)
-        rising, changed = word & ~self._previous_controlword, word != self._previous_controlword
-        self._previous_controlword = word
+        changed = word != self._previous_controlword
+        if not changed and self.state is self._obeyed_in:
+            return
+        rising, self._previous_controlword, self._obeyed_in = word & ~self._previous_controlword, word, None
         if self.state is DriveState.FAULT and rising & cia402.FAULT_RESET_BIT:
             self._enter(DriveState.SWITCH_ON_DISABLED)
             self._error_code.value = 0
@@ -209,14 +228,11 @@ class DriveNode(Node):
         for _ in range(2):  # ready to switch on -> switched on -> operation enabled in one command
             following = cia402.next_state(self.state, word)
             if following is None:
+                self._obeyed_in = self.state  # the same word asks for nothing more while this state lasts
                 return
-            if self.state is DriveState.QUICK_STOP_ACTIVE and following is DriveState.OPERATION_ENABLED and not changed:
+            if self.state is _QUICK_STOP and following is _ENABLED and not changed:
                 return  # a stop of the drive's own is not undone by an unchanged controlword
-            if (
-                following is DriveState.OPERATION_ENABLED
-                and self.state is DriveState.SWITCHED_ON
-                and not self._bumpless()
-            ):
+            if following is _ENABLED and self.state is DriveState.SWITCHED_ON and not self._bumpless():
                 self.trip(ERROR_FOLLOWING, PROFILE)
                 return
             self._enter(following)
@@ -229,7 +245,7 @@ class DriveNode(Node):
         return abs(int(self._target.value) - position) <= int(self._window.value)
 
     def _enter(self, state: DriveState) -> None:
-        if state is DriveState.OPERATION_ENABLED:
+        if state is _ENABLED:
             self.axis.hold_here()
         if state is not self.state:
             log.debug("node %d: %s -> %s", self.node_id, self.state.name, state.name)
@@ -249,9 +265,10 @@ class DriveNode(Node):
         return None
 
     def _supervise_following_error(self, dt_s: float) -> None:
-        scale = abs(self.setup.counts_per_mm)
-        outside = abs(self.axis.following_error_mm) * scale > int(self._window.value)
-        self._late_s = self._late_s + dt_s if outside and self.enabled else 0.0
+        axis = self.axis
+        error_mm = axis.demand_mm - axis.position_mm
+        outside = abs(error_mm * self.setup.counts_per_mm) > int(self._window.value)
+        self._late_s = self._late_s + dt_s if outside and self.state is _ENABLED else 0.0
         if self._late_s * 1000.0 > int(self._window_ms.value):
             self.trip(ERROR_FOLLOWING, PROFILE)
 

@@ -46,6 +46,8 @@ NMT_COMMANDS = {0x01: NmtState.OPERATIONAL, 0x02: NmtState.STOPPED, 0x80: NmtSta
 """NMT command specifiers and the states they lead to."""
 NMT_RESETS = (0x81, 0x82)
 """Reset node, reset communication."""
+_OPERATIONAL = NmtState.OPERATIONAL
+"""Looked up for every frame: a member of an enumeration costs twice what a name of the module does."""
 ERROR_BEHAVIOUR = {0: NmtState.PRE_OPERATIONAL, 2: NmtState.STOPPED}
 """Object 1029h:01: state after a communication error; 1 is no change."""
 
@@ -147,6 +149,7 @@ class Node:
         self._rpdo_seen_s: float | None = None
         self._rpdo_age_s = 0.0
         self.on_power_up()
+        self.on_mapping_changed()
 
     def _make_pdo(self, communication: int, mapping: int, *, receive: bool) -> Pdo:
         try:
@@ -156,11 +159,15 @@ class Node:
                 mapping,
                 receive=receive,
                 may_change=lambda: self.nmt_state is NmtState.PRE_OPERATIONAL,
-                on_change=lambda: self.on_routes_changed(),
+                on_change=self._pdo_changed,
             )
         except (KeyError, SdoAbortedError):
             expected = "expected objects that exist and can be mapped, or none"
             raise InputError(f"{self._eds}: default mapping in {mapping:04X}h cannot be used ({expected})") from None
+
+    def _pdo_changed(self) -> None:
+        self.on_routes_changed()
+        self.on_mapping_changed()
 
     def send(self, cob_id: int, data: bytes) -> None:
         """Send a frame, if the node is on the bus."""
@@ -199,32 +206,34 @@ class Node:
 
     def handle_rpdo(self, data: bytes, now_s: float) -> None:
         """Receive a PDO at monotonic time `now_s`; a synchronous one takes effect at the SYNC."""
-        if self.rpdo is None or self.nmt_state is not NmtState.OPERATIONAL or not self.present:
+        rpdo = self.rpdo
+        if rpdo is None or self.nmt_state is not _OPERATIONAL or not self.present:
             return
-        if len(data) < self.rpdo.size:
+        if len(data) < rpdo.size:
             self.emergency(ERROR_PDO_LENGTH, COMMUNICATION)
             return
         self._rpdo_seen_s, self._rpdo_age_s = now_s, 0.0
-        if self.rpdo.transmission_type <= MAX_SYNC_TYPE:
+        if rpdo.transmission_type <= MAX_SYNC_TYPE:
             self._latched = data
         else:
-            self.rpdo.unpack(data)
+            rpdo.unpack(data)
 
     def accepts_sync(self, data: bytes) -> bool:
         """Return whether the node acts on a SYNC with these data; a node that is not operational checks nothing."""
-        return self.nmt_state is not NmtState.OPERATIONAL or not self.present or self._sync_counter.accepts(data)
+        return self.nmt_state is not _OPERATIONAL or not self.present or self._sync_counter.accepts(data)
 
     def sample(self) -> None:
         """Run the first half of a SYNC: send the synchronous TPDO with the present values."""
-        if self.nmt_state is not NmtState.OPERATIONAL or not self.present:
+        if self.nmt_state is not _OPERATIONAL or not self.present:
             return
         self.on_sample()
         if self.muted_tpdo_cycles:
             self.muted_tpdo_cycles -= 1
             return
         self._syncs += 1
-        if self.tpdo.valid and self._syncs % self.tpdo.transmission_type == 0:
-            self._bus(self.tpdo.cob_id, self.tpdo.pack())
+        tpdo = self.tpdo
+        if tpdo.valid and self._syncs % tpdo.transmission_type == 0:
+            self._bus(tpdo.cob_id, tpdo.pack())
 
     def apply(self, dt_s: float) -> None:
         """Run the second half of a SYNC: take over the last RPDO for the coming cycle of `dt_s` seconds."""
@@ -290,6 +299,9 @@ class Node:
 
     def on_power_up(self) -> None:
         """Initialise the application; the dictionary has its defaults."""
+
+    def on_mapping_changed(self) -> None:
+        """Take note of what the PDOs carry now."""
 
     def refresh(self) -> None:
         """Update the dictionary for an SDO request between SYNCs."""

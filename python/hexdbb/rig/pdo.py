@@ -45,6 +45,13 @@ class Pdo:
         Returns whether the NMT state permits a change.
     on_change : callable
         Called after every change of identifier or mapping.
+
+    Attributes
+    ----------
+    entries : list of Entry or None
+        The mapped entries in order; None for bytes that are skipped.
+    size : int
+        Bytes the mapping fills.
     """
 
     def __init__(
@@ -64,7 +71,7 @@ class Pdo:
         self.transmission_type = 1
         self.entries: list[Entry | None] = []
         self._filled: list[Entry] = []
-        self._codec = struct.Struct("<")
+        self._codec, self.size = struct.Struct("<"), 0
         dictionary.hooks[communication, 1] = self._write_cob_id
         dictionary.hooks[communication, 2] = self._write_transmission_type
         dictionary.hooks[mapping, 0] = self._write_count
@@ -72,11 +79,6 @@ class Pdo:
             dictionary.hooks[mapping, subindex] = self._write_entry
         self._set_cob_id(dictionary.number(communication, 1))
         self._build(dictionary.number(mapping, 0))
-
-    @property
-    def size(self) -> int:
-        """Bytes the mapping fills."""
-        return self._codec.size
 
     def pack(self) -> bytes:
         """Return the data of the frame, packed from the values of the mapped entries."""
@@ -141,5 +143,5 @@ class Pdo:
         codec = struct.Struct("<" + "".join(code for _, code in resolved))
         if codec.size > 8:
             raise SdoAbortedError(ABORT_PDO_TOO_LONG)
-        self.entries, self._codec = [entry for entry, _ in resolved], codec
+        self.entries, self._codec, self.size = [entry for entry, _ in resolved], codec, codec.size
         self._filled = [entry for entry in self.entries if entry is not None]

@@ -11,7 +11,8 @@ Units: mm, s, N.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from hexdbb.rig.mechanisms import Mechanism, Motion, Push
 from hexdbb.rig.pose_solver import Hexapod, NoPoseError, Poses, leg_forces_n, solve_poses
 
 Point = tuple[float, float, float]
+_ONES = np.ones(3)
 
 BALANCE_ROUNDS = 3
 """Iterations of the equilibrium. Each divides the error by leg length over sag, more than 1000: three leave less than
@@ -48,6 +50,16 @@ class Mounted:
     ball_offset_mm: Point
     bar_length_mm: float
 
+    @cached_property
+    def cup(self) -> Array:
+        """`cup_mm` as an array, shape (3,)."""
+        return np.array(self.cup_mm, dtype=float)
+
+    @cached_property
+    def ball(self) -> Array:
+        """`ball_offset_mm` as an array, shape (3,)."""
+        return np.array(self.ball_offset_mm, dtype=float)
+
 
 @dataclass(frozen=True)
 class SetupErrors:
@@ -56,6 +68,16 @@ class SetupErrors:
     cup_mm: Mapping[int, Point]
     ball_offset_mm: Point
     bar_length_mm: float
+
+    @cached_property
+    def cups(self) -> dict[int, Array]:
+        """`cup_mm` as arrays, shape (3,)."""
+        return {mount: np.array(cup_mm, dtype=float) for mount, cup_mm in self.cup_mm.items()}
+
+    @cached_property
+    def ball(self) -> Array:
+        """`ball_offset_mm` as an array, shape (3,)."""
+        return np.array(self.ball_offset_mm, dtype=float)
 
 
 @dataclass(frozen=True)
@@ -91,15 +113,20 @@ class Machine:
         RunError
             The machine has no pose for these positions.
         """
-        sliders_mm = drive_mm + push.slider_mm
-        hexapod = Hexapod(
-            self.geometry.slider_joints_mm(sliders_mm) + push.slider_joint_mm,
-            self.geometry.joints_mm + push.platform_joint_mm,
-            self.geometry.lengths_mm + push.leg_mm,
-        )
+        geometry, sliders_mm = self.geometry, drive_mm
+        if not self.mechanisms and len(drive_mm) == 1:  # on the bus, most often; zeros need not be added
+            joints, lengths = geometry.joints_mm[None], geometry.lengths_mm[None]
+            hexapod = Hexapod(geometry.slider_joints_mm(sliders_mm), joints, lengths)
+        else:
+            sliders_mm = drive_mm + push.slider_mm
+            hexapod = Hexapod(
+                geometry.slider_joints_mm(sliders_mm) + push.slider_joint_mm,
+                geometry.joints_mm + push.platform_joint_mm,
+                geometry.lengths_mm + push.leg_mm,
+            )
         try:
             poses = solve_poses(hexapod, guess)
-            if push.compliance_mm_n.any():
+            if self.mechanisms and push.compliance_mm_n.any():
                 poses = self._balanced(hexapod, push.compliance_mm_n, poses)
         except NoPoseError as error:
             where = np.round(sliders_mm[error.instant], 3).tolist()
@@ -110,7 +137,7 @@ class Machine:
         pressed = stiff
         for _ in range(BALANCE_ROUNDS):
             forces = leg_forces_n(pressed, poses, self.geometry.weight_n)
-            pressed = replace(stiff, lengths_mm=stiff.lengths_mm - compliance_mm_n * forces)
+            pressed = stiff._replace(lengths_mm=stiff.lengths_mm - compliance_mm_n * forces)
             poses = solve_poses(pressed, poses)
         return poses
 
@@ -131,11 +158,14 @@ class Machine:
         numpy.ndarray
             Readings, mm, shape (n,).
         """
-        ball = np.add(mounted.ball_offset_mm, self.setup_errors.ball_offset_mm) + push.ball_mm
-        cup = np.add(mounted.cup_mm, self.setup_errors.cup_mm.get(mounted.mount, (0.0, 0.0, 0.0))) + push.cup_mm
-        bar = poses.position_mm + np.einsum("nij,nj->ni", poses.rotation, ball) - cup
-        length = np.sqrt(np.einsum("ni,ni->n", bar, bar))
-        change = length - (mounted.bar_length_mm + self.setup_errors.bar_length_mm)
+        errors = self.setup_errors
+        ball, cup = mounted.ball + errors.ball, mounted.cup + errors.cups.get(mounted.mount, 0.0)
+        if self.mechanisms:
+            ball, cup = ball + push.ball_mm, cup + push.cup_mm
+        bar = poses.position_mm + (poses.rotation @ ball[..., None])[:, :, 0] - cup
+        change = np.sqrt((bar * bar) @ _ONES) - (mounted.bar_length_mm + errors.bar_length_mm)
+        if not self.mechanisms:
+            return change
         reading: Array = (1.0 + push.gain) * change + push.reading_mm
         return reading
 

@@ -12,8 +12,7 @@ Units: mm, rad, N.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +29,7 @@ MAX_ITERATIONS = 50
 """Iterations after which there is no pose; a nearby guess needs two or three."""
 BLOCK = 512
 """Instants solved at once: their Jacobians (150 kB) fit into the processor's cache."""
-_IDENTITY = np.eye(3)
+_IDENTITY, _ONES = np.eye(3), np.ones(3)
 _ONE_AND_A_HALF = 1.5 * _IDENTITY
 _XYZXY = np.array([0, 1, 2, 0, 1])
 """Axes in cyclic order: a vector product is the difference of two products of slices."""
@@ -46,8 +45,7 @@ class NoPoseError(RunError):
         self.instant = instant
 
 
-@dataclass(frozen=True)
-class Hexapod:
+class Hexapod(NamedTuple):
     """Points of the machine at n instants.
 
     Attributes
@@ -65,8 +63,7 @@ class Hexapod:
     lengths_mm: Array
 
 
-@dataclass(frozen=True)
-class Poses:
+class Poses(NamedTuple):
     """Poses of the platform at n instants: position (n, 3), mm, base frame; rotation (n, 3, 3)."""
 
     position_mm: Array
@@ -152,7 +149,7 @@ def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Arr
                 break
         step: Array = (inverse @ (hexapod.lengths_mm - reach)[:, :, None])[:, :, 0]
         position = position + step[:, :3]
-        largest = float(np.abs(step).max())
+        largest = float(np.maximum.reduce(np.abs(step), axis=None))
         if largest < STEP_TOLERANCE:
             return position, _orthonormal(rotation + _skew(step[:, 3:]) @ rotation)
         rotation = _turn(step[:, 3:]) @ rotation
@@ -170,7 +167,7 @@ def _legs(hexapod: Hexapod, position: Array, rotation: Array) -> tuple[Array, Ar
     """Return R q_k (n, 6, 3), the vectors along the legs (n, 6, 3) and the distances of their joints (n, 6)."""
     arms = hexapod.platform_joints_mm @ rotation.transpose(0, 2, 1)
     legs = arms + position[:, None, :] - hexapod.slider_joints_mm
-    return arms, legs, np.sqrt(np.einsum("nij,nij->ni", legs, legs))
+    return arms, legs, np.sqrt((legs * legs) @ _ONES)
 
 
 def _jacobian(arms: Array, legs: Array, reach: Array) -> Array:
@@ -200,6 +197,6 @@ def _turn(rotation_vector: Array) -> Array:
     """Return Cayley's map I + 2 (H + H^2) / (1 + |h|^2) of half the rotation vector, h, with H = [h]x; (n, 3, 3)."""
     half = 0.5 * rotation_vector
     skew = _skew(half)
-    scale = 2.0 / (1.0 + np.einsum("ni,ni->n", half, half))
+    scale = 2.0 / (1.0 + (half * half) @ _ONES)
     turn: Array = _IDENTITY + scale[:, None, None] * (skew + skew @ skew)
     return turn

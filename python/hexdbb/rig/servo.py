@@ -78,9 +78,11 @@ class ServoAxis:
         bool
             Whether the velocity limit was in force.
         """
-        ramp_s = min(interpolation_s, dt_s) if interpolation_s > 0.0 else dt_s
-        wanted_mm_s = (target_mm - self.demand_mm) / (interpolation_s if interpolation_s > 0.0 else dt_s)
-        velocity_mm_s = min(max(wanted_mm_s, -limit_mm_s), limit_mm_s)
+        period_s = interpolation_s if interpolation_s > 0.0 else dt_s
+        ramp_s = period_s if period_s < dt_s else dt_s
+        velocity_mm_s = wanted_mm_s = (target_mm - self.demand_mm) / period_s
+        if not -limit_mm_s <= wanted_mm_s <= limit_mm_s:
+            velocity_mm_s = math.copysign(limit_mm_s, wanted_mm_s)
         start_mm = self.position_mm
         self._advance(velocity_mm_s, ramp_s)
         if velocity_mm_s == wanted_mm_s and interpolation_s <= dt_s:
@@ -108,7 +110,7 @@ class ServoAxis:
     def _advance(self, velocity_mm_s: float, dt_s: float) -> None:
         """Advance the lag exactly, for a demand of constant velocity."""
         steady_mm = (1.0 - self._feedforward) * self._lag_s * velocity_mm_s
-        error_mm = steady_mm + (self.following_error_mm - steady_mm) * math.exp(-dt_s / self._lag_s)
+        error_mm = steady_mm + (self.demand_mm - self.position_mm - steady_mm) * math.exp(-dt_s / self._lag_s)
         self.demand_mm += velocity_mm_s * dt_s
         if not self.jammed:
             self.position_mm = self.demand_mm - error_mm

@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable
 
 from hexdbb.errors import InputError
+from hexdbb.rig.bursts import ReceivedBursts, SentBursts
 from hexdbb.rig.frame import Frame
 
 log = logging.getLogger(__name__)
@@ -45,6 +46,7 @@ class _Client:
         self.connection = connection
         self.buffer = b""
         self.raw_since_s: float | None = None
+        self.bursts = ReceivedBursts()
 
     @property
     def may_receive(self) -> bool:
@@ -81,6 +83,7 @@ class SocketcandServer:
     ) -> None:
         self._on_frame, self._on_poll, self._on_last_client_gone = on_frame, on_poll, on_last_client_gone
         self._clients: dict[socket.socket, _Client] = {}
+        self._bursts = SentBursts()
         self._selector = selectors.DefaultSelector()
         self._listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
         self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -144,7 +147,7 @@ class SocketcandServer:
         listening = [client for client in self._clients.values() if client.may_receive and client is not but]
         if listening:
             stamp = f"{time.time():.6f}"
-            text = "".join(f"< frame {cob_id:03X} {stamp} {data.hex().upper()} >" for cob_id, data in frames).encode()
+            text = self._bursts.text(frames, stamp)
             for client in listening:
                 self._send(client, text)
 
@@ -182,13 +185,22 @@ class SocketcandServer:
         if not data:
             self._drop(client)
             return
-        *messages, client.buffer = (client.buffer + data).split(b">")
-        for message in messages:
-            frame = parse_frame(message) if client.raw_since_s is not None else None
-            if frame is None:
+        text, is_raw = client.buffer + data, client.raw_since_s is not None
+        frames = client.bursts.frames_of(text) if is_raw else None
+        if frames is not None:
+            client.buffer = b""
+            for frame in frames:
+                self._pass_on(client, *frame)
+            return
+        *messages, client.buffer = text.split(b">")
+        parsed = [parse_frame(message) if client.raw_since_s is not None else None for message in messages]
+        if not client.buffer:
+            client.bursts.learn(parsed, text)
+        for message, each in zip(messages, parsed, strict=True):
+            if each is None:
                 self._obey(client, message.split())
             else:
-                self._pass_on(client, *frame)
+                self._pass_on(client, *each)
         if len(client.buffer) > LONGEST_MESSAGE:
             self._drop(client)
 

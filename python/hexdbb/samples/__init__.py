@@ -1,5 +1,6 @@
 """The table of samples: what everything from prediction to verdict takes, together with a model."""
 
+from hexdbb.samples.fixings import require_agreement, shared_words
 from hexdbb.samples.prediction import (
     PUSH_SHAPES,
     Linearised,
@@ -26,4 +27,6 @@ __all__ = [
     "port_sensitivity",
     "predict",
     "predict_poses",
+    "require_agreement",
+    "shared_words",
 ]

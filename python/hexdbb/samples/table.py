@@ -266,7 +266,7 @@ class Samples:
         for place in np.unique(self["mount"]):
             key = self.mounts[place]
             if key not in model.mounts:
-                name = next((each.name for each in self.records if each.content_hash() == key.record_hash), self.name)
+                name = self.records[self["record"][self["mount"] == place][0]].name if self.records else self.name
                 raise InputError(
                     f"{name}: mount {key.mount_id}: not known to the model"
                     " (expected a fitted one: hexdbb.diagnosis.fit_mounts finds where its cup stands)"

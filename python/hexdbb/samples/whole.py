@@ -16,6 +16,7 @@ from hexdbb.machine import MachineFile
 from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.state import planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, derived_columns
 
@@ -105,7 +106,8 @@ def of_records(records: Sequence[Record]) -> Whole:
     Raises
     ------
     InputError
-        No record, one without samples, or records of different machines.
+        No record, one without samples, records of different machines, or of one fixing of the cup with different cups
+        or bars.
     """
     if not records:
         raise InputError("no record (expected at least one)")
@@ -114,6 +116,7 @@ def of_records(records: Sequence[Record]) -> Whole:
             raise InputError(f"{record.name}: no samples (expected at least one)")
     for record in records[1:]:
         record.require_machine(records[0].machine, records[0].name)
+    require_agreement(records)
     set_ups: list[_core.SetUp] = []
     keys: list[MountKey] = []
     set_up_rows, record_rows = [], []
@@ -121,9 +124,8 @@ def of_records(records: Sequence[Record]) -> Whole:
         circle_ids, member = np.unique(record.columns["circle"], return_inverse=True)
         set_up_rows.append(len(set_ups) + member)
         record_rows.append(np.full(len(record), index))
-        content = record.content_hash()
         for circle in (record.circle(int(each)) for each in circle_ids):
-            keys.append(MountKey(content, circle.mount))
+            keys.append(mount_key(record, circle.mount))
             cup_mm = record.mount(circle.mount).cup_mm
             set_ups.append(_set_up(cup_mm, circle.ball_offset_mm, record.gauge.bar_length_mm))
     columns: Columns = {

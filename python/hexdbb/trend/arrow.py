@@ -1,7 +1,8 @@
 """The linear system of records fitted together: one machine, a set-up for each record, and values that change.
 
 A record's own unknowns w_r = (z_r, v_r), its set-up and its departures, meet those of other records in the shared
-values x alone, so the system has the form of an arrow and is reduced to x by Schur complements:
+values x alone (the machine's, and those of fixings of the cup that several records share), so the system has the form
+of an arrow and is reduced to x by Schur complements:
     S = P + sum (H_xx - H_xw A_w^-1 H_wx),  A_w = H_ww + P_w;   a year of daily records costs 365 small systems.
 Covariances are those of the whole system; that of x is carried into every w_r.
 """
@@ -81,13 +82,20 @@ class Layout:
     Attributes
     ----------
     shared : ndarray of int
-        Places of the machine's free values.
+        Places of the shared free values in the first record's model: the machine's, and those of fixings of the cup
+        that several records share.
     set_up : tuple of ndarray of int
-        Places of each record's free values of the set-up.
+        Places of each record's own free values of the set-up.
+    places : tuple of ndarray of int
+        Places of the shared values in each record's model: the machine's are the same in all.
+    of_fixings : int
+        How many of the shared values, the last ones, are those of shared fixings.
     """
 
     shared: Ints
     set_up: tuple[Ints, ...]
+    places: tuple[Ints, ...]
+    of_fixings: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,13 +163,13 @@ def solve(
     damping : float
         Information, in that of a prior, that the steps of the set-ups are small.
     """
-    shared = layout.shared
     columns = np.array([column for each in changing for column in each.columns], dtype=np.intp)
     scales = np.array([each.scale for each in changing for _ in each.columns])
-    total = np.eye(len(shared))
-    downhill = np.zeros(len(shared))
+    damped = np.arange(len(layout.shared)) >= len(layout.shared) - layout.of_fixings
+    total = np.diag(1.0 + damping * damped)
+    downhill = np.zeros(len(layout.shared))
     kept, log_evidence = [], 0.0
-    for number, (each, set_up) in enumerate(zip(equations, layout.set_up, strict=True)):
+    for number, (each, set_up, shared) in enumerate(zip(equations, layout.set_up, layout.places, strict=True)):
         weight = 1.0 / each.effective_mm**2
         own = np.concatenate([set_up, columns])
         departed = np.zeros(len(columns)) if departures is None else departures[number]
@@ -185,9 +193,9 @@ def solve(
     first_departed = np.zeros(len(columns)) if departures is None else departures[0]
     at = equations[0].at.copy()
     at[columns] -= first_departed
-    downhill -= at[shared]
+    downhill -= at[layout.shared]
     factor = linalg.cholesky(total, lower=True)
-    covariance: Floats = linalg.cho_solve((factor, True), np.eye(len(shared)))
+    covariance: Floats = linalg.cho_solve((factor, True), np.eye(len(layout.shared)))
     moved = covariance @ downhill
     log_evidence += 0.5 * float(downhill @ moved) - np.log(np.diag(factor)).sum()
     return Solution(

@@ -58,6 +58,8 @@ def candidates(fit: JointFit) -> list[Changing]:
     parameters, model = fit.models[0].parameters(), fit.models[0]
     for column in fit.layout.shared:
         each = parameters[column]
+        if model.info(each.effect).element_kind == "mount":
+            continue  # of a fixing that records share: a set-up does not wear
         element = each.element if len(model.info(each.effect).elements) > 1 else ""
         columns.setdefault((each.effect, element), []).append(int(column))
     return [Changing(effect, element, tuple(each)) for (effect, element), each in columns.items()]

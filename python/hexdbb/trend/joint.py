@@ -1,5 +1,8 @@
 """Records fitted together: one machine, a set-up for each record, and chosen values that change from record to record.
 
+Records that share a fixing of the cup (`hexdbb.samples.fixings`) share its position too; it counts among the shared
+values.
+
 Model: y_r = f(x + v_r, z_r) + noise, record by record; x are the machine's values, shared by all; z_r the set-up of
 record r (cups, ball); v_r the departure of the changing values from the shared ones, zero elsewhere. All have normal
 priors: x and z_r with the catalogue's standard deviations, v_r with a part of them (`Changing.scale`).
@@ -9,6 +12,7 @@ Assumption: nearly linear (errors of 0.1 mm on legs of 400 mm), as in `hexdbb.di
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -99,8 +103,14 @@ class JointFit:
 
 
 def started(parts: Sequence[Part], model: Model) -> tuple[Model, ...]:
-    """Return the model that each record begins with: the machine of `model`, the record's own mounts where planned."""
-    return tuple(_of_mounts(model, part.samples.mounts) for part in parts)
+    """Return the model that each record begins with: the machine of `model`, mounts where planned.
+
+    Every model knows the fixings of the cup that several records share, and first; then the mounts of its own record.
+    """
+    counts = Counter(key for part in parts for key in part.samples.mounts)
+    shared = [key for key, count in counts.items() if count > 1]
+    own = [[key for key in part.samples.mounts if counts[key] == 1] for part in parts]
+    return tuple(_of_mounts(model, (*shared, *each)) for each in own)
 
 
 def fit_together(
@@ -162,7 +172,7 @@ class _State:
         for number, (model, own) in enumerate(zip(self.models, solution.own, strict=True)):
             set_up, change = solution.layout.set_up[number], own[solution.of_departures(number)]
             step = np.zeros(len(model.values))
-            step[solution.layout.shared] = solution.moved
+            step[solution.layout.places[number]] = solution.moved
             step[set_up] = own[: len(set_up)]
             step[solution.departing] += change
             models.append(model.with_values(model.values + step * model.prior_sigma))
@@ -181,17 +191,21 @@ def _of_all(
 
 
 def _layout(models: Sequence[Model]) -> Layout:
-    parameters = models[0].parameters()
-    # Shape parameters of the user's effects are held: they are not fitted by these equations.
-    machine = np.array([not each.is_set_up and each.shape is None for each in parameters])
-    of_mounts = np.array([models[0].info(each.effect).element_kind == "mount" for each in parameters])
-    shared = np.flatnonzero((machine & ~of_mounts) & models[0].free)
-    own = []
+    counts = Counter(key for model in models for key in model.mounts)
+    places, own = [], []
     for model in models:
-        names = model.parameters()
-        is_own = np.array([each.is_set_up or model.info(each.effect).element_kind == "mount" for each in names])
-        own.append(np.flatnonzero(is_own & model.free))
-    return Layout(shared, tuple(own))
+        parameters = model.parameters()
+        joint = [str(number) for number, key in enumerate(model.mounts, 1) if counts[key] > 1]
+        of_mounts = np.array([model.info(each.effect).element_kind == "mount" for each in parameters])
+        of_joint = of_mounts & np.array([each.element in joint for each in parameters])
+        is_own = np.array([each.is_set_up for each in parameters]) | of_mounts
+        # Shape parameters of the user's effects are held: they are not fitted by these equations.
+        machine = ~is_own & np.array([each.shape is None for each in parameters])
+        # Mounts after all else: shared values then stand in one order in all records.
+        of_fixings = np.flatnonzero(of_joint & model.free)
+        places.append(np.concatenate([np.flatnonzero(machine & model.free), of_fixings]))
+        own.append(np.flatnonzero(is_own & ~of_joint & model.free))
+    return Layout(places[0], tuple(own), tuple(places), len(of_fixings))
 
 
 def _of_mounts(model: Model, mounts: tuple[MountKey, ...]) -> Model:

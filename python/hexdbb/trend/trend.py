@@ -14,7 +14,7 @@ from hexdbb.errors import InputError
 from hexdbb.files.results import number_or_none
 from hexdbb.machine import MachineFile, Watch
 from hexdbb.model import Choice, Model, new_model
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, require_agreement
 from hexdbb.threads import one_thread
 from hexdbb.trend.changing import Found, find_changes
 from hexdbb.trend.dated import Dated
@@ -171,7 +171,8 @@ def trend(
     Raises
     ------
     InputError
-        No record, one twice, one of another machine, or a limit of what there is not.
+        No record, one twice, one of another machine, or a limit of what there is not; or records of one fixing of the
+        cup with different cups or bars.
     RunError
         The fit did not come to rest.
     """
@@ -184,6 +185,7 @@ def trend(
         model if model is not None else new_model(machine), watched_effects(watches, [*SYMBOLS.values()]), origin
     )
     progress("reading records")
+    require_agreement([each.record for each in ordered])
     samples = [Samples.of([each.record]) for each in ordered]
     fit, found = find_changes([Part.of(each) for each in samples], fitted, progress)
     progress("weighing every value")

@@ -5,11 +5,13 @@ from __future__ import annotations
 import random
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
 
 import can
 import pytest
 
+from hexdbb.capture.bursts import ReceivedBurst, SentBurst
 from hexdbb.capture.frames import GuardedBus
 from hexdbb.capture.socketcand import parse_frame, parse_frames
 from hexdbb.capture.transport import open_bus
@@ -141,9 +143,67 @@ def test_frames_parsed_together_are_those_parsed_one_by_one() -> None:
     assert [(can_id, len(data)) for can_id, data, _ in found or ()] == [(0x181, 7), (0x080, 0), (0x187, 5)]
 
 
+LAYOUT = [(0x181, 7), (0x080, 0), (0x187, 5)]
+
+
+def test_data_of_expected_frames_are_those_of_the_general_parser() -> None:
+    found = general(BURST)
+    assert found is not None
+    assert ReceivedBurst(LAYOUT).data_of(BURST) == b"".join(data for _, data, _ in found)
+
+
+@pytest.mark.parametrize("layout", [LAYOUT[:2], [*LAYOUT, (0x186, 1)], [LAYOUT[1], LAYOUT[0], LAYOUT[2]]])
+def test_frames_other_than_expected_are_left_to_the_general_parser(layout: list[tuple[int, int]]) -> None:
+    assert ReceivedBurst(layout).data_of(BURST) is None
+
+
+def test_frames_sent_together_are_those_sent_one_by_one(server: Callable[[Script], str]) -> None:
+    received: list[bytes] = []
+
+    def script(connection: socket.socket) -> None:
+        serve(connection)
+        while chunk := connection.recv(1000):
+            received.append(chunk)
+
+    layout = [(0x201, 6), (0x080, 0), (0x080, 1)]
+    data = bytes(range(0xF8, 0xFF))
+    with open_bus(server(script), 1_000_000) as bus:
+        guarded = GuardedBus(bus)
+        burst = SentBurst(layout)
+        guarded.send_burst(burst, data)
+        for message in burst.filled(data):
+            guarded.send(message)
+    end_s = time.monotonic() + WAIT_S
+    while b"".join(received).count(b">") < 2 + 6 and time.monotonic() < end_s:
+        time.sleep(0.01)
+    text = b"".join(received)
+    half = text[: len(text) // 2]
+    assert text == 2 * half
+    assert half == b"< send 201 6 f8 f9 fa fb fc fd >< send 080 0  >< send 080 1 fe >"
+
+
+def test_frames_that_arrive_together_are_taken_at_once_and_alone(server: Callable[[Script], str]) -> None:
+    def script(connection: socket.socket) -> None:
+        serve(connection)
+        for text in (BURST, BURST + b"< frame 701 1.0 05 >"):
+            connection.sendall(text)
+            connection.recv(100)
+
+    burst = ReceivedBurst(LAYOUT)
+    with open_bus(server(script), 1_000_000) as bus:
+        guarded = GuardedBus(bus)
+        data = guarded.take_burst(burst, WAIT_S)
+        assert data is not None
+        assert len(data) == 12
+        bus.send(can.Message(arbitration_id=0, is_extended_id=False))
+        assert guarded.take_burst(burst, WAIT_S) is None
+        frames = [guarded.take(WAIT_S) for _ in range(4)]
+        assert [each and each[0] for each in frames] == [0x181, 0x080, 0x187, 0x701]
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_burst_with_an_error_is_left_to_the_general_parser_or_read_alike(seed: int) -> None:
-    rng = random.Random(seed)
+    rng, expected = random.Random(seed), ReceivedBurst(LAYOUT)
     alike = 0
     for _ in range(3000):
         text = bytearray(BURST)
@@ -154,5 +214,7 @@ def test_a_burst_with_an_error_is_left_to_the_general_parser_or_read_alike(seed:
             )
         found = parse_frames(bytes(text))
         assert found is None or found == general(bytes(text)), bytes(text)
+        data = expected.data_of(bytes(text))
+        assert data is None or data == b"".join(each for _, each, _ in general(bytes(text)) or ()), bytes(text)
         alike += found is not None
     assert alike > 100

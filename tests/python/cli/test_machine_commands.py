@@ -79,6 +79,8 @@ def test_questions_have_defaults_and_wrong_answers_are_asked_again(tmp_path: Pat
         (("--leg-length", "12a"), '--leg-length: "12a" (expected one number, or six with commas)'),
         (("--leg-length", "nan"), "m.toml: legs.length_mm: nan (expected a finite number)"),
         (("--travel", "846,20"), "m.toml: sliders.travel_mm: [846.0, 20.0] (expected the least coordinate before the"),
+        (("--leg-length", "400,401"), '--leg-length: "400,401" (expected one number, or six with commas)'),
+        (("--travel", "20,846;30,840"), "expected two numbers with a comma, or six pairs with semicolons"),
         (("--nodes", "1,2,3,3,5,6"), "m.toml: can.drive_nodes[3]: 3 (expected a node id not used by another drive)"),
         (("--workspace", "0,0,280,300"), "m.toml: workspace.radius_mm: 300 (expected at most "),
         (("--bar", "300"), "bar length 300 mm: no circle of it fits (expected at most the workspace's radius, 100 mm)"),

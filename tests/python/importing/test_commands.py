@@ -186,3 +186,27 @@ def test_a_workbench_session_reads_them_and_writes_them_into_its_script(place: P
     assert len(session.samples) == 402
     assert len(said) == 1
     assert "german.csv', plan='thesis')" in str(session.script)
+
+
+def test_what_only_convert_can_be_told_is_named_with_where_it_is_kept(place: Path) -> None:
+    asked = hexdbb("compare", place / "test.b5r", "--plan", "thesis", "--no-plot")
+    hint = (
+        f"; --unit is an option of hexdbb convert, whose --save-mapping {place / 'test.toml'} keeps it for this command"
+    )
+    assert str(asked.exception).endswith(hint)
+    assert "is an option of" not in str(hexdbb("compare", place / "german.csv", "--no-plot").exception)
+    assert "is an option of" not in str(
+        hexdbb("convert", place / "test.b5r", place / "a.parquet", "--plan", "thesis").exception
+    )
+    done(
+        "convert",
+        place / "two_tables.csv",
+        place / "a.parquet",
+        "--plan",
+        "thesis",
+        "--rows",
+        "3:203",
+        "--save-mapping",
+        place / "two_tables.toml",
+    )
+    done("compare", place / "two_tables.csv", "--no-plot")

@@ -184,7 +184,8 @@ def test_another_machine_is_refused_with_both_names(book: Logbook, record: Recor
 @pytest.mark.parametrize(
     ("name", "text", "expected"),
     [
-        ("note.txt", "hello", "nothing that a logbook keeps"),
+        ("note.md", "hello", "nothing that a logbook keeps"),
+        ("note.txt", "hello", "which circle was driven is not stated (expected --plan PLAN"),
         ("note.parquet", "hello", "not a whole Parquet file"),
         ("note.json", "[1]", "expected what a command printed with --json"),
         ("note.json", "{", "not valid JSON"),
