@@ -56,14 +56,18 @@ class Screen:
     criteria : Criteria
     thinned : Thinned
         Rows of the readings on which learned hypotheses are ranked first.
+    unexplained : float, optional
+        Mean square beyond the noise (noise variances) of which a part counts as noise (`Criteria.temper`); what the
+        linearisation leaves where not given.
     """
 
-    def __init__(self, sums: Sums, criteria: Criteria, thinned: Thinned) -> None:
+    def __init__(self, sums: Sums, criteria: Criteria, thinned: Thinned, unexplained: float | None = None) -> None:
         self.sums, self.criteria, self.thinned = sums, criteria, thinned
         own = self.whole.own_values()
         self.left = squared_error(sums, self.whole.cells, own, None, None)
         self.excess = max(self.left - self.whole.rows, 1e-9)
-        self.temper = 1.0 + criteria.temper**2 * self.excess / self.whole.rows
+        unexplained = self.excess / self.whole.rows if unexplained is None else unexplained
+        self.temper = 1.0 + criteria.temper**2 * unexplained
         smallest, largest, count = criteria.size_um
         self.sizes_mm = np.geomspace(smallest * 1e-3, largest * 1e-3, count)
 

@@ -295,6 +295,13 @@ class Search:
         """Keep what the choice of hypotheses' instants or periods costs."""
         self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
 
+    def count_as(self, hypothesis: Learned, same: Learned) -> None:
+        """Let a hypothesis stand for one that it was made of: its choice costs as much, it is the same cause."""
+        self._chosen[hypothesis] = self._chosen.get(same, 0.0)
+        for names in self.kin.values():
+            if same.name in names:
+                names.add(hypothesis.name)
+
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""
         kept: list[Node] = []

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,6 +39,8 @@ class Variable:
         Of the column, in its unit; 0 where it is not periodic, `SCREW_LEAD` where the machine's screws set it.
     signed : bool
         Whether a step with the column's sign belongs to it, and its splines are dense about zero.
+    is_even : bool
+        Whether its splines lie evenly all the same: what grows with a velocity or with its square bends nowhere.
     from_start : bool
         Whether functions are zero at the column's smallest value: they say what changes, not an offset that stays.
     of_neighbour : bool
@@ -61,6 +63,7 @@ class Variable:
     times: str = ""
     period: float = 0.0
     signed: bool = False
+    is_even: bool = False
     from_start: bool = False
     of_neighbour: bool = False
     is_log: bool = False
@@ -82,6 +85,11 @@ class Variable:
     def is_constant(self) -> bool:
         """Whether it is an offset that nothing changes."""
         return not self.needs
+
+    @property
+    def has_chosen_period(self) -> bool:
+        """Whether it repeats with a period that readings chose."""
+        return "_period@" in self.name
 
     @property
     def is_smooth(self) -> bool:
@@ -228,6 +236,11 @@ def periodic(column: str, period: float) -> Variable:
     name = f"{period:.7g}"
     of = {"time": ("time_s", "s", "time"), "position": ("sliders_mm", "mm", "position of the slider")}
     return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
+
+
+def with_period(variable: Variable, period: float) -> Variable:
+    """Return a variable of `periodic` with another period, as many splines as before."""
+    return replace(periodic(variable.name.partition("_period@")[0], period), count=variable.count)
 
 
 def numbered(name: str) -> Variable | None:
