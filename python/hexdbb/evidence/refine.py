@@ -18,7 +18,7 @@ from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.search import Node, Search
-from hexdbb.evidence.signatures import signature_of
+from hexdbb.evidence.signatures import all_varying, signature_of
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import retunings
@@ -149,7 +149,8 @@ def _at_the_places(search: Search, node: Node, chosen: Sequence[Hypothesis], lin
         proposals(linear, readings, search.thinned, criteria) if with_time else [*periods(linear, readings, criteria)]
     )
     search.propose(proposed)
-    every = dict.fromkeys((*search.hypotheses, *(one.hypothesis for one in proposed)))
+    of_forms = all_varying(readings, of_forms=True)
+    every = dict.fromkeys((*search.hypotheses, *of_forms, *(one.hypothesis for one in proposed)))
     return [
         each
         for each in every

@@ -81,6 +81,6 @@ def varying(every: Iterable[Learned], readings: Readings) -> Iterator[Learned]:
         yield each
 
 
-def all_varying(readings: Readings) -> list[Learned]:
-    """Return every learned hypothesis that the readings can tell of."""
-    return list(varying(hypotheses(), readings))
+def all_varying(readings: Readings, *, of_forms: bool = False) -> list[Learned]:
+    """Return every learned hypothesis, or all that only describe forms, whose variable varies in the readings."""
+    return list(varying(hypotheses(of_forms=of_forms), readings))

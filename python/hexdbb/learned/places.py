@@ -165,12 +165,12 @@ def is_learned(name: str) -> bool:
     return name.startswith(f"{PREFIX}:")
 
 
-def hypotheses() -> Iterator[Learned]:
-    """Yield every hypothesis there is; whether its variable varies in some samples, `Space.of` checks."""
+def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
+    """Yield every hypothesis, or all that only describe forms; whether a variable varies, `Space.of` checks."""
     for place, variables in VARIABLES.items():
         for name in _element_names(place) or ("",):
             for variable in variables:
-                if name == WHOLE and variable in v.OF_ONE:
+                if variable.of_forms != of_forms or (name == WHOLE and variable in v.OF_ONE):
                     continue
                 yield Learned(place, ALL if name in ("", WHOLE) else int(name), variable)
 

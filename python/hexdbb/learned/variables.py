@@ -51,6 +51,8 @@ class Variable:
         Component of a column of three.
     least : float
         Range up to which it counts as constant.
+    of_forms : bool
+        Whether it only describes how the form of a cause differs, and no cause is sought in it.
     instants : tuple of float
         Values of the column from which a step each holds; then there are no splines.
     """
@@ -69,6 +71,7 @@ class Variable:
     is_log: bool = False
     axis: int = 0
     least: float = 0.0
+    of_forms: bool = False
     instants: tuple[float, ...] = ()
 
     @property
@@ -127,6 +130,11 @@ TRAVEL = Variable(
     times="travel_direction",
     is_log=True,
 )
+SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE = (
+    replace(each, name=f"{each.name}_alike", words=f"{each.words}, alike both ways", times="", of_forms=True)
+    for each in (SINCE_REVERSAL, TRAVEL)
+)
+"""Beside functions times the direction of travel: what is not the same at one end of the travel and at the other."""
 VELOCITY = Variable("velocity", "velocity_mm_s", "mm/s", "velocity of the slider", 12, signed=True)
 NEIGHBOUR_VELOCITY = Variable(
     "neighbour_velocity",
@@ -187,6 +195,7 @@ FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
+    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE),
 )
 OF_LEG = (
     *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY)),
