@@ -62,8 +62,9 @@ class Criteria:
         form of this relative difference must not exclude its effect.
     roughness : tuple of float
         Penalties over which the evidence of a spline is averaged: white coefficients to nearly a parabola.
-    tuned_roughness : tuple of float
-        The same about the fit of a set, where little is left to count as noise: coefficients of their own to a line.
+    tuned_penalties : tuple of (float, float)
+        Penalties of second and of first differences over which it is averaged about the fit of a set, where little is
+        left to count as noise: coefficients of their own to a line, and to a constant, which offsets nearly are.
     ranking_roughness : float
         The one penalty with which learned functions are ranked before the few best are scored: the middle one.
     size_um : tuple of float
@@ -169,7 +170,10 @@ class Criteria:
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
     roughness: tuple[float, ...] = (1.0, 30.0, 1000.0)
-    tuned_roughness: tuple[float, ...] = (0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5)
+    tuned_penalties: tuple[tuple[float, float], ...] = (
+        *((roughness, 0.0) for roughness in (0.1, 1.0, 10.0, 100.0, 1e3, 1e5)),
+        *((1.0, steepness) for steepness in (10.0, 1e3, 1e5)),
+    )
     ranking_roughness: float = 30.0
     size_um: tuple[float, float, int] = (0.03, 3000.0, 26)
     catalogue_scale: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0, 10.0)

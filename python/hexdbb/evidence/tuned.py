@@ -42,7 +42,7 @@ def around(search: Search, node: Node, member: Member) -> Linear:
 
 
 def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
-    """Yield a member's function with other smoothness and splines, by evidence, the best first.
+    """Yield a member's function with other smoothness and splines, the one that predicts best first.
 
     Parameters
     ----------
@@ -54,11 +54,13 @@ def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
     hypothesis = member.hypothesis
     if not isinstance(hypothesis, Learned) or not hypothesis.variable.is_smooth:
         return
+    criteria = search.criteria
     sums = Sums(around(search, node, member), search.engine.readings, ("circle",))
-    criteria = replace(search.criteria, roughness=search.criteria.tuned_roughness)
-    screen = Screen(sums, criteria, search.thinned, unexplained=max(node.trial.left - 1.0, 0.0))
-    variants = varying(hypothesis.variants(), search.engine.readings)
-    scored = sorted(map(screen.scored, variants), key=lambda each: -each.log_evidence)
+    screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(node.trial.left - 1.0, 0.0))
+    scored = [screen.scored(each) for each in varying(hypothesis.variants(), search.engine.readings)]
+    # A free function of time predicts no other circle.
+    by_share = not node.trial.is_free_in_time
+    scored.sort(key=lambda each: each.heldout_share if by_share else each.log_evidence, reverse=True)
     yield from map(search.member, scored)
 
 
