@@ -120,6 +120,9 @@ class Criteria:
         function beside the effect holds the difference. Where an effect stood in for another it was 80 %.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
+    refined_by : float
+        Part of what is left beyond the noise that each of them must explain: many that explain a little each describe
+        single readings about reversals.
     refinement_rounds : int
         Rounds of finer functions and functions beside them: those beside get their splines in the round after.
     refined_to : float
@@ -198,6 +201,7 @@ class Criteria:
     leaves_structure: float = 1.3
     form_explains: float = 0.9
     most_refinements: int = 8
+    refined_by: float = 0.1
     refinement_rounds: int = 2
     refined_to: float = 1.01
     predicted_to: float = 1.1

@@ -1,27 +1,23 @@
 """Refinement: how a machine's form differs from the learned functions that were found.
 
 A cause is named by its main function; what that leaves is no other cause. The function gets more splines where the
-readings ask for them, and functions of the other variables at its place stand beside it, chosen one by one to first
-order, as long as what is left out is predicted better; all together are then fitted in full.
+readings ask for them, and functions of the other variables at its place stand beside it, one by one, each fitted in
+full, as long as what is left out is predicted better.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
 from itertools import islice
-
-import numpy as np
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.search import Node, Search
-from hexdbb.evidence.signatures import all_varying, signature_of
+from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
-from hexdbb.evidence.tuned import retunings
+from hexdbb.evidence.tuned import retunings, with_other_splines
 from hexdbb.learned import ALL, Learned, part_of
 
 TRIED = 2
@@ -72,13 +68,30 @@ def _retuned(search: Search, node: Node) -> Node:
 
 
 def _widened(search: Search, node: Node) -> Node:
-    chosen = [] if _is_fine(search, node) else _chosen(search, node)
-    while chosen:
-        found = _tried(search, (*node.members, *chosen), node, worth=search.criteria.detect_nats)
-        if found is not None:
-            return found
-        chosen = chosen[: len(chosen) // 2]
+    """Return a set with further functions at the places of its causes, added one by one, each fitted in full."""
+    for _ in range(search.criteria.most_refinements):
+        wider = None if _is_fine(search, node) else _with_one_more(search, node)
+        if wider is None:
+            break
+        node = wider
     return node
+
+
+def _with_one_more(search: Search, node: Node) -> Node | None:
+    """Return a set with the function that explains most of what is left, if that is much; None where none does."""
+    linear = search.trials.linear(node.trial)
+    screen = Screen(Sums(linear, search.engine.readings, ("circle",)), search.criteria, search.thinned)
+    worth = [each for each in screen.learned(_at_the_places(search, node, linear)) if _is_asked_for(search, each)]
+    by_evidence = sorted(worth, key=lambda each: -each.log_evidence)[:1]
+    by_share = sorted(worth, key=lambda each: -each.heldout_share)[:1]
+    for each in dict.fromkeys((*by_evidence, *by_share)):
+        assert isinstance(each.hypothesis, Learned)
+        variants = with_other_splines(search, linear, each.hypothesis, node.trial.left)
+        member = search.member(max(variants, key=lambda one: one.log_evidence))
+        found = _tried(search, (*node.members, member), node, worth=search.criteria.detect_nats)
+        if found is not None and found.trial.left - 1.0 < (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0):
+            return found
+    return None
 
 
 def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float, enough: float = 0.0) -> Node | None:
@@ -93,56 +106,19 @@ def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float
     return found if is_better else None
 
 
-def _chosen(search: Search, node: Node) -> list[Member]:
-    """Choose functions one by one on the linearisation of a set."""
-    linear = search.trials.linear(node.trial)
-    chosen: list[Member] = []
-    while len(chosen) < search.criteria.most_refinements:
-        if np.mean(linear.residual**2) < search.criteria.refined_to:
-            break
-        screen = _screen(search, linear)
-        candidates = _at_the_places(search, node, [each.hypothesis for each in chosen], linear)
-        worth = [each for each in screen.learned(candidates) if _is_asked_for(search, each)]
-        if not worth:
-            break
-        best = max(worth, key=lambda each: (each.heldout_share, each.log_evidence))
-        member = search.member(best)
-        chosen.append(member)
-        linear = _with(search, linear, member)
-    return chosen
-
-
-def _screen(search: Search, linear: Linear) -> Screen:
-    return Screen(Sums(linear, search.engine.readings, ("circle",)), search.criteria, search.thinned)
-
-
 def _is_asked_for(search: Search, scored: Scored) -> bool:
     assert isinstance(scored.hypothesis, Learned)
     gain = scored.log_evidence + search.log_prior(scored.hypothesis)
     return gain > search.criteria.detect_nats and (scored.heldout_share > 0.0 or scored.hypothesis.is_of_time)
 
 
-def _with(search: Search, linear: Linear, member: Member) -> Linear:
-    """Add a function to a linearisation's own values and take the step that it asks for."""
-    assert isinstance(member.hypothesis, Learned) and member.factor is not None
-    table = signature_of(member.hypothesis, search.engine.readings).table
-    columns = table @ (member.factor * member.size_mm)
-    wider = replace(
-        linear,
-        own=np.hstack([linear.own, columns]),
-        standing=np.concatenate([linear.standing, np.zeros(columns.shape[1])]),
-    )
-    change = Sums(wider, search.engine.readings, ()).whole.own_values()
-    return replace(wider, residual=wider.residual - wider.own @ change, standing=wider.standing + change)
-
-
-def _at_the_places(search: Search, node: Node, chosen: Sequence[Hypothesis], linear: Linear) -> list[Learned]:
+def _at_the_places(search: Search, node: Node, linear: Linear) -> list[Learned]:
     """Return the functions at the places of the causes, those of single elements where a cause has all.
 
     What changes with time is no form of what does not.
     """
     places = {(part_of(each), each.element) for cause in node.hypotheses for each in _homes(search, cause)}
-    known = {each.name for each in (*node.hypotheses, *chosen)}
+    known = {each.name for each in node.hypotheses}
     readings, criteria = search.engine.readings, search.criteria
     with_time = node.trial.is_free_in_time
     proposed = (
@@ -164,5 +140,6 @@ def _homes(search: Search, cause: Hypothesis) -> list[Learned]:
     """Return the functions at whose places a cause acts."""
     if isinstance(cause, Learned):
         return [cause]
-    by_name = search.by_name
-    return [by_name[name] for name in search.kin.get(cause.name, set())]
+    by_name, ports = search.by_name, search.engine.ports(cause.effect)
+    homes = [by_name[name] for name in search.kin.get(cause.name, set())]
+    return [each for each in homes if each.port in ports]

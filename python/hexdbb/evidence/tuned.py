@@ -14,7 +14,7 @@ import numpy as np
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.screen import Screen
+from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.signatures import signature_of, varying
 from hexdbb.evidence.sums import Sums
@@ -54,14 +54,31 @@ def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
     hypothesis = member.hypothesis
     if not isinstance(hypothesis, Learned) or not hypothesis.variable.is_smooth:
         return
-    criteria = search.criteria
-    sums = Sums(around(search, node, member), search.engine.readings, ("circle",))
-    screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(node.trial.left - 1.0, 0.0))
-    scored = [screen.scored(each) for each in varying(hypothesis.variants(), search.engine.readings)]
+    scored = with_other_splines(search, around(search, node, member), hypothesis, node.trial.left)
     # A free function of time predicts no other circle.
     by_share = not node.trial.is_free_in_time
     scored.sort(key=lambda each: each.heldout_share if by_share else each.log_evidence, reverse=True)
     yield from map(search.member, scored)
+
+
+def with_other_splines(search: Search, linear: Linear, hypothesis: Learned, left: float) -> list[Scored]:
+    """Score a hypothesis with every set of splines that a full fit can hold, over all penalties.
+
+    Parameters
+    ----------
+    search : Search
+    linear : Linear
+        Without it.
+    hypothesis : Learned
+    left : float
+        Mean square (noise variances) that is left with it, about.
+    """
+    criteria, readings = search.criteria, search.engine.readings
+    sums = Sums(linear, readings, ("circle",))
+    screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(left - 1.0, 0.0))
+    variants = [*varying(hypothesis.variants(), readings)] or [hypothesis]
+    held = [each for each in variants if each.components * each.variable.columns <= criteria.most_seen]
+    return [screen.scored(each) for each in held or variants[:1]]
 
 
 def with_tuned_periods(search: Search, node: Node) -> Node:
