@@ -169,6 +169,16 @@ JOINT_ANGLE_DIRECTION = Variable(
     12,
     times="slider_joint_direction",
 )
+JOINT_SINCE_REVERSAL = Variable(
+    "joint_since_reversal",
+    "slider_joint_since_reversal_rad",
+    "rad",
+    "angle turned since the slider's joint reversed",
+    10,
+    times="slider_joint_direction",
+    is_log=True,
+    of_forms=True,
+)
 PLATFORM_TURNING = Variable(
     "platform_turning_rate",
     "platform_joint_rate_rad_s",
@@ -203,6 +213,7 @@ OF_LEG = (
         TURNING,
         JOINT_ANGLE,
         JOINT_ANGLE_DIRECTION,
+        JOINT_SINCE_REVERSAL,
         PLATFORM_TURNING,
         PLATFORM_ANGLE,
         SWING,

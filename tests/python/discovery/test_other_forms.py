@@ -51,6 +51,13 @@ def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
     """Rails that meet with a step in height, called a bow."""
     line = line_of(case("rail_joint-d0-x100-calibrate-s0"), ())
     assert line["found"][0]["name"] == "straightness:3"
-    assert line["found"][0]["refinements"]
+    assert line["found"][0]["refinements"] == ("learned:vertical:3:fine_position",)
     circle = line["heldout"]["circle"]
     assert circle["after"] < 1.3 < 50.0 < circle["before"]
+
+
+def test_play_that_is_learned_predicts_what_it_does_at_reversals() -> None:
+    line = line_of(case("backlash-d10-x30-calibrate-s0"), ["backlash"])
+    (found,) = line["found"]
+    assert "learned:slider:1:since_reversal_travel_alike" in found["refinements"]
+    assert line["heldout"]["circle"]["after"] < 1.3
