@@ -1,31 +1,23 @@
 """Learned functions tuned about the fit of their set: how smooth, how many splines, which period.
 
 A hypothesis is chosen while all that is unexplained counts in part as noise (`Criteria.temper`), so that the most of it
-is sought first. Once a set explains it, what is left is less by far, and asks for less smooth functions, more splines,
-and a period that is right to a thousandth of a turn over all readings.
+is sought first. Once a set explains it, what is left is less by far, and asks for less smooth functions and more
+splines, and for periods (`period.py`) that are right beside all else that was found.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
-from hexdbb.errors import RunError
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.search import Node, Search
-from hexdbb.evidence.signatures import signature_of, varying
+from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
-from hexdbb.learned import Learned, with_period
-
-TURN_STEP = 0.02
-"""Change of a period, in turns at the readings' ends, over which a function's change is taken: small against a turn,
-large against the rounding of single precision."""
-MOST_STEPS = 12.0
-"""Such changes that a period may move by: a quarter of a turn, beyond which a line is no approximation of a wave."""
+from hexdbb.learned import Learned
 
 
 def around(search: Search, node: Node, member: Member) -> Linear:
@@ -83,40 +75,9 @@ def with_other_splines(search: Search, linear: Linear, hypothesis: Learned, left
 
 def with_tuned_periods(search: Search, node: Node) -> Node:
     """Return a set whose periodic functions have the periods that fit best; the same set where none gains."""
-    for place, member in enumerate(node.members):
-        if not isinstance(member.hypothesis, Learned) or not member.hypothesis.variable.has_chosen_period:
-            continue
-        tuned = _tuned(search, node, member, member.hypothesis)
-        try:
-            trial = search.trials.of((*node.members[:place], tuned, *node.members[place + 1 :]))
-        except RunError:
-            continue
-        gain = trial.log_evidence - node.trial.log_evidence
-        if gain > 0.0 and not trial.refused:
-            node = Node(trial, node.score + gain)
+    for place in range(len(node.members)):
+        trial = search.with_tuned_period(node.trial, place)
+        if trial is not node.trial:
+            node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
             search.nodes.append(node)
     return node
-
-
-def _tuned(search: Search, node: Node, member: Member, learned: Learned) -> Member:
-    """Return a periodic member with its period moved by one step of Gauss and Newton."""
-    assert member.factor is not None
-    readings, model, period = search.engine.readings, node.trial.model, learned.variable.period
-    step = TURN_STEP * period / max(float(np.ptp(readings.state[learned.variable.column])), period)
-    mine = np.array([each.effect == learned.name for each in model.parameters()])
-    coefficients = member.factor @ model.values[mine]
-    ahead, behind = (
-        signature_of(_with_period(learned, period * part), readings).table @ coefficients
-        for part in (1.0 + step, 1.0 - step)
-    )
-    linear = search.trials.linear(node.trial)
-    column = 0.5 * (ahead - behind)
-    wider = replace(linear, own=np.column_stack([linear.own, column]), standing=np.append(linear.standing, 0.0))
-    moved = float(Sums(wider, readings, ()).whole.own_values()[-1])
-    found = _with_period(learned, period * (1.0 + step * float(np.clip(moved, -MOST_STEPS, MOST_STEPS))))
-    search.count_as(found, learned)
-    return replace(member, hypothesis=found)
-
-
-def _with_period(learned: Learned, period: float) -> Learned:
-    return replace(learned, variable=with_period(learned.variable, period))
