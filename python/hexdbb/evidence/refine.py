@@ -84,14 +84,18 @@ def _with_one_more(search: Search, node: Node) -> Node | None:
     worth = [each for each in screen.learned(_at_the_places(search, node, linear)) if _is_asked_for(search, each)]
     by_evidence = sorted(worth, key=lambda each: -each.log_evidence)[:1]
     by_share = sorted(worth, key=lambda each: -each.heldout_share)[:1]
-    for each in dict.fromkeys((*by_evidence, *by_share)):
-        assert isinstance(each.hypothesis, Learned)
-        variants = with_other_splines(search, linear, each.hypothesis, node.trial.left)
-        member = search.member(max(variants, key=lambda one: one.log_evidence))
-        found = _tried(search, (*node.members, member), node, worth=search.criteria.detect_nats)
-        if found is not None and found.trial.left - 1.0 < (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0):
-            return found
-    return None
+    found = [_with(search, node, linear, each) for each in dict.fromkeys((*by_evidence, *by_share))]
+    most = 1.0 + (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0)
+    good = [each for each in found if each is not None and each.trial.left < most]
+    return max(good, key=lambda each: each.score, default=None)
+
+
+def _with(search: Search, node: Node, linear: Linear, scored: Scored) -> Node | None:
+    """Return a set with a function of the best splines, where that gains and predicts better."""
+    assert isinstance(scored.hypothesis, Learned)
+    variants = with_other_splines(search, linear, scored.hypothesis, node.trial.left)
+    member = search.member(max(variants, key=lambda each: each.log_evidence))
+    return _tried(search, (*node.members, member), node, worth=search.criteria.detect_nats)
 
 
 def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float, enough: float = 0.0) -> Node | None:

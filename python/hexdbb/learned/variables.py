@@ -150,6 +150,14 @@ FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load"
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
+LAG_BY_POSITION, GIVING_BY_POSITION = (
+    Variable(name, "sliders_mm", "mm", f"position of the slider, times the {words}", 6, times=times, of_forms=True)
+    for name, times, words in (
+        ("velocity_position", "velocity_mm_s", "velocity"),
+        ("leg_force_position", "leg_force", "force of the leg"),
+    )
+)
+"""A lag, or a compliance, that is not the same along the guideway."""
 ROLL, PITCH, YAW = (
     Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
     for axis, name in enumerate(("roll", "pitch", "yaw"))
@@ -168,6 +176,15 @@ JOINT_ANGLE_DIRECTION = Variable(
     "angle of the slider's joint, by the sense of its turning",
     12,
     times="slider_joint_direction",
+)
+TURNING_BY_ANGLE = Variable(
+    "turning_rate_angle",
+    "slider_joint_angle_rad",
+    "rad",
+    "angle of the slider's joint, times its turning rate",
+    12,
+    times="slider_joint_rate_rad_s",
+    of_forms=True,
 )
 JOINT_SINCE_REVERSAL = Variable(
     "joint_since_reversal",
@@ -205,7 +222,7 @@ FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
-    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE),
+    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE, LAG_BY_POSITION, GIVING_BY_POSITION),
 )
 OF_LEG = (
     *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY)),
@@ -214,6 +231,7 @@ OF_LEG = (
         JOINT_ANGLE,
         JOINT_ANGLE_DIRECTION,
         JOINT_SINCE_REVERSAL,
+        TURNING_BY_ANGLE,
         PLATFORM_TURNING,
         PLATFORM_ANGLE,
         SWING,
