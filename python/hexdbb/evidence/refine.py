@@ -82,12 +82,23 @@ def _with_one_more(search: Search, node: Node) -> Node | None:
     linear = search.trials.linear(node.trial)
     screen = Screen(Sums(linear, search.engine.readings, ("circle",)), search.criteria, search.thinned)
     worth = [each for each in screen.learned(_at_the_places(search, node, linear)) if _is_asked_for(search, each)]
-    by_evidence = sorted(worth, key=lambda each: -each.log_evidence)[:1]
-    by_share = sorted(worth, key=lambda each: -each.heldout_share)[:1]
-    found = [_with(search, node, linear, each) for each in dict.fromkeys((*by_evidence, *by_share))]
+    variables = {each.variable.name for each in node.hypotheses if isinstance(each, Learned)}
     most = 1.0 + (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0)
-    good = [each for each in found if each is not None and each.trial.left < most]
-    return max(good, key=lambda each: each.score, default=None)
+    by_evidence = sorted(worth, key=lambda each: -each.log_evidence)
+    by_share = sorted(worth, key=lambda each: -each.heldout_share)
+    # Elements that differ in what all have alike are the simplest form, though others may seem to explain more.
+    of_elements = [each for each in by_evidence if _variable(each) in variables]
+    for tried in (of_elements[:1], dict.fromkeys((*by_evidence[:1], *by_share[:1]))):
+        found = [_with(search, node, linear, each) for each in tried]
+        good = [each for each in found if each is not None and each.trial.left < most]
+        if good:
+            return max(good, key=lambda each: each.score)
+    return None
+
+
+def _variable(scored: Scored) -> str:
+    assert isinstance(scored.hypothesis, Learned)
+    return scored.hypothesis.variable.name
 
 
 def _with(search: Search, node: Node, linear: Linear, scored: Scored) -> Node | None:
