@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.projection import Projection
 from hexdbb.errors import InputError
-from hexdbb.learned import FINER, Learned, Space
+from hexdbb.learned import Learned, Space
 from hexdbb.model import LearnedEffect, Model
 from hexdbb.samples import Samples
 
@@ -20,8 +20,8 @@ Floats = NDArray[np.float64]
 
 ROUGHNESS = np.geomspace(0.1, 1e6, 15)
 """Penalties tried: from coefficients of their own to a straight line, two a decade."""
-FINER_NATS = 5.0
-"""Log evidence that more splines must gain: 150 to 1, as for a name (`hexdbb.evidence.criteria`)."""
+OTHER_NATS = 5.0
+"""Log evidence that other splines must gain: 150 to 1, as for a name (`hexdbb.evidence.criteria`)."""
 SIZES_MM = np.geomspace(1e-5, 10.0, 61)
 """Sizes tried: from a hundredth of a gauge's resolution to what breaks a machine, ten a decade."""
 
@@ -48,19 +48,19 @@ def learned_effect(samples: Samples, model: Model, name: str, noise: Noise | Non
     around = Projection(samples, known, known.free, _noise(noise, samples))
     space = space_of(samples, model, name)
     best, found = _smoothed(space, around)
-    for finer in _finer(space, samples, model):
-        evidence, fine = _smoothed(finer, around)
-        if evidence > best + FINER_NATS:
-            best, found = evidence, fine
+    for other in _variants(space, samples, model):
+        evidence, variant = _smoothed(other, around)
+        if evidence > best + OTHER_NATS:
+            best, found = evidence, variant
     return found
 
 
-def _finer(space: Space, samples: Samples, model: Model) -> Iterator[Space]:
-    """Yield the same functions with more splines, as many as these samples can set."""
-    if space.hypothesis.variable.is_smooth:
-        for times in FINER:
+def _variants(space: Space, samples: Samples, model: Model) -> Iterator[Space]:
+    """Yield the same functions with other splines, such as these samples can set."""
+    for variant in space.hypothesis.variants():
+        if variant != space.hypothesis:
             with suppress(InputError):
-                yield Space.of(space.hypothesis.finer(times), samples, model.machine.sliders.screw_lead_mm)
+                yield Space.of(variant, samples, model.machine.sliders.screw_lead_mm)
 
 
 def _smoothed(space: Space, around: Projection) -> tuple[float, LearnedEffect]:

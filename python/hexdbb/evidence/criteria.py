@@ -62,6 +62,9 @@ class Criteria:
         form of this relative difference must not exclude its effect.
     roughness : tuple of float
         Penalties over which the evidence of a spline is averaged: white coefficients to nearly a parabola.
+    tuned_penalties : tuple of (float, float)
+        Penalties of second and of first differences over which it is averaged about the fit of a set, where little is
+        left to count as noise: coefficients of their own to a line, and to a constant, which offsets nearly are.
     ranking_roughness : float
         The one penalty with which learned functions are ranked before the few best are scored: the middle one.
     size_um : tuple of float
@@ -117,8 +120,16 @@ class Criteria:
         function beside the effect holds the difference. Where an effect stood in for another it was 80 %.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
+    refined_by : float
+        Part of what is left beyond the noise that each of them must explain: many that explain a little each describe
+        single readings about reversals.
+    refinement_rounds : int
+        Rounds of finer functions and functions beside them: those beside get their splines in the round after.
     refined_to : float
         Mean square (noise variances) at which forms are described well enough: the noise itself, but for a hundredth.
+    predicted_to : float
+        Held-out error (noise standard deviations) at which they predict well enough: functions as stiff as the readings
+        allow gain a few hundredths below it.
     explained_min : float
         Part of the unexplained that the causes named must explain together.
     form_limit : float
@@ -162,6 +173,10 @@ class Criteria:
     form_grid: tuple[float, ...] = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4)
     temper: float = 0.1
     roughness: tuple[float, ...] = (1.0, 30.0, 1000.0)
+    tuned_penalties: tuple[tuple[float, float], ...] = (
+        *((roughness, 0.0) for roughness in (0.1, 1.0, 10.0, 100.0, 1e3, 1e5)),
+        *((1.0, steepness) for steepness in (10.0, 1e3, 1e5)),
+    )
     ranking_roughness: float = 30.0
     size_um: tuple[float, float, int] = (0.03, 3000.0, 26)
     catalogue_scale: tuple[float, ...] = (0.1, 0.3, 1.0, 3.0, 10.0)
@@ -186,7 +201,10 @@ class Criteria:
     leaves_structure: float = 1.3
     form_explains: float = 0.9
     most_refinements: int = 8
+    refined_by: float = 0.1
+    refinement_rounds: int = 2
     refined_to: float = 1.01
+    predicted_to: float = 1.1
     explained_min: float = 0.75
     form_limit: float = 0.5
     form_named: float = 0.3

@@ -37,7 +37,7 @@ class Proposal:
 def proposals(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
     """Return the steps and periods of a linearisation that are worth a look."""
     steps = () if "time_s" in readings.state.unmeasured else _steps(linear, readings, thinned, criteria)
-    return [*steps, *_periods(linear, readings, criteria)]
+    return [*steps, *periods(linear, readings, criteria)]
 
 
 def _shifting() -> Iterator[tuple[str, int]]:
@@ -165,7 +165,8 @@ class _Scan:
         return found
 
 
-def _periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
+def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
+    """Yield the strongest period of each slider, each guideway, the reading and the cup (a ball moves alike)."""
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [("slider", each) for each in range(1, 7)]
     places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
@@ -178,8 +179,9 @@ def _periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator
     gaps = np.diff(np.unique(time_s))
     if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))
-        weighted = linear.residual * _answers(readings, "reading", ALL)[:, 0]
-        yield from _period("reading", ALL, "time", weighted, time_s, highest)
+        for place in ("reading", "cup"):
+            weighted = linear.residual[:, None] * _answers(readings, place, ALL)
+            yield from _period(place, ALL, "time", weighted, time_s, highest)
 
 
 def _period(

@@ -56,14 +56,28 @@ class Screen:
     criteria : Criteria
     thinned : Thinned
         Rows of the readings on which learned hypotheses are ranked first.
+    penalties : sequence of (roughness, steepness), optional
+        Over which the evidence of a spline is averaged; `Criteria.roughness` where not given.
+    unexplained : float, optional
+        Mean square beyond the noise (noise variances) of which a part counts as noise (`Criteria.temper`); what the
+        linearisation leaves where not given.
     """
 
-    def __init__(self, sums: Sums, criteria: Criteria, thinned: Thinned) -> None:
+    def __init__(
+        self,
+        sums: Sums,
+        criteria: Criteria,
+        thinned: Thinned,
+        penalties: Sequence[tuple[float, float]] = (),
+        unexplained: float | None = None,
+    ) -> None:
+        self._penalties = penalties or [(roughness, 0.0) for roughness in criteria.roughness]
         self.sums, self.criteria, self.thinned = sums, criteria, thinned
         own = self.whole.own_values()
         self.left = squared_error(sums, self.whole.cells, own, None, None)
         self.excess = max(self.left - self.whole.rows, 1e-9)
-        self.temper = 1.0 + criteria.temper**2 * self.excess / self.whole.rows
+        unexplained = self.excess / self.whole.rows if unexplained is None else unexplained
+        self.temper = 1.0 + criteria.temper**2 * unexplained
         smallest, largest, count = criteria.size_um
         self.sizes_mm = np.geomspace(smallest * 1e-3, largest * 1e-3, count)
 
@@ -86,8 +100,9 @@ class Screen:
         return self._held_out([self._of(each) for each in self._ranked(hypotheses)[: self.criteria.held_out]])
 
     def scored(self, hypothesis: Learned) -> Scored:
-        """Score one learned hypothesis; it is not held out."""
-        return self._of(hypothesis)[0]
+        """Score one learned hypothesis, held out too."""
+        scored, block = self._of(hypothesis)
+        return replace(scored, heldout_share=self._heldout_share(block, scored.marginal))
 
     def _of(self, hypothesis: Learned) -> tuple[Scored, Block]:
         space = signature_of(hypothesis, self.sums.readings)
@@ -107,8 +122,8 @@ class Screen:
         return [hypotheses[place] for place in np.argsort(evidence)[::-1]]
 
     def _factors(self, space: Signature) -> list[Floats]:
-        levels = self.criteria.roughness if space.hypothesis.variable.is_smooth else self.criteria.roughness[:1]
-        return [space.prior_factor(level) for level in levels]
+        penalties = self._penalties if space.hypothesis.variable.is_smooth else self._penalties[:1]
+        return [space.prior_factor(*each) for each in penalties]
 
     def known(self, signatures: Floats, whose: Sequence[tuple[str, str, str, float]], kinds: set[str]) -> list[Scored]:
         """Score effects of the catalogue, element by element; `kinds` are effects that have one element only."""

@@ -20,6 +20,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.needed import needs, needs_all
+from hexdbb.evidence.period import best_period
 from hexdbb.evidence.proposals import Proposal, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -233,6 +234,7 @@ class Search:
                 trial = self.trials.of((*node.members, self.member(scored)))
             except RunError:
                 continue
+            trial = self.with_tuned_period(trial, len(node.members))
             prior = self.log_prior(scored.hypothesis)
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
@@ -294,6 +296,28 @@ class Search:
     def propose(self, proposed: Sequence[Proposal]) -> None:
         """Keep what the choice of hypotheses' instants or periods costs."""
         self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+
+    def count_as(self, hypothesis: Learned, same: Learned) -> None:
+        """Let a hypothesis stand for one that it was made of: its choice costs as much, it is the same cause."""
+        self._chosen[hypothesis] = self._chosen.get(same, 0.0)
+        for names in self.kin.values():
+            if same.name in names:
+                names.add(hypothesis.name)
+
+    def with_tuned_period(self, trial: Trial, place: int) -> Trial:
+        """Return a trial with the period of one member where it fits best; the same where that gains nothing."""
+        member = trial.members[place]
+        hypothesis = member.hypothesis
+        if not isinstance(hypothesis, Learned) or not hypothesis.variable.has_chosen_period:
+            return trial
+        moved = best_period(self.trials, trial, member)
+        self.count_as(moved, hypothesis)
+        try:
+            members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])
+            found = self.trials.of(members)
+        except RunError:
+            return trial
+        return found if found.log_evidence > trial.log_evidence and not found.refused else trial
 
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""

@@ -42,9 +42,9 @@ class Signature:
         """Hypothesis whose functions they are."""
         return self.space.hypothesis
 
-    def prior_factor(self, roughness: float) -> Floats:
+    def prior_factor(self, roughness: float, steepness: float = 0.0) -> Floats:
         """Return T such that coefficients T z, z standard normal, make functions of mean square one over the rows."""
-        factor = self.space.prior_factor(roughness)
+        factor = self.space.prior_factor(roughness, steepness)
         factor = factor / np.sqrt(max(float(np.sum(factor * (self.square @ factor))), 1e-300))
         return factor if self.hypothesis.components == 1 else np.kron(np.eye(self.hypothesis.components), factor)
 
@@ -81,6 +81,6 @@ def varying(every: Iterable[Learned], readings: Readings) -> Iterator[Learned]:
         yield each
 
 
-def all_varying(readings: Readings) -> list[Learned]:
-    """Return every learned hypothesis that the readings can tell of."""
-    return list(varying(hypotheses(), readings))
+def all_varying(readings: Readings, *, of_forms: bool = False) -> list[Learned]:
+    """Return every learned hypothesis, or all that only describe forms, whose variable varies in the readings."""
+    return list(varying(hypotheses(of_forms=of_forms), readings))

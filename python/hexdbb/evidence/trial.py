@@ -212,8 +212,12 @@ def _beyond(columns: Floats, values: Floats, own: NDArray[np.bool_], others: NDA
 
 
 def _key(members: Sequence[Member]) -> frozenset[str]:
-    return frozenset(f"{each.hypothesis.name} {_splines(each.hypothesis)} {each.size_mm:.3g}" for each in members)
+    return frozenset(f"{each.hypothesis.name} {_prior(each)}" for each in members)
 
 
-def _splines(hypothesis: Known | Learned) -> int:
-    return hypothesis.variable.count if isinstance(hypothesis, Learned) else 0
+def _prior(member: Member) -> str:
+    """Return what tells one prior of a learned function from another: splines, smoothness, size."""
+    if not isinstance(member.hypothesis, Learned) or member.factor is None:
+        return ""
+    variable = member.hypothesis.variable
+    return f"{variable.count} {variable.is_even} {np.sum(member.factor**2):.4g} {member.size_mm:.3g}"

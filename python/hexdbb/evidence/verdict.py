@@ -14,7 +14,8 @@ from hexdbb.evidence.refine import refined
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sufficiency import left_over
-from hexdbb.learned import ALL, Learned
+from hexdbb.evidence.tuned import with_tuned_periods
+from hexdbb.learned import Learned, part_of
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -94,13 +95,14 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         return Verdict("none", (), search.root, None, before)
     node = in_known_words(search, _predicting(search, search.run()))
     if node is search.root:
-        return Verdict("unknown", (), node, None, before)
-    node = of_better_form(search, settled(search, node))
+        return Verdict("none" if _is_form(search) else "unknown", (), node, None, before)
+    node = with_tuned_periods(search, of_better_form(search, settled(search, node)))
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
-    known = {each.name for each in node.hypotheses}
+    known, by_name = {each.name for each in node.hypotheses}, search.by_name
     for each in wider.hypotheses:
-        cause = next((one for one in causes if isinstance(each, Learned) and _shares_place(one, each)), None)
+        there = (one for one in causes if isinstance(each, Learned) and _at_its_place(search, one, each, by_name))
+        cause = next(there, None)
         if cause is not None and each.name not in known:
             refinements[cause.name] = (*refinements.get(cause.name, ()), each.name)
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
@@ -109,6 +111,11 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if search.checked(node).share < search.criteria.explained_min:
         grade = "unknown"
     return Verdict(grade, found, node, search.checked(node), before, wider)
+
+
+def _is_form(search: Search) -> bool:
+    """Check that what nothing explains is no more than the forms of the effects in the model may be off."""
+    return search.root.trial.left - 1.0 < search.criteria.form_named**2 * search.trials.explained_before
 
 
 def _predicting(search: Search, node: Node) -> Node:
@@ -161,16 +168,7 @@ def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned)
 
 def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: dict[str, Learned]) -> bool:
     homes = [by_name[name] for name in search.kin.get(cause.name, set())] if isinstance(cause, Known) else [cause]
-    return any(_part(home) == _part(learned) and home.element in (learned.element, 0) for home in homes)
-
-
-def _shares_place(cause: Hypothesis, learned: Learned) -> bool:
-    return isinstance(cause, Learned) and cause.place == learned.place and cause.element in (learned.element, ALL)
-
-
-def _part(learned: Learned) -> str:
-    """Return the part of the machine at which a function acts: a guideway's two directions are one."""
-    return "guideway" if learned.place in ("lateral", "vertical") else learned.place
+    return any(part_of(home) == part_of(learned) and home.element in (learned.element, 0) for home in homes)
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:

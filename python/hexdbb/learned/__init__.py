@@ -4,9 +4,9 @@ Everything here is data and arithmetic on it: a hypothesis is chosen by name fro
 its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
 """
 
-from hexdbb.learned.places import ALL, FINER, Learned, hypotheses
+from hexdbb.learned.places import ALL, FINER, Learned, hypotheses, part_of
 from hexdbb.learned.space import Columns, Curve, Space, Table
-from hexdbb.learned.variables import Variable, periodic, step
+from hexdbb.learned.variables import Variable, periodic, step, with_period
 from hexdbb.learned.words import Form, describe
 
 __all__ = [
@@ -21,6 +21,8 @@ __all__ = [
     "Variable",
     "describe",
     "hypotheses",
+    "part_of",
     "periodic",
     "step",
+    "with_period",
 ]

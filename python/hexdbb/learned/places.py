@@ -85,6 +85,14 @@ class Learned:
         """Return the same hypothesis, name and all, with so many times as many splines."""
         return replace(self, variable=replace(self.variable, count=self.variable.count * times))
 
+    def variants(self) -> Iterator[Learned]:
+        """Yield the same hypothesis, name and all, with every set of splines that its function may have."""
+        plain = Learned.parse(self.name)
+        if plain.variable.is_smooth:
+            yield from (plain, *(plain.finer(times) for times in FINER))
+            if plain.variable.signed:
+                yield replace(plain, variable=replace(plain.variable, is_even=True))
+
     @property
     def is_of_time(self) -> bool:
         """Whether it is a free function of time, which says nothing of a time that was left out."""
@@ -147,17 +155,22 @@ class Learned:
         return ((element, ((first + 3 * element + component, 1.0),)),)
 
 
+def part_of(learned: Learned) -> str:
+    """Return the part of the machine at which a function acts: a guideway's two directions are one."""
+    return "guideway" if learned.place in AXIS else learned.place
+
+
 def is_learned(name: str) -> bool:
     """Check whether an effect's name is that of a learned one."""
     return name.startswith(f"{PREFIX}:")
 
 
-def hypotheses() -> Iterator[Learned]:
-    """Yield every hypothesis there is; whether its variable varies in some samples, `Space.of` checks."""
+def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
+    """Yield every hypothesis, or all that only describe forms; whether a variable varies, `Space.of` checks."""
     for place, variables in VARIABLES.items():
         for name in _element_names(place) or ("",):
             for variable in variables:
-                if name == WHOLE and variable in v.OF_ONE:
+                if variable.of_forms != of_forms or (name == WHOLE and variable in v.OF_ONE):
                     continue
                 yield Learned(place, ALL if name in ("", WHOLE) else int(name), variable)
 

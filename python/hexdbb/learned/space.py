@@ -166,7 +166,7 @@ class Space:
                 raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
             if variable.signed:
                 rms = float(np.sqrt(np.mean(known**2)))
-                sign_width, warp_width = SIGN_PART * rms, WARP_PART * rms
+                sign_width, warp_width = SIGN_PART * rms, 0.0 if variable.is_even else WARP_PART * rms
             if not period:
                 argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else _warped(known, warp_width)
                 low, high = float(argument.min()), float(argument.max())
@@ -190,14 +190,14 @@ class Space:
         variable = self.hypothesis.variable
         return 0.0 if variable.instants else (self.high - self.low) / max(variable.count - SPLINES_MIN, 1)
 
-    def prior_factor(self, roughness: float) -> Floats:
+    def prior_factor(self, roughness: float, steepness: float = 0.0) -> Floats:
         """Return T of the prior covariance T T' of one function's coefficients, shape (columns, columns)."""
         variable = self.hypothesis.variable
         factor = np.eye(variable.columns)
         if variable.instants:
             return factor
         factor[: variable.count, : variable.count] = splines.prior_factor(
-            variable.count, roughness, periodic=self.period > 0.0
+            variable.count, roughness, steepness, periodic=self.period > 0.0
         )
         return factor
 

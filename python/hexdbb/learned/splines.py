@@ -2,10 +2,11 @@
 
 A function of one variable is B c with cubic B-splines on equal knots. Its prior is c ~ N(0, size^2 T T'),
 
-    (T T')^-1 = roughness D'D + I,
+    (T T')^-1 = roughness D'D + steepness E'E + I,
 
-D second differences of neighbouring coefficients, around the circle where the variable is periodic. `roughness` states
-how smooth the function is; it is chosen by marginal likelihood, which is REML smoothing (Wood 2011).
+D second and E first differences of neighbouring coefficients, around the circle where the variable is periodic.
+`roughness` states how smooth the function is, `steepness` how nearly constant; they are chosen by marginal likelihood,
+which is REML smoothing (Wood 2011).
 """
 
 from __future__ import annotations
@@ -68,13 +69,14 @@ def _cubics(place: Floats, intervals: int) -> Floats:
 
 
 @lru_cache(maxsize=512)
-def prior_factor(count: int, roughness: float, *, periodic: bool = False) -> Floats:
+def prior_factor(count: int, roughness: float, steepness: float = 0.0, *, periodic: bool = False) -> Floats:
     """Return T of the prior covariance T T' of a spline's coefficients, shape (count, count)."""
     if count < DEGREE:
         return np.eye(count)
+    first = np.roll(np.eye(count), 1, axis=1) - np.eye(count)
     second = np.roll(np.eye(count), 1, axis=1) - 2.0 * np.eye(count) + np.roll(np.eye(count), -1, axis=1)
     if not periodic:
-        second = second[1:-1]
-    covariance = np.linalg.inv(roughness * second.T @ second + np.eye(count))
+        first, second = first[:-1], second[1:-1]
+    covariance = np.linalg.inv(roughness * second.T @ second + steepness * first.T @ first + np.eye(count))
     factor: Floats = np.linalg.cholesky(covariance)
     return factor

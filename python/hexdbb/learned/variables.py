@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,6 +39,8 @@ class Variable:
         Of the column, in its unit; 0 where it is not periodic, `SCREW_LEAD` where the machine's screws set it.
     signed : bool
         Whether a step with the column's sign belongs to it, and its splines are dense about zero.
+    is_even : bool
+        Whether its splines lie evenly all the same: what grows with a velocity or with its square bends nowhere.
     from_start : bool
         Whether functions are zero at the column's smallest value: they say what changes, not an offset that stays.
     of_neighbour : bool
@@ -49,6 +51,8 @@ class Variable:
         Component of a column of three.
     least : float
         Range up to which it counts as constant.
+    of_forms : bool
+        Whether it only describes how the form of a cause differs, and no cause is sought in it.
     instants : tuple of float
         Values of the column from which a step each holds; then there are no splines.
     """
@@ -61,11 +65,13 @@ class Variable:
     times: str = ""
     period: float = 0.0
     signed: bool = False
+    is_even: bool = False
     from_start: bool = False
     of_neighbour: bool = False
     is_log: bool = False
     axis: int = 0
     least: float = 0.0
+    of_forms: bool = False
     instants: tuple[float, ...] = ()
 
     @property
@@ -82,6 +88,11 @@ class Variable:
     def is_constant(self) -> bool:
         """Whether it is an offset that nothing changes."""
         return not self.needs
+
+    @property
+    def has_chosen_period(self) -> bool:
+        """Whether it repeats with a period that readings chose."""
+        return "_period@" in self.name
 
     @property
     def is_smooth(self) -> bool:
@@ -119,6 +130,11 @@ TRAVEL = Variable(
     times="travel_direction",
     is_log=True,
 )
+SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE = (
+    replace(each, name=f"{each.name}_alike", words=f"{each.words}, alike both ways", times="", of_forms=True)
+    for each in (SINCE_REVERSAL, TRAVEL)
+)
+"""Beside functions times the direction of travel: what is not the same at one end of the travel and at the other."""
 VELOCITY = Variable("velocity", "velocity_mm_s", "mm/s", "velocity of the slider", 12, signed=True)
 NEIGHBOUR_VELOCITY = Variable(
     "neighbour_velocity",
@@ -134,6 +150,14 @@ FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load"
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
+LAG_BY_POSITION, GIVING_BY_POSITION = (
+    Variable(name, "sliders_mm", "mm", f"position of the slider, times the {words}", 6, times=times, of_forms=True)
+    for name, times, words in (
+        ("velocity_position", "velocity_mm_s", "velocity"),
+        ("leg_force_position", "leg_force", "force of the leg"),
+    )
+)
+"""A lag, or a compliance, that is not the same along the guideway."""
 ROLL, PITCH, YAW = (
     Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
     for axis, name in enumerate(("roll", "pitch", "yaw"))
@@ -152,6 +176,25 @@ JOINT_ANGLE_DIRECTION = Variable(
     "angle of the slider's joint, by the sense of its turning",
     12,
     times="slider_joint_direction",
+)
+TURNING_BY_ANGLE = Variable(
+    "turning_rate_angle",
+    "slider_joint_angle_rad",
+    "rad",
+    "angle of the slider's joint, times its turning rate",
+    12,
+    times="slider_joint_rate_rad_s",
+    of_forms=True,
+)
+JOINT_SINCE_REVERSAL = Variable(
+    "joint_since_reversal",
+    "slider_joint_since_reversal_rad",
+    "rad",
+    "angle turned since the slider's joint reversed",
+    10,
+    times="slider_joint_direction",
+    is_log=True,
+    of_forms=True,
 )
 PLATFORM_TURNING = Variable(
     "platform_turning_rate",
@@ -179,6 +222,7 @@ FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
+    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE, LAG_BY_POSITION, GIVING_BY_POSITION),
 )
 OF_LEG = (
     *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY)),
@@ -186,6 +230,8 @@ OF_LEG = (
         TURNING,
         JOINT_ANGLE,
         JOINT_ANGLE_DIRECTION,
+        JOINT_SINCE_REVERSAL,
+        TURNING_BY_ANGLE,
         PLATFORM_TURNING,
         PLATFORM_ANGLE,
         SWING,
@@ -228,6 +274,11 @@ def periodic(column: str, period: float) -> Variable:
     name = f"{period:.7g}"
     of = {"time": ("time_s", "s", "time"), "position": ("sliders_mm", "mm", "position of the slider")}
     return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
+
+
+def with_period(variable: Variable, period: float) -> Variable:
+    """Return a variable of `periodic` with another period, as many splines as before."""
+    return replace(periodic(variable.name.partition("_period@")[0], period), count=variable.count)
 
 
 def numbered(name: str) -> Variable | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hexdbb.errors import InputError
 from hexdbb.learned import FINER, Learned, Space
 from hexdbb.model.entries import LearnedEntry
@@ -50,6 +52,8 @@ def learned_effect(name: str, entry: LearnedEntry) -> LearnedEffect:
         raise InputError(f"{name}: period {entry.period:g} (expected {'> 0' if variable.period else '0'})")
     if entry.warp_width > 0.0 and not variable.signed:
         raise InputError(f"{name}: warp_width {entry.warp_width:g} (expected 0)")
+    if variable.signed and entry.warp_width == 0.0:
+        hypothesis = replace(hypothesis, variable=replace(hypothesis.variable, is_even=True))
     space = Space(
         hypothesis,
         entry.low,

@@ -27,8 +27,8 @@ def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float
 
     Parameters
     ----------
-    weighted : ndarray, shape (n,)
-        Residual times its response to a push.
+    weighted : ndarray, shape (n,) or (n, c)
+        Residual times its response to a push, along each of c axes.
     values : ndarray, shape (n,)
     highest : float
         Highest frequency sought, in turns per unit of `values`.
@@ -43,7 +43,9 @@ def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float
         return None
     cell = np.minimum(((values - values.min()) / spread * CELLS).astype(np.intp), CELLS - 1)
     padded = OVERSAMPLED * CELLS
-    power = np.abs(np.fft.rfft(np.bincount(cell, weighted, CELLS), padded)) ** 2
+    axes = weighted.reshape(len(values), -1).T
+    power = sum(np.abs(np.fft.rfft(np.bincount(cell, axis, CELLS), padded)) ** 2 for axis in axes)
+    power = np.asarray(power)
     frequency = np.arange(len(power)) * CELLS / padded / spread
     allowed = (frequency >= LEAST_TURNS / spread) & (frequency <= min(highest, PER_CELL * CELLS / spread))
     if not allowed.any():
@@ -51,10 +53,10 @@ def strongest_frequency(weighted: FloatArray, values: FloatArray, highest: float
     coarse = float(frequency[allowed][int(np.argmax(power[allowed]))])
     near = coarse + np.linspace(-0.5, 0.5, REFINED) / spread / OVERSAMPLED
     # Evenly spaced frequencies: each wave is the one before, turned a little further.
-    wave, turn = weighted * np.exp(2j * np.pi * near[0] * values), np.exp(2j * np.pi * (near[1] - near[0]) * values)
+    wave, turn = axes * np.exp(2j * np.pi * near[0] * values), np.exp(2j * np.pi * (near[1] - near[0]) * values)
     strength = np.empty(REFINED)
     for place in range(REFINED):
-        strength[place] = np.abs(wave.sum()) ** 2
+        strength[place] = np.sum(np.abs(wave.sum(axis=1)) ** 2)
         wave *= turn
     return float(near[int(np.argmax(strength))])
 

@@ -22,7 +22,7 @@ OWN = {
     "swing_angle_rad": ("leg", "rad", "angle of the leg about its guideway, from the guideway's sideways axis"),
     "swing_rate_rad_s": ("leg", "rad/s", "rate of the leg's swing about its guideway"),
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
-    "bar_angle_rad": ("sample", "rad", "polar angle less the yaw of the nominal platform"),
+    "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}

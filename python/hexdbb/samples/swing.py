@@ -6,7 +6,7 @@ central difference along the slider's smoothed velocity, so that the encoders' s
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,17 +24,39 @@ STEP_S = 1e-3
 lengths over which the swing bends."""
 
 
-def derived_columns(machine: MachineFile, columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6), (n, 6), (n,) and (n,); rad, rad/s, rad and s."""
+def derived_columns(
+    machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
+) -> dict[str, NDArray[Any]]:
+    """Return the columns `DERIVED`: (n, 6), (n, 6), (n,) and (n,); rad, rad/s, rad and s.
+
+    Parameters
+    ----------
+    machine : MachineFile
+    columns : mapping of str to ndarray
+        Those that are there already.
+    set_ups : sequence of SetUp
+        That the column ``set_up`` counts.
+    """
     sliders_mm, way_mm = columns["sliders_mm"], STEP_S * np.nan_to_num(columns["velocity_mm_s"])
     later, earlier = _swing(machine, sliders_mm + way_mm), _swing(machine, sliders_mm - way_mm)
-    _, rotation, _ = forward(machine, sliders_mm)
     return {
         "swing_angle_rad": _swing(machine, sliders_mm),
         "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
-        "bar_angle_rad": columns["angle_rad"] - np.arctan2(rotation[:, 1, 0], rotation[:, 0, 0]),
+        "bar_angle_rad": _bar_angle(machine, sliders_mm, columns["set_up"], set_ups),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
     }
+
+
+def _bar_angle(
+    machine: MachineFile, sliders_mm: Floats, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_core.SetUp]
+) -> Floats:
+    """Return the angle of the bar about the platform's z, of the nominal machine; shape (n,)."""
+    position_mm, rotation, _ = forward(machine, sliders_mm)
+    cup_mm = np.array([each.cup_mm for each in set_ups])[set_up]
+    ball_mm = np.array([each.ball_offset_mm for each in set_ups])[set_up]
+    bar_mm = np.einsum("nij,ni->nj", rotation, position_mm - cup_mm) + ball_mm
+    found: Floats = np.arctan2(bar_mm[:, 1], bar_mm[:, 0])
+    return found
 
 
 def _begin_s(time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:

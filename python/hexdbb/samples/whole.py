@@ -66,7 +66,7 @@ class Whole:
                 self.columns |= self._derived_state()
             elif name in DERIVED:
                 self.column("velocity_mm_s")
-                self.columns |= derived_columns(self.machine, self.columns)
+                self.columns |= derived_columns(self.machine, self.columns, self.set_ups)
         return self.columns.get(name)
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:

@@ -57,8 +57,8 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     set_up = _core.SetUp(cup_mm=np.zeros(3), ball_offset_mm=np.zeros(3), bar_length_mm=100.0)
     block = _core.Samples(sliders_mm=sliders_mm, set_up=zeros, mount=zeros, set_ups=[set_up], state=state)
     block.derive(engine_machine(machine))
-    columns = {**block.state, "sliders_mm": sliders_mm}
-    columns |= derived_columns(machine, columns)
+    columns = {**block.state, "sliders_mm": sliders_mm, "set_up": zeros}
+    columns |= derived_columns(machine, columns, [set_up])
     columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
     return Table(columns, machine), block
 

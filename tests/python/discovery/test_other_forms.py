@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from hexdbb.discovery import discover
+from hexdbb.ledger import add_effect
+from hexdbb.model import new_model
+from hexdbb.samples import Samples
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case
 
@@ -30,3 +34,30 @@ def test_a_gauge_that_drifts_is_not_put_down_to_legs_for_sure() -> None:
     (found,) = line["found"]
     assert found["name"] == "leg_thermal"
     assert "learned:reading:time" in found["rivals"]
+
+
+def test_a_form_that_nothing_explains_is_no_other_cause() -> None:
+    """A delay that jitters by 20 %: what is left is white, and more than its exact form may leave unasked."""
+    record = case("sample_delay-d20-x10-calibrate-s1").record()
+    samples = Samples.of([record])
+    added = add_effect(samples, new_model(record.machine), "sample_delay").model
+    found = discover(samples, added)
+    assert found.verdict == "none"
+    assert found.sentence.startswith("no other cause is missing: what is left is the form of")
+    assert found.sufficiency.matters
+
+
+def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
+    """Rails that meet with a step in height, called a bow."""
+    line = line_of(case("rail_joint-d0-x100-calibrate-s0"), ())
+    assert line["found"][0]["name"] == "straightness:3"
+    assert line["found"][0]["refinements"] == ("learned:vertical:3:fine_position",)
+    circle = line["heldout"]["circle"]
+    assert circle["after"] < 1.3 < 50.0 < circle["before"]
+
+
+def test_play_that_is_learned_predicts_what_it_does_at_reversals() -> None:
+    line = line_of(case("backlash-d10-x30-calibrate-s0"), ["backlash"])
+    (found,) = line["found"]
+    assert "learned:slider:1:since_reversal_travel_alike" in found["refinements"]
+    assert line["heldout"]["circle"]["after"] < 1.3

@@ -152,7 +152,7 @@ def test_what_is_not_there_is_refused_by_name(samples: Samples, before: Model, n
 
 
 def test_every_hypothesis_is_found_by_its_name_and_reaches_its_port(planned: Samples) -> None:
-    for hypothesis in hypotheses():
+    for hypothesis in (*hypotheses(), *hypotheses(of_forms=True)):
         assert Learned.parse(hypothesis.name) == hypothesis
     names = ["learned:lateral:2:position", "learned:platform_joint:3:constant", "learned:ball:time"]
     for name in names:

@@ -50,6 +50,32 @@ def test_smooth_functions_of_large_values_can_still_be_said(columns: Rows) -> No
     assert left_of(space, columns, values**3, 1) < 0.01
 
 
+@pytest.mark.parametrize("power", [1, 2, 3])
+def test_even_splines_say_powers_exactly(columns: Rows, power: int) -> None:
+    every = {each.variable.is_even: each for each in Learned.parse("learned:slider:2:velocity").variants()}
+    space = Space.of(every[True], columns, LEAD_MM)
+    assert space.hypothesis.name == every[False].name
+    assert left_of(space, columns, columns["velocity_mm_s"][:, 1] ** power, 1) < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("name", "counts"),
+    [
+        ("learned:slider:2:velocity", [12, 12, 24, 48]),
+        ("learned:slider:2:position", [14, 28, 56]),
+        ("learned:slider:2:position_period@7.3", [8, 16, 32]),
+        ("learned:slider:2:direction", []),
+        ("learned:slider:2:step@3.5", []),
+    ],
+)
+def test_variants_have_the_same_name_and_other_splines(name: str, counts: list[int]) -> None:
+    plain = Learned.parse(name)
+    variants = list(plain.variants())
+    assert sorted(each.variable.count for each in variants) == counts
+    assert {each.name for each in variants} <= {name}
+    assert all(list(each.variants()) == variants for each in variants)
+
+
 def test_points_of_the_table_rise_and_span_the_range(columns: Rows) -> None:
     space = Space.of(Learned.parse("learned:slider:2:velocity"), columns, LEAD_MM)
     points, values = space.points(), columns["velocity_mm_s"][:, 1]
