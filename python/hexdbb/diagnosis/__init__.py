@@ -3,7 +3,7 @@
 from hexdbb.diagnosis.extrapolation import ExpectedError, expected_error
 from hexdbb.diagnosis.fit import Fit, diagnose, evaluate_fit, fit_free, refitter
 from hexdbb.diagnosis.heldout import HeldOut, Refit, as_it_is, held_out
-from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
+from hexdbb.diagnosis.judging import JudgingNoise, explains_changes, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
 from hexdbb.diagnosis.mounts import fit_mounts
 from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_noise
@@ -30,6 +30,7 @@ __all__ = [
     "diagnose",
     "evaluate_fit",
     "expected_error",
+    "explains_changes",
     "fit_free",
     "fit_mounts",
     "held_out",

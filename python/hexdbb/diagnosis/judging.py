@@ -9,7 +9,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, stated_noise
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.diagnosis.noise import Noise, lap_differences, noise_of, residual_repeats_to, stated_noise
 from hexdbb.diagnosis.whiteness import is_white
 from hexdbb.samples import Samples
 
@@ -24,6 +27,13 @@ class JudgingNoise:
     noise: Noise
     remark: str | None = None
     is_steady: bool = True
+
+
+def explains_changes(samples: Samples, residual_mm: NDArray[np.float64], judging: JudgingNoise) -> bool:
+    """Check that a model explains what differs from lap to lap: what it leaves repeats as well as is stated."""
+    if judging.is_steady:
+        return True
+    return residual_repeats_to(samples, residual_mm) < UNSTEADY * judging.noise.sigma_mm
 
 
 def judging_noise(samples: Samples, estimated: Noise | None = None) -> JudgingNoise:

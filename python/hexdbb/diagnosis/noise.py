@@ -70,6 +70,12 @@ def noise_of(samples: Samples) -> Noise:
     return Noise(_robust_sigma(np.concatenate(rough)), "roughness")
 
 
+def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
+    """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated."""
+    repeated = list(lap_differences(samples, residual_mm))
+    return _robust_sigma(np.concatenate(repeated)) if repeated else float("inf")
+
+
 def stated_noise(samples: Samples) -> Noise | None:
     """Return the noise as the gauges' specifications state it, the noisiest; None where one of them states none."""
     stated = [samples.records[each].gauge.stated_noise_mm for each in np.unique(samples["record"])]
@@ -90,10 +96,18 @@ def _robust_sigma(values: Floats) -> float:
     return max(sigma, LEAST_NOISE_MM)
 
 
-def lap_differences(samples: Samples) -> Iterator[Floats]:
-    """Yield the differences of consecutive laps at one angle, in units of one reading's noise."""
+def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iterator[Floats]:
+    """Yield the differences of consecutive laps at one angle, in units of one reading's noise.
+
+    Parameters
+    ----------
+    samples : Samples
+    residual_mm : ndarray, shape (n,), optional
+        What a model leaves of their readings; the readings themselves where not given.
+    """
+    whole_mm = samples.reading_mm if residual_mm is None else residual_mm
     for rows in samples.sweeps():
-        lap, angle, reading_mm = samples["lap"][rows], samples["angle_rad"][rows], samples.reading_mm[rows]
+        lap, angle, reading_mm = samples["lap"][rows], samples["angle_rad"][rows], whole_mm[rows]
         numbers = np.unique(lap)
         if len(numbers) > 1:
             reading_mm = _without_contour(angle, reading_mm)

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, assess_sufficiency, judging_noise
+from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, assess_sufficiency, explains_changes, judging_noise
 from hexdbb.discovery.causes import Told, told
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery
@@ -145,10 +145,11 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
 def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Discovery:
     """Add what was not measured, and what laps tell of the noise.
 
-    A machine that does not repeat does not lack nothing.
+    A machine that does not repeat does not lack nothing, unless the model explains why (a screw that warms).
     """
     found = replace(found, remarks=(*found.remarks, *not_measured_sentences(engine.samples.records)))
-    if judging.remark is None:
+    explained = not judging.is_steady and explains_changes(engine.samples, engine.residual_mm, judging)
+    if judging.remark is None or explained:
         return found
     found = replace(found, remarks=(*found.remarks, judging.remark))
     if judging.is_steady or found.verdict != "none":

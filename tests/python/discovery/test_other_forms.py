@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from hexdbb.diagnosis import judging_noise
 from hexdbb.discovery import discover
 from hexdbb.ledger import add_effect
 from hexdbb.model import new_model
@@ -45,6 +46,15 @@ def test_a_form_that_nothing_explains_is_no_other_cause() -> None:
     assert found.verdict == "none"
     assert found.sentence.startswith("no other cause is missing: what is left is the form of")
     assert found.sufficiency.matters
+
+
+def test_laps_that_differ_since_a_screw_warms_repeat_once_that_is_known() -> None:
+    record = case("screw_thermal-d20-x10-calibrate-s1").record()
+    samples = Samples.of([record])
+    before = new_model(record.machine).with_mounts(samples.mounts)
+    assert not judging_noise(samples).is_steady
+    added = add_effect(samples, before, "screw_thermal:4").model
+    assert discover(samples, added).verdict == "none"
 
 
 def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
