@@ -68,6 +68,12 @@ COMMANDS = (
         ("compare", "{record}", "-m", "{model}", "--plot", "{folder}/c"),
         2.5,
     ),
+    Command(
+        "compare, all pages, no cause",
+        35_000,
+        ("compare", "{record}", "-m", "{model}", "--plot", "{folder}/a", "--pages", "all", "--no-cause"),
+        4.0,
+    ),
     Command("report", 35_000, ("report", "{record}", "-m", "{model}", "-o", "{folder}/r.html", "--overwrite"), 4.0),
 )
 """Rows of the table. All of one machine with a fault that its model lacks: what takes longest."""

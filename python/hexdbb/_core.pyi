@@ -17,6 +17,7 @@ __all__: list[str] = [
     "CompensationError",
     "CompensationTable",
     "Compensator",
+    "DesignSums",
     "EffectInfo",
     "FitResult",
     "Identifiability",
@@ -33,6 +34,7 @@ __all__: list[str] = [
     "autocorrelation_time",
     "chi_square_tail",
     "compensation_of",
+    "design_sums",
     "effect_info",
     "effect_names",
     "effect_pushes",
@@ -41,7 +43,6 @@ __all__: list[str] = [
     "forward_one",
     "forward_six_one",
     "forward_table",
-    "grouped_sums",
     "guideway_axes",
     "guideway_direction",
     "guideway_midpoint",
@@ -523,6 +524,21 @@ class FitResult:
         Shape (size,), engine units.
         """
 
+class DesignSums:
+    """
+    Sums of a design W over each group of its rows, with a table T.
+    """
+    @property
+    def cross(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        W'T of one group after another, shape (groups * columns, k).
+        """
+    @property
+    def square(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        W'W of one group after another, shape (groups * columns, columns).
+        """
+
 class CompensationError(ValueError):
     pass
 
@@ -730,6 +746,36 @@ def compensation_of(
         Content hashes of the records the model was fitted to.
     """
 
+def design_sums(
+    place: typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, n]", "flags.c_contiguous"],
+    weight: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    group: typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"],
+    table: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
+    columns: typing.SupportsInt | typing.SupportsIndex,
+    groups: typing.SupportsInt | typing.SupportsIndex,
+) -> DesignSums:
+    """
+    Return the sums of a design and a table over each group of their rows.
+
+    Parameters
+    ----------
+    place : ndarray of int32, shape (n, parts)
+        Column of each entry of the design.
+    weight : ndarray, shape (n, parts)
+        The entries; those of one place add up.
+    group : ndarray of int32, shape (n,)
+        Group of each row, from 0; below 0 for none.
+    table : ndarray, shape (n, k)
+    columns : int
+        Of the design.
+    groups : int
+
+    Raises
+    ------
+    ValueError
+        Shapes that differ, or a place or group out of range.
+    """
+
 def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
     """
     Return the description of an effect.
@@ -858,29 +904,6 @@ def forward_table(
 ]:
     """
     Compute the platform's poses, (n, 12) as x, y, z in mm and the rotation row by row, and their status, (n,).
-    """
-
-def grouped_sums(
-    group: typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, n]", "flags.c_contiguous"],
-    weight: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
-    table: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]", "flags.c_contiguous"],
-    groups: typing.SupportsInt | typing.SupportsIndex,
-) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-    """
-    Return the sums of a table's weighted rows by group, W'T, shape (groups, k).
-
-    Parameters
-    ----------
-    group : ndarray of int32, shape (n, parts)
-        Group of each row and part, from 0.
-    weight : ndarray, shape (n, parts)
-    table : ndarray, shape (n, k)
-    groups : int
-
-    Raises
-    ------
-    ValueError
-        Shapes that differ, or a group out of range.
     """
 
 def guideway_axes(

@@ -92,20 +92,22 @@ def least_squares_circle(points_mm: FloatArray) -> FittedCircle:
     return FittedCircle(centre_mm=centre + origin, radius_mm=float(rho.mean()))
 
 
-def minimum_zone(points_mm: FloatArray) -> Zone:
+def minimum_zone(points_mm: FloatArray, near_mm: FloatArray | None = None) -> Zone:
     """Find the two concentric circles of smallest radial separation that enclose the points.
 
     Parameters
     ----------
     points_mm : (n, 2) array
         At least four points, seen from their centre at different angles.
+    near_mm : (2,) array, optional
+        Centre of their least squares circle, where it is known: there the search begins.
 
     Raises
     ------
     InputError
         Fewer than four points at different angles, or all on one line.
     """
-    centre = least_squares_circle(points_mm).centre_mm
+    centre = least_squares_circle(points_mm).centre_mm if near_mm is None else near_mm
     rho, direction = _polar(points_mm, centre)
     tolerance_mm = _RELATIVE_TOLERANCE * float(rho.mean())
     contacts: Contacts | None = None

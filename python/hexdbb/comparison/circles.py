@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -101,7 +102,7 @@ class CircleComparison:
         """Root mean square of the residual of all its samples."""
         return root_mean_square(np.concatenate([part.residual_mm for part in self.directions]))
 
-    @property
+    @cached_property
     def both_directions(self) -> BothDirections | None:
         """Residuals of both directions combined; None where one is missing."""
         if len(self.directions) < 2:
@@ -109,7 +110,7 @@ class CircleComparison:
         ccw, cw = ((part.angle_rad, part.residual_mm) for part in self.directions)
         return both_directions(ccw, cw)
 
-    @property
+    @cached_property
     def set_up_centre_mm(self) -> FloatArray | None:
         """Centre offset (2,) of the measured paths, least squares; None where no direction is a full circle."""
         full = [part.measured for part in self.directions if part.measured.is_full_circle]

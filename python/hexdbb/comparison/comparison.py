@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from hexdbb.comparison.bystanders import marked
 from hexdbb.comparison.circles import CircleComparison, compare_circles, root_mean_square
 from hexdbb.comparison.iso230 import FloatArray
-from hexdbb.comparison.json_form import ComparisonJson
 from hexdbb.comparison.notebook import comparison_html
 from hexdbb.comparison.radial import RadialError, radial_errors
 from hexdbb.comparison.tables import comparison_text
@@ -23,11 +24,14 @@ from hexdbb.files.frames import to_frame
 from hexdbb.files.plain_text import plain_text
 from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
+from hexdbb.processes import beside
 from hexdbb.samples import Samples, predict
 from hexdbb.threads import one_thread
 
 if TYPE_CHECKING:
     from hexdbb.discovery import LikelyCause
+
+R = TypeVar("R")
 
 WORST_COUNT = 5
 """Number of worst arcs listed: as many as are read."""
@@ -85,6 +89,8 @@ class Comparison:
 
     def to_json(self) -> dict[str, Any]:
         """Return the object `hexdbb compare --json` prints: micrometres, None where a quantity cannot be evaluated."""
+        from hexdbb.comparison.json_form import ComparisonJson  # only --json needs it
+
         return ComparisonJson.of(self).to_json()
 
     def __str__(self) -> str:
@@ -105,7 +111,9 @@ class Comparison:
 
 
 @one_thread
-def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Comparison:
+def compare(
+    samples: Samples, model: Model, *, find_cause: bool = True, meanwhile: Callable[[], object] | None = None
+) -> Comparison:
     """Compare the readings of samples with those that a model predicts.
 
     The cups of mounts that the model does not know are fitted first, all else held; `Comparison.fitted_mounts` states
@@ -119,6 +127,10 @@ def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Compa
     find_cause : bool
         Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
         20,000 samples.
+    meanwhile : callable, optional
+        For a command, which has the computer to itself: what takes longest, the likely cause or without it the ranking
+        of predictors, is then computed in a process of its own where that is possible (`hexdbb.processes.beside`), and
+        this is called while it is.
 
     Raises
     ------
@@ -129,13 +141,41 @@ def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Compa
     _require_samples(samples)
     known, fitted = fit_mounts(samples, model)
     predicted = predict(samples, known)
-    cause = None
-    if find_cause:
+    pushes = cache(lambda: Pushes.of(samples, known))
+    noise_mm = noise_of(samples).sigma_mm
+
+    def cause() -> LikelyCause | None:
         from hexdbb.discovery import likely_cause  # a quarter of the start of a comparison without
 
-        cause = likely_cause(samples, known, predicted.residual_mm)
-    noise_mm = noise_of(samples).sigma_mm
-    return compare_readings(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, cause)
+        return likely_cause(samples, known, predicted.residual_mm)
+
+    def ranked() -> list[Predictor]:
+        return rank_predictors(samples, predicted.residual_mm, pushes(), noise_mm)
+
+    compared = partial(_compared, samples, predicted.reading_mm, pushes, noise_mm, fitted)
+    # What takes longest is computed apart; not with a user's function, which may do more than return.
+    apart = meanwhile is not None and not known.own_effects
+    if find_cause:
+        with _apart(cause, apart) as found:
+            return compared(ranked, _after(meanwhile, found))
+    with _apart(ranked, apart) as predictors:
+        return compared(_after(meanwhile, predictors), _no_cause)
+
+
+def _apart(function: Callable[[], R], is_apart: bool) -> AbstractContextManager[Callable[[], R]]:
+    """Let a function be computed in a process of its own, or where it is called."""
+    return beside(function) if is_apart else nullcontext(function)
+
+
+def _after(first: Callable[[], object] | None, function: Callable[[], R]) -> Callable[[], R]:
+    """Return the function, called after another."""
+
+    def both() -> R:
+        if first is not None:
+            first()
+        return function()
+
+    return both
 
 
 def compare_readings(
@@ -173,25 +213,51 @@ def compare_readings(
         No samples in a record, or predictions that do not belong to the samples.
     """
     _require_samples(samples)
+
+    def ranked() -> list[Predictor]:
+        return rank_predictors(samples, samples.reading_mm - predicted_mm, pushes, noise_mm)
+
+    return _compared(
+        samples, predicted_mm, lambda: pushes, noise_mm, fitted_mounts, ranked, lambda: cause, is_commanded=is_commanded
+    )
+
+
+def _compared(
+    samples: Samples,
+    predicted_mm: FloatArray,
+    pushes: Callable[[], Pushes | None],
+    noise_mm: float,
+    fitted_mounts: Sequence[str],
+    ranked: Callable[[], list[Predictor]],
+    sought: Callable[[], LikelyCause | None],
+    is_commanded: bool = False,
+) -> Comparison:
+    """Compare as `compare_readings` does; what may be computed apart is asked for last, the likely cause after all."""
     _check_prediction(samples, predicted_mm)
     residual_mm = samples.reading_mm - predicted_mm
     circles = compare_circles(samples, predicted_mm)
-    predictors = rank_predictors(samples, residual_mm, pushes, noise_mm)
+    worst = tuple(worst_arcs(circles, WORST_COUNT))
+    predictors = ranked()
+    cause = sought()
     if cause is not None:
-        predictors = marked(predictors, samples, residual_mm, pushes, noise_mm, cause)
+        predictors = marked(predictors, samples, residual_mm, pushes(), noise_mm, cause)
     return Comparison(
         samples=samples,
         predicted_mm=predicted_mm,
         residual_mm=residual_mm,
         circles=tuple(circles),
         radial=radial_errors(circles),
-        worst=tuple(worst_arcs(circles, WORST_COUNT)),
+        worst=worst,
         worst_samples=worst_samples(samples, residual_mm, cause, noise_mm),
         predictors=tuple(predictors),
         fitted_mounts=tuple(fitted_mounts),
         cause=cause,
         is_commanded=is_commanded,
     )
+
+
+def _no_cause() -> None:
+    return None
 
 
 def _require_samples(samples: Samples) -> None:

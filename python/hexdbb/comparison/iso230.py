@@ -22,11 +22,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from hexdbb.comparison.circle_fit import least_squares_circle, minimum_zone
+from hexdbb.comparison.circle_fit import FittedCircle, least_squares_circle, minimum_zone
 from hexdbb.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]
@@ -56,13 +57,18 @@ class Path:
     deviation_mm: FloatArray
     nominal_radius_mm: float
 
-    @property
+    @cached_property
     def points_mm(self) -> FloatArray:
         """The path in its plane, (n, 2), origin at the nominal centre."""
         radius = self.nominal_radius_mm + self.deviation_mm
         return np.column_stack([radius * np.cos(self.angle_rad), radius * np.sin(self.angle_rad)])
 
-    @property
+    @cached_property
+    def least_squares(self) -> FittedCircle:
+        """The least squares circle through the path, origin at the nominal centre."""
+        return least_squares_circle(self.points_mm)
+
+    @cached_property
     def is_full_circle(self) -> bool:
         """Whether no arc longer than `MAX_GAP_RAD` is without a sample."""
         gaps = np.diff(self.angle_rad, append=self.angle_rad[0] + FULL_TURN_RAD)
@@ -144,15 +150,16 @@ def circular_deviation_mm(path: Path) -> float:
     ISO 230-4:2005 (2022: circular error). The zone is found exactly, see `circle_fit`; it does not depend on
     where the set-up put the centre.
     """
-    return minimum_zone(path.points_mm).width_mm
+    return minimum_zone(path.points_mm, path.least_squares.centre_mm).width_mm
 
 
-def bidirectional_circular_deviation_mm(ccw: Path, cw: Path) -> float:
+def bidirectional_circular_deviation_mm(ccw: Path, cw: Path, centre_mm: FloatArray | None = None) -> float:
     """Return the bi-directional circular deviation G(b): the minimum zone that encloses both directions' actual paths.
 
     ISO 230-4:2005 (2022: bi-directional circular error). Never smaller than either direction's G.
+    `centre_mm` is `set_up_centre_mm` of both where it is known.
     """
-    return minimum_zone(np.vstack([ccw.points_mm, cw.points_mm])).width_mm
+    return minimum_zone(np.vstack([ccw.points_mm, cw.points_mm]), centre_mm).width_mm
 
 
 def circular_hysteresis_mm(ccw: Path, cw: Path) -> float:
@@ -191,5 +198,5 @@ def mean_bidirectional_radial_deviation_mm(ccw: Path, cw: Path) -> float:
 
     ISO 230-4:2005 (2022: mean bi-directional radial error). Positive when the machine's circle is too large.
     """
-    radii = [least_squares_circle(path.points_mm).radius_mm for path in (ccw, cw)]
+    radii = [path.least_squares.radius_mm for path in (ccw, cw)]
     return float(np.mean(radii)) - ccw.nominal_radius_mm

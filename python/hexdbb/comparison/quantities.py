@@ -54,9 +54,9 @@ class Quantity:
     evaluate: Callable[[Measurand], float | None]
 
 
-def _of_both(evaluate: Callable[[Path, Path], float]) -> Callable[[Measurand], float | None]:
+def _of_both(evaluate: Callable[[Path, Path, FloatArray], float]) -> Callable[[Measurand], float | None]:
     def when_both(measurand: Measurand) -> float | None:
-        return None if measurand.other is None else evaluate(measurand.own, measurand.other)
+        return None if measurand.other is None else evaluate(measurand.own, measurand.other, measurand.centre_mm)
 
     return when_both
 
@@ -76,13 +76,19 @@ QUANTITIES: tuple[Quantity, ...] = (
         True,
         _of_both(iso230.bidirectional_circular_deviation_mm),
     ),
-    Quantity("circular_hysteresis", "H", "circular hysteresis", True, _of_both(iso230.circular_hysteresis_mm)),
+    Quantity(
+        "circular_hysteresis",
+        "H",
+        "circular hysteresis",
+        True,
+        _of_both(lambda ccw, cw, _: iso230.circular_hysteresis_mm(ccw, cw)),
+    ),
     Quantity(
         "mean_bidirectional_radial_deviation",
         "D",
         "mean bi-directional radial deviation",
         True,
-        _of_both(iso230.mean_bidirectional_radial_deviation_mm),
+        _of_both(lambda ccw, cw, _: iso230.mean_bidirectional_radial_deviation_mm(ccw, cw)),
     ),
     Quantity(
         "radial_deviation_max",

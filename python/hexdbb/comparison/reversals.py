@@ -8,6 +8,7 @@ import numpy as np
 
 from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows
 
 APART_DEG = 10.0
 """Distance from which two reversals of one slider are two: it reverses where its velocity changes sign, twice a turn
@@ -38,7 +39,7 @@ def reversals(part: Samples) -> tuple[Reversal, ...]:
     tuple of Reversal
         By angle.
     """
-    laps = len(np.unique(np.column_stack([part["sweep"], part["lap"]]), axis=0))
+    laps = len(distinct_rows(part["sweep"], part["lap"])[0])
     travel, angle_deg = part["travel_direction"], np.degrees(part["angle_rad"]) % TURN_DEG
     same_sweep = np.diff(part["sweep"]) == 0
     found = []

@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.diagnosis.heldout import HeldOut
-from hexdbb.diagnosis.json_form import DiagnosisJson, PlaceSigmaJson, value_json
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.diagnosis.place_uncertainty import PlaceUncertainty, place_uncertainty
 from hexdbb.diagnosis.sufficiency import Sufficiency
@@ -131,6 +130,8 @@ class Diagnosis:
 
     def to_json(self) -> dict[str, Any]:
         """Return the object that ``hexdbb diagnose --json`` prints."""
+        from hexdbb.diagnosis.json_form import DiagnosisJson, PlaceSigmaJson, value_json  # only --json needs them
+
         return DiagnosisJson(
             rms_before_um=self.rms_before_um,
             rms_after_um=self.rms_after_um,

@@ -7,15 +7,18 @@ warns by this answer, `discover` gives its verdict `none` by it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis.json_form import SufficiencyJson
 from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
+
+if TYPE_CHECKING:
+    from hexdbb.diagnosis.json_form import SufficiencyJson
 
 Floats = NDArray[np.float64]
 
@@ -76,6 +79,8 @@ class Sufficiency:
 
     def to_json(self) -> SufficiencyJson:
         """Return the object as commands print it."""
+        from hexdbb.diagnosis.json_form import SufficiencyJson  # only --json needs it
+
         lack = self.lack_of_fit
         return SufficiencyJson(
             sufficient=self.is_sufficient,

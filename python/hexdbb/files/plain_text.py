@@ -5,13 +5,16 @@ from __future__ import annotations
 import io
 import unicodedata
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
 from rich.table import Table
 
 from hexdbb.files.whole_tables import whole
+
+if TYPE_CHECKING:
+    from rich.status import Status
 
 WIDTH = 110
 """Characters a line: commands print as wide where they are redirected."""
@@ -49,11 +52,19 @@ class TextConsole(Console):
         """See `rich.console.Console.print`; lines are never cut at the console's edge."""
         super().print(*objects, **{"crop": False, **options})
 
+    def status(self, status: RenderableType, **options: Any) -> Status:
+        """See `rich.console.Console.status`; away from a terminal nothing is shown, and nothing loaded to show it."""
+        return super().status(status, **options) if self.is_terminal else cast("Status", _Unseen())
+
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
         """See `rich.console.Console.render`; colours are added to these segments later."""
         options = options or self.options
         for segment in self._segments(renderable, options):
-            yield segment if segment.control else segment._replace(text=printable(segment.text))
+            text = segment.text
+            if segment.control or text.isprintable() or text == "\n":  # nearly all of them
+                yield segment
+            else:
+                yield segment._replace(text=printable(text))
 
     def _segments(self, renderable: RenderableType, options: ConsoleOptions) -> Iterable[Segment]:
         # Without headings it is the layout of something else, such as a progress bar.
@@ -62,6 +73,19 @@ class TextConsole(Console):
                 yield from super().render(part, options)
         else:
             yield from super().render(renderable, options)
+
+
+class _Unseen:
+    """A status that nobody sees, as far as commands use one."""
+
+    def __enter__(self) -> _Unseen:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Do nothing."""
+
+    def update(self, *_: object, **__: object) -> None:
+        """Do nothing."""
 
 
 def plain_text(shown: RenderableType) -> str:

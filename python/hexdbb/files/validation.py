@@ -104,9 +104,12 @@ EXPECTED = {
 
 
 class StrictModel(BaseModel):
-    """Part of a file: unknown keys and values of another type are errors; instances are immutable."""
+    """Part of a file: unknown keys and values of another type are errors; instances are immutable.
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    pydantic compiles what validates it when the first instance is made: a command needs a third of all parts.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, defer_build=True)
 
 
 class FileModel(StrictModel):

@@ -32,6 +32,8 @@ ROUNDING = 1e-9
 """Displacements below this part of the largest are rounding of double precision."""
 MAX_ROWS = 256
 """Samples whose displacements are compared: some twenty for each circle of a plan, in both directions."""
+AT_ONCE = 32
+"""Samples whose displacements are computed at once: they fit a processor's cache, all do not."""
 AXES = "xyz"
 
 
@@ -39,10 +41,13 @@ AXES = "xyz"
 class Displacements:
     """What a model's values displace, to first order at the nominal machine.
 
+    The displacements of all places in many samples are some ten thousand rows. Kept are fewer, which have the same
+    inner products of columns: only these are asked for.
+
     Attributes
     ----------
     per_value : ndarray, shape (rows, size)
-        Displacements in every sample, one after another, mm per engine unit of the value.
+        Displacements, mm per engine unit of the value.
     shifts, turns : ndarray, shape (rows, 3)
         What rigid motions of base and cup displace, mm per mm along and mm per rad about x, y, z.
     """
@@ -54,7 +59,13 @@ class Displacements:
     @classmethod
     def of(cls, samples: Samples, model: Model) -> Displacements:
         """Compute the displacements in some of the samples, evenly chosen."""
-        few = samples.part(np.unique(np.linspace(0, len(samples) - 1, MAX_ROWS).astype(np.intp)))
+        rows = np.unique(np.linspace(0, len(samples) - 1, MAX_ROWS).astype(np.intp))
+        parts = np.split(rows, range(AT_ONCE, len(rows), AT_ONCE))
+        return cls._joined([cls._in_all(samples.part(part), model).compressed() for part in parts]).compressed()
+
+    @classmethod
+    def _in_all(cls, few: Samples, model: Model) -> Displacements:
+        """Compute the displacements in all samples, one after another."""
         guideways = np.arange(6) // 2
         machine = engine_machine(model.machine)
         along = np.array([_core.guideway_direction(machine, each) for each in guideways])
@@ -72,6 +83,11 @@ class Displacements:
             _rows([at_joints, pushes["cup"], *others]),
             *(np.column_stack([_padded(each, rest) for each in motions]) for motions in (shifts, turns)),
         )
+
+    @classmethod
+    def _joined(cls, parts: Sequence[Displacements]) -> Displacements:
+        each = ([part.per_value for part in parts], [part.shifts for part in parts], [part.turns for part in parts])
+        return cls(*map(np.concatenate, each))
 
     def compressed(self) -> Displacements:
         """Return as few rows as there are columns that have the same inner products, to rounding of single ones."""
@@ -113,7 +129,6 @@ def redundancies(
     list of Redundancy
         Linearly independent.
     """
-    displaced = displaced.compressed()
     per_mm = displaced.per_value / levers_mm
     basis, _ = np.linalg.qr(null)
     found = [*_same_motions(per_mm, parameters), *_rigid_motions(per_mm, displaced)]

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from hexdbb.files.frames import html_table
-from hexdbb.ledger.json_form import HistoryJson, step_json
 from hexdbb.ledger.words import arrow, deed, sentence
 from hexdbb.model import LedgerStep, Model
 
@@ -24,6 +23,8 @@ class History:
 
     def to_json(self) -> dict[str, Any]:
         """Return the object that ``hexdbb history --json`` prints."""
+        from hexdbb.ledger.json_form import HistoryJson, step_json  # only --json needs them
+
         return HistoryJson(tuple(step_json(step) for step in self.steps)).to_json()
 
     def _repr_html_(self) -> str:

@@ -5,25 +5,11 @@
     pages = comparison_pages(comparison)  # what matters first is the first
     save_figure(pages[0].draw(), Path("demo-compare"))
     save_pdf((page.draw() for page in pages), Path("demo-compare.pdf"))
+
+Each function is loaded when it is first used: pictures of trends need SciPy, those of a comparison do not.
 """
 
-from hexdbb.plots.analysis_pages import diagnosis_pages, discovery_pages
-from hexdbb.plots.learned import learned_figure
-from hexdbb.plots.pages import comparison_pages
-from hexdbb.plots.residual_circles import residual_figure
-from hexdbb.plots.saving import Page, save_figure, save_pages, save_pdf
-from hexdbb.plots.trend import trend_effects_figure, trend_figure
+import lazy_loader as _lazy
 
-__all__ = [
-    "Page",
-    "comparison_pages",
-    "diagnosis_pages",
-    "discovery_pages",
-    "learned_figure",
-    "residual_figure",
-    "save_figure",
-    "save_pages",
-    "save_pdf",
-    "trend_effects_figure",
-    "trend_figure",
-]
+# The names stand in __init__.pyi, once for type checkers and for loading.
+__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)

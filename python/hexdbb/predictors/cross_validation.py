@@ -177,10 +177,7 @@ class CrossValidation:
             Number of cells.
         """
         m, scale = weights.shape[1], 1.0 / self._noise_mm
-        there = np.flatnonzero(cells >= 0)
-        pushes = Design.full(weights[there] * scale)
-        sums = pushes.cross(self._table[there], cells[there], count)
-        square = pushes.square(cells[there], count)
+        square, sums = Design.full(weights * scale).sums(self._table, cells, count)
         cross, gradient = sums[:, :, :-1], sums[:, :, -1]
         square, cross, gradient = (np.cumsum(each[::-1], axis=0)[::-1] for each in (square, cross, gradient))
         projected = square - cross @ self._whole.inverse @ cross.transpose(0, 2, 1)
@@ -214,8 +211,8 @@ class CrossValidation:
 
     def _moments(self, design: Design, group: NDArray[np.int32], owns: tuple[Own, ...]) -> list[Moments]:
         """Return a hypothesis' sums over each group of samples."""
-        square = design.square(group, len(owns)) / self._noise_mm**2
-        cross = design.cross(self._table, group, len(owns)) / self._noise_mm
+        square, cross = design.sums(self._table, group, len(owns))
+        square, cross = square / self._noise_mm**2, cross / self._noise_mm
         return [Moments(square[k], cross[k, :, :-1], cross[k, :, -1], own) for k, own in enumerate(owns)]
 
     def _share(self, first: Moments, second: Moments) -> float:

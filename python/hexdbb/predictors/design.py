@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,43 +46,26 @@ class Design:
         product: FloatArray = np.sum(self.weight * values[self.place], axis=1)
         return product
 
-    def cross(self, table: FloatArray, group: NDArray[np.integer], groups: int) -> FloatArray:
-        """Return W'T over each group of rows, shape (groups, columns, k).
+    def sums(self, table: FloatArray, group: NDArray[np.integer], groups: int) -> tuple[FloatArray, FloatArray]:
+        """Return W'W and W'T over each group of rows, shapes (groups, columns, columns) and (groups, columns, k).
 
         Parameters
         ----------
         table : ndarray, shape (n, k)
         group : ndarray of int, shape (n,)
-            Group of each row, from 0.
+            Group of each row, from 0; -1 for rows that belong to none.
         groups : int
         """
-        sums = _core.grouped_sums(self._grouped(group), self.weight, table, self.columns * groups)
-        return sums.reshape(groups, self.columns, table.shape[1])
-
-    def square(self, group: NDArray[np.integer], groups: int) -> FloatArray:
-        """Return W'W over each group of rows, shape (groups, columns, columns)."""
-        row = self._grouped(group)
-        parts = range(self.place.shape[1])
-        if len(parts) == 1:  # no row has two entries
-            return self._diagonals(row[:, 0], self.weight[:, 0] ** 2, groups)
-        total = np.zeros(groups * self.columns**2)
-        for one, other in product(parts, repeat=2):
-            at = row[:, one].astype(np.intp) * self.columns + self.place[:, other]
-            total += np.bincount(at, self.weight[:, one] * self.weight[:, other], len(total))
-        return total.reshape(groups, self.columns, self.columns)
+        found = _core.design_sums(self.place, self.weight, group.astype(np.int32), table, self.columns, groups)
+        return (
+            found.square.reshape(groups, self.columns, self.columns),
+            found.cross.reshape(groups, self.columns, table.shape[1]),
+        )
 
     @property
     def squares(self) -> FloatArray:
         """Sum of squared entries of each column, shape (columns,)."""
-        squares: FloatArray = self.square(np.zeros(len(self.place), np.int32), 1)[0].diagonal()
+        count = len(self.place)
+        square, _ = self.sums(np.zeros((count, 0)), np.zeros(count, np.int32), 1)
+        squares: FloatArray = square[0].diagonal()
         return squares
-
-    def _diagonals(self, row: NDArray[np.int32], square: FloatArray, groups: int) -> FloatArray:
-        """Return diagonal matrices of the sums of squared entries by row of all groups."""
-        sums = np.bincount(row, square, groups * self.columns).reshape(groups, self.columns)
-        full = np.zeros((groups, self.columns, self.columns))
-        full[:, range(self.columns), range(self.columns)] = sums
-        return full
-
-    def _grouped(self, group: NDArray[np.integer]) -> NDArray[np.int32]:
-        return self.place + (group.astype(np.int32) * np.int32(self.columns))[:, None]
