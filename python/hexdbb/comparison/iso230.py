@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -56,13 +57,13 @@ class Path:
     deviation_mm: FloatArray
     nominal_radius_mm: float
 
-    @property
+    @cached_property
     def points_mm(self) -> FloatArray:
         """The path in its plane, (n, 2), origin at the nominal centre."""
         radius = self.nominal_radius_mm + self.deviation_mm
         return np.column_stack([radius * np.cos(self.angle_rad), radius * np.sin(self.angle_rad)])
 
-    @property
+    @cached_property
     def is_full_circle(self) -> bool:
         """Whether no arc longer than `MAX_GAP_RAD` is without a sample."""
         gaps = np.diff(self.angle_rad, append=self.angle_rad[0] + FULL_TURN_RAD)
