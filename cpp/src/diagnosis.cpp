@@ -249,6 +249,7 @@ void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd&
     return;
   }
   FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm, kFewRows);
+  few.accumulator().start_from(accumulator, few.stride());
   out.machine = machine_identifiability(model, few.accumulator(), few.stride(), unknowns, options);
   const double prior = unknowns.scaled_start().squaredNorm();
   const double at_start = 0.5 * (squared / (options.noise_mm * options.noise_mm) + prior);
@@ -274,13 +275,15 @@ Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unk
 /// Evenly spaced rows suffice: h is smooth along a circle.
 class Curvature {
  public:
-  Curvature(const Model& model, const Samples& samples, const Unknowns& unknowns, const Eigen::MatrixXd& spread,
-            double noise_mm)
+  /// `solved` has passed over the samples.
+  Curvature(const Model& model, const Samples& samples, const Accumulator& solved, const Unknowns& unknowns,
+            const Eigen::MatrixXd& spread, double noise_mm)
       : model_(model), unknowns_(unknowns) {
     const Eigen::Index stride = std::max<Eigen::Index>(1, samples.size() / kRows);
     rows_ = samples.every(stride);
     no_reading_.setZero(rows_.size());
     accumulator_ = std::make_unique<Accumulator>(rows_, no_reading_, unknowns.columns);
+    accumulator_->start_from(solved, stride);
     accumulator_->keep_jacobian();
     here_ = jacobian(Eigen::VectorXd::Zero(unknowns.size()));
     gain_ = (static_cast<double>(stride) / (noise_mm * noise_mm)) * spread * here_.transpose();
@@ -403,7 +406,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.sweep.size() != 0) out.correlation = autocorrelation_time(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
-  if (!options.hypothesis) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
+  if (!options.hypothesis) spread += Curvature(fitted, samples, accumulator, unknowns, spread, effective_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

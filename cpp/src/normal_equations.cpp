@@ -72,7 +72,18 @@ const NormalEquations& Accumulator::at(const Model& model, Sums sums) {
   return last_;
 }
 
-void Accumulator::keep_jacobian() { jacobian_.setZero(samples_.size(), static_cast<Eigen::Index>(columns_.size())); }
+void Accumulator::start_from(const Accumulator& all, Eigen::Index stride) {
+  for (Eigen::Index row = 0; row < Block::kRows * blocks_of(samples_); ++row) {
+    const Eigen::Index from = std::min(row, samples_.size() - 1) * stride;
+    memory_.blocks[row / Block::kRows].row(row % Block::kRows) =
+        all.memory_.blocks[from / Block::kRows].row(from % Block::kRows);
+  }
+}
+
+void Accumulator::keep_jacobian() {
+  jacobian_.setZero(samples_.size(), static_cast<Eigen::Index>(columns_.size()));
+  last_values_.resize(0);  // its Jacobian was not kept
+}
 
 /// Check once that the samples have what the model's effects need: that reads whole columns.
 void Accumulator::check(const Model& model) {

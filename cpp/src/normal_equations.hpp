@@ -28,7 +28,11 @@ class Accumulator {
   /// Residuals of the last at(), mm.
   const Eigen::VectorXd& residual_mm() const { return residual_mm_; }
 
-  /// Keep the Jacobian of all readings at every pass; for few samples.
+  /// Start from the solutions of all samples, of which these are every `stride`-th: far apart, they are no neighbours of
+  /// each other.
+  void start_from(const Accumulator& all, Eigen::Index stride);
+
+  /// Keep the Jacobian of all readings at every pass from now on; for few samples.
   void keep_jacobian();
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }
 
