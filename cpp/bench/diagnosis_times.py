@@ -17,6 +17,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from statistics import median
 
@@ -112,7 +113,7 @@ def measured(folder: Path) -> dict[str, float]:
     names = list(TARGET_MS)
     return {
         names[0]: median(_ms(posed.fit) for _ in range(INNER)),
-        names[1]: median(_ms(lambda each=each: judge(each)) for each in payloads),
+        names[1]: median(_ms(partial(judge, each)) for each in payloads),
     }
 
 

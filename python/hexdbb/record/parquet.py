@@ -46,7 +46,7 @@ def read_parquet(path: Path) -> Record:
     """
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            metadata, columns = text_keys(file.schema_arrow.metadata), _columns(file)
+            metadata, columns = _contents(file)
     except DAMAGE as error:
         raise _damage(path, error) from None
     if KEY in metadata:
@@ -61,16 +61,21 @@ def read_parquet(path: Path) -> Record:
     return record
 
 
-def _columns(file: pq.ParquetFile) -> Columns:
-    """Read and validate all columns, some row groups at a time, so that no second copy of the whole is held."""
-    # A damaged file may hold column names that are not text; pyarrow decodes them only on access.
-    parts: dict[str, list[NDArray[Any]]] = {name: [] for name in file.schema_arrow.names}
+def _contents(file: pq.ParquetFile) -> tuple[dict[str, bytes], Columns]:
+    """Read metadata and all columns, some row groups at a time, so that no second copy of the whole is held."""
+    metadata: dict[str, bytes] = {}
+    parts: dict[str, list[NDArray[Any]]] = {}
     for first in range(0, max(file.num_row_groups, 1), GROUPS_AT_ONCE):
         table = file.read_row_groups(list(range(file.num_row_groups))[first : first + GROUPS_AT_ONCE])
         table.validate(full=True)
+        metadata = metadata or text_keys(table.schema.metadata)
+        # A damaged file may hold column names that are not text; pyarrow decodes them only on access.
         for name, values in to_columns(table).items():
-            parts[name].append(values)
-    return {name: joined(parts.pop(name)) for name in list(parts)}
+            parts.setdefault(name, []).append(values)
+    columns = {name: joined(parts.pop(name)) for name in list(parts)}
+    if any(len(values) != file.metadata.num_rows for values in columns.values()):
+        raise ValueError(f"its index states {file.metadata.num_rows} rows")
+    return metadata, columns
 
 
 def damaged_parts_error(path: Path, parts: list[tuple[str, int]]) -> InputError:
