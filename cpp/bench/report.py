@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 from command_times import command_rows, command_times
+from diagnosis_times import NOISE_MM, problem
 from discovery_times import PACE, discovery_rows
 from growth import HEADER, LARGEST_MB, TIMES_DRIVEN, growth_rows
 from measured_by import compiler, median_rows, processor, report
@@ -23,13 +24,9 @@ from scipy.optimize import fsolve, least_squares
 from hexdbb import _core
 from hexdbb.kinematics import engine_machine, inverse
 from hexdbb.machine import shipped_machine
-from hexdbb.model import new_model
-from hexdbb.plan import load_plan
 from hexdbb_truth.cases import case
 
 REPETITIONS = 9
-READINGS = 20_000
-NOISE_MM = 0.5e-3
 TARGET_NS = {
     "inverse_pose": 25,
     "forward_warm/level": 150,
@@ -90,30 +87,8 @@ def scipy_forward_ns() -> float:
 
 def diagnosis_times_ms() -> dict[str, float]:
     """Return the times of diagnosis, ms: the engine's, and SciPy's least_squares on the engine's predictions."""
-    plan = load_plan("standard")
-    machine = plan.machine_file()
-    angle = np.linspace(0.0, 4.0 * np.pi, READINGS // len(plan.circles))
-    tables = [
-        inverse(machine, each.poses(angle, plan.mounts[0].cup_mm), each.platform_rpy_rad)[0] for each in plan.circles
-    ]
-    sliders = np.vstack(tables)
-    rows = np.zeros(len(sliders), dtype=np.int32)
-    circle = plan.circles[0]
-    bar = _core.SetUp(
-        cup_mm=np.array(plan.mounts[0].cup_mm), ball_offset_mm=np.array(circle.ball_offset_mm), bar_length_mm=100.0
-    )
-    samples = _core.Samples(sliders_mm=sliders, set_up=rows, mount=rows, set_ups=[bar])
-    model = new_model(machine)
-    free = np.array(
-        [each.effect not in ("bar_length", "ball_offset") or each.name == "x" for each in model.parameters()]
-    )
-    free &= np.array([each.effect != "bar_length" for each in model.parameters()])
-    sizes = np.array([each.prior_sigma for each in model.parameters()])
-    random = np.random.default_rng(20060701)
-    engine = model.engine()
-    part = np.where([each.is_set_up for each in model.parameters()], 0.1, 0.5)  # of the prior standard deviation
-    engine.values = np.where(free, random.normal(size=len(sizes)) * part * sizes, 0.0)
-    measured = _core.predict(engine, samples).reading_mm + random.normal(size=len(sliders)) * NOISE_MM
+    posed = problem()
+    engine, samples, measured, free, sizes = posed.engine, posed.samples, posed.measured_mm, posed.free, posed.sizes
 
     def residuals(z: np.ndarray) -> np.ndarray:
         values = np.zeros(len(sizes))
@@ -128,13 +103,12 @@ def diagnosis_times_ms() -> dict[str, float]:
         seen = _core.predict(engine, samples, want_jacobian=True).jacobian[:, free] * (sizes[free] / NOISE_MM)
         return np.vstack([seen, np.eye(free.sum())])
 
-    def fit(_: int) -> None:
-        engine.values = np.zeros(len(sizes))
-        _core.fit(engine, samples, measured, noise_mm=NOISE_MM, free=[bool(each) for each in free])
-
     start = np.zeros(free.sum())
     return {
-        f"diagnosis, {len(sliders):,} readings, {free.sum()} unknowns, coarse to fine": _median_ns(fit, 1) / 1e6,
+        f"diagnosis, {len(measured):,} readings, {free.sum()} unknowns, coarse to fine": _median_ns(
+            lambda _: posed.fit(), 1
+        )
+        / 1e6,
         "the same, SciPy least_squares, the engine's predictions and Jacobian": _median_ns(
             lambda _: least_squares(residuals, start, jacobian, x_scale="jac"), 1, 3
         )

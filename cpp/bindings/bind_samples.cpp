@@ -28,9 +28,9 @@ State make_state(const py::dict& columns) {
   return state;
 }
 
-Samples make_samples(const SliderTable& sliders_mm, const Eigen::VectorXi& set_up, const Eigen::VectorXi& mount,
-                     std::vector<SetUp> set_ups, const py::dict& state) {
-  Samples samples{sliders_mm, set_up, mount, std::move(set_ups), make_state(state)};
+Samples make_samples(SliderTable sliders_mm, Eigen::VectorXi set_up, Eigen::VectorXi mount, std::vector<SetUp> set_ups,
+                     const py::dict& state) {
+  Samples samples{std::move(sliders_mm), std::move(set_up), std::move(mount), std::move(set_ups), make_state(state)};
   samples.validate();
   return samples;
 }
@@ -126,10 +126,17 @@ void bind_samples(py::module_& module) {
           "such "
           "row.")
       .def(
-          "derive", [](Samples& samples, const Machine& machine) { derive(NominalGeometry(machine), samples); },
-          py::arg("machine"), py::call_guard<py::gil_scoped_release>(),
-          "Compute every column that follows from time_s, sweep, angle_rad and the sliders.\n\n"
-          "Raises\n------\nValueError\n    Where time_s or sweep is missing, or time does not rise within a sweep.");
+          "derive",
+          [](Samples& samples, const Machine& machine, const std::vector<std::string>& columns) {
+            derive(NominalGeometry(machine), samples, columns);
+          },
+          py::arg("machine"), py::arg("columns") = std::vector<std::string>(), py::call_guard<py::gil_scoped_release>(),
+          "Compute columns that follow from time_s, sweep, angle_rad and the sliders: those named, and what is found "
+          "on\n"
+          "the way; all where none is named.\n\n"
+          "Raises\n------\nValueError\n    Where time_s or sweep is missing, or time does not rise within a sweep, or "
+          "a\n"
+          "    column is named that follows from no others.");
 }
 
 }  // namespace hexdbb::bindings

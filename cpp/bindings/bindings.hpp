@@ -15,6 +15,7 @@ void bind_samples(pybind11::module_& module);
 void bind_prediction(pybind11::module_& module);
 void bind_diagnosis(pybind11::module_& module);
 void bind_chance(pybind11::module_& module);
+void bind_contours(pybind11::module_& module);
 void bind_grouped(pybind11::module_& module);
 void bind_compensation(pybind11::module_& module);
 

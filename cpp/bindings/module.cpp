@@ -11,6 +11,7 @@ PYBIND11_MODULE(_core, module) {
   bind_prediction(module);
   bind_diagnosis(module);
   bind_chance(module);
+  bind_contours(module);
   bind_grouped(module);
   bind_compensation(module);
 }

@@ -103,21 +103,21 @@ inline Lanes sums_of(const Lanes (&row)[8]) {
 }
 
 /// Accumulate columns i, i+1 against j .. j+3: eight running sums stay in registers.
-inline void add_tile(const double* a, Eigen::Index rows, Eigen::Index i, Eigen::Index j, Eigen::Index columns,
-                     double* information) {
+inline void add_tile(const JacobianRows& a, Eigen::Index i, Eigen::Index j, double* information) {
   Lanes sum[8] = {};  // of (i, j), (i + 1, j), (i, j + 1), ...
-  for (Eigen::Index row = 0; row < rows; row += kLanes) {
-    const Lanes first = load(a + i * Block::kRows + row), second = load(a + (i + 1) * Block::kRows + row);
+  const double *one = a.data + i * a.stride, *four = a.data + j * a.stride;
+  for (Eigen::Index row = 0; row < a.rows; row += kLanes) {
+    const Lanes first = load(one + row), second = load(one + a.stride + row);
     for (int t = 0; t < 4; ++t) {
-      const Lanes other = load(a + (j + t) * Block::kRows + row);
+      const Lanes other = load(four + t * a.stride + row);
       sum[2 * t] += first * other;
       sum[2 * t + 1] += second * other;
     }
   }
   const Lanes total = sums_of(sum);
   for (int t = 0; t < 4; ++t) {
-    information[(j + t) * columns + i] += total[2 * t];
-    information[(j + t) * columns + i + 1] += total[2 * t + 1];
+    information[(j + t) * a.columns + i] += total[2 * t];
+    information[(j + t) * a.columns + i + 1] += total[2 * t + 1];
   }
 }
 
@@ -134,18 +134,20 @@ void solve_block(const NominalGeometry& nominal, Block& block, Eigen::Index rows
   }
 }
 
-// `columns` is a multiple of 4, so that tiles cover the lower triangle; entries above the diagonal are not read.
+// The columns are a multiple of 4, so that tiles cover the lower triangle; entries above the diagonal are not read.
 HEXDBB_MULTIVERSION_WIDE
-void accumulate(const double* jacobian, const double* residual, Eigen::Index rows, Eigen::Index columns,
-                double* information, double* gradient) noexcept {
-  for (Eigen::Index j = 0; j < columns; j += 4) {
-    for (Eigen::Index i = j; i < columns; i += 2) add_tile(jacobian, rows, i, j, columns, information);
+void add_information(const JacobianRows& jacobian, double* information) noexcept {
+  for (Eigen::Index j = 0; j < jacobian.columns; j += 4) {
+    for (Eigen::Index i = j; i < jacobian.columns; i += 2) add_tile(jacobian, i, j, information);
   }
-  for (Eigen::Index i = 0; i < columns; ++i) {
+}
+
+HEXDBB_MULTIVERSION_WIDE
+void add_gradient(const JacobianRows& jacobian, const double* residual, double* gradient) noexcept {
+  for (Eigen::Index i = 0; i < jacobian.columns; ++i) {
+    const double* column = jacobian.data + i * jacobian.stride;
     Lanes sum = {};
-    for (Eigen::Index row = 0; row < rows; row += kLanes) {
-      sum += load(jacobian + i * Block::kRows + row) * load(residual + row);
-    }
+    for (Eigen::Index row = 0; row < jacobian.rows; row += kLanes) sum += load(column + row) * load(residual + row);
     for (int lane = 0; lane < kLanes; ++lane) gradient[i] += sum[lane];
   }
 }

@@ -43,9 +43,17 @@ void solve_block(const NominalGeometry& nominal, Block& block, Eigen::Index rows
 /// the first leg's joint of each pair; Newton on six pose coordinates starts there.
 void solve_block_six(const NominalGeometry& nominal, Block& block, Eigen::Index rows, bool want_sensitivity) noexcept;
 
-/// Add J'J (lower triangle) to `information` and J'r to `gradient`, for `rows` rows of a table of kRows rows and
-/// `columns` columns.
-void accumulate(const double* jacobian, const double* residual, Eigen::Index rows, Eigen::Index columns,
-                double* information, double* gradient) noexcept;
+/// The first `rows` rows of a Jacobian, column by column, `stride` numbers from one column to the next; both are
+/// multiples of kLanes, and `columns` is a multiple of 4.
+struct JacobianRows {
+  const double* data;
+  Eigen::Index rows, stride, columns;
+};
+
+/// Add J'J (lower triangle) to `information`.
+void add_information(const JacobianRows& jacobian, double* information) noexcept;
+
+/// Add J'r to `gradient`.
+void add_gradient(const JacobianRows& jacobian, const double* residual, double* gradient) noexcept;
 
 }  // namespace hexdbb

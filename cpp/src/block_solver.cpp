@@ -34,25 +34,42 @@ RssrAngles angles_of(const Block& block, Eigen::Index row) {
 
 }  // namespace
 
+void require_columns(const Model& model, const Samples& samples) {
+  for (const Term& term : model.terms) term.effect->require(samples);
+}
+
 BlockSolver::BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory)
     : model_(model), samples_(samples), memory_(memory), block_(std::make_unique<Block>()) {
-  for (const Term& term : model.terms) {
-    term.effect->require(samples);
-    settled_.push_back(term.effect->settled(term.values));
+  for (const Term& term : model.terms) settled_.push_back(term.effect->settled(term.values));
+}
+
+BlockSolver::BlockSolver(const Model& model, const Samples& samples) : BlockSolver(model, samples, nullptr) {
+  require_columns(model, samples);
+}
+
+/// Load the nominal set-ups: neighbouring rows mostly have the same.
+void BlockSolver::load_set_ups(const SampleBlock& rows) {
+  Block& block = *block_;
+  const auto number = [&](Eigen::Index row) { return samples_.set_up[rows.first + std::min(row, rows.count - 1)]; };
+  for (Eigen::Index row = 0, end = 0; row < Block::kRows; row = end) {
+    while (end < Block::kRows && number(end) == number(row)) ++end;
+    const SetUp& set_up = samples_.set_ups[number(row)];
+    for (int axis = 0; axis < 3; ++axis) {
+      block.cup_mm.col(axis).segment(row, end - row).setConstant(set_up.cup_mm[axis]);
+      block.ball_mm.col(axis).segment(row, end - row).setConstant(set_up.ball_offset_mm[axis]);
+    }
+    block.bar_length_mm.segment(row, end - row).setConstant(set_up.bar_length_mm);
   }
 }
 
 void BlockSolver::load(const SampleBlock& rows) {
   Block& block = *block_;
   // Whole lanes are solved: rows beyond the last repeat it.
-  for (Eigen::Index row = 0; row < Block::kRows; ++row) {
-    const Eigen::Index sample = rows.first + std::min(row, rows.count - 1);
-    const SetUp& set_up = samples_.set_ups[samples_.set_up[sample]];
-    block.sliders_mm.row(row) = samples_.sliders_mm.row(sample);
-    block.cup_mm.row(row) = set_up.cup_mm.transpose();
-    block.ball_mm.row(row) = set_up.ball_offset_mm.transpose();
-    block.bar_length_mm(row) = set_up.bar_length_mm;
+  for (int k = 0; k < kLegs; ++k) {
+    block.sliders_mm.col(k).head(rows.count) = rows.slider_mm(k);
+    block.sliders_mm.col(k).tail(Block::kRows - rows.count).setConstant(block.sliders_mm(rows.count - 1, k));
   }
+  load_set_ups(rows);
   block.ports.setZero();
   for (std::size_t term = 0; term < settled_.size(); ++term) {
     effect_of(term).push(rows, model_.terms[term].values, block.ports.topRows(rows.count));
@@ -121,7 +138,7 @@ Status status_of(const Block& block, Eigen::Index row) {
   return is_solved(block, row) ? Status::kOk : static_cast<Status>(static_cast<int>(-block.residual_mm(row)));
 }
 
-void BlockSolver::chain(const SampleBlock& rows, Eigen::MatrixXd& jacobian) const {
+void BlockSolver::chain(const SampleBlock& rows, JacobianBlock jacobian) const {
   Eigen::Index column = 0;
   for (std::size_t term = 0; term < settled_.size(); ++term) {
     const Eigen::VectorXd& values = model_.terms[term].values;

@@ -15,10 +15,17 @@ struct AngleMemory {
   std::vector<Block::Table<6>> blocks;
 };
 
+/// Throw std::invalid_argument where samples lack what an effect of a model needs.
+void require_columns(const Model& model, const Samples& samples);
+
 class BlockSolver {
  public:
-  /// Both must outlive the solver; `memory`, where given, is read and written for the blocks visited.
-  BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory = nullptr);
+  /// Both must outlive the solver, and the samples have what the effects require; `memory`, where given, is read and
+  /// written for the blocks visited.
+  BlockSolver(const Model& model, const Samples& samples, AngleMemory* memory);
+
+  /// The same without a memory. Throws std::invalid_argument where samples lack what an effect needs.
+  BlockSolver(const Model& model, const Samples& samples);
 
   /// Call visit(SampleBlock, Block) for rows [first, last) in order; `first` is a multiple of Block::kRows.
   template <class Visit>
@@ -32,8 +39,9 @@ class BlockSolver {
     }
   }
 
-  /// Apply the chain rule to the block visited for every term of the model: columns of `jacobian`, one per value.
-  void chain(const SampleBlock& rows, Eigen::MatrixXd& jacobian) const;
+  /// Apply the chain rule to the block visited for every term of the model: columns of `jacobian`, one per value, of
+  /// which the first rows are written.
+  void chain(const SampleBlock& rows, JacobianBlock jacobian) const;
 
  private:
   const Effect& effect_of(std::size_t term) const {
@@ -41,6 +49,7 @@ class BlockSolver {
   }
   void solve(const SampleBlock& rows, bool want_sensitivity, bool fresh);
   void load(const SampleBlock& rows);
+  void load_set_ups(const SampleBlock& rows);
   Start start(const SampleBlock& rows, bool fresh);
   void solve_row(const SampleBlock& rows, Eigen::Index row, bool want_sensitivity);
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "valley.hpp"
+#include "last_steps.hpp"
 
 namespace hexdbb {
 
@@ -30,6 +30,10 @@ Eigen::VectorXd of_each_value(const Model& model, Number number) {
   return out;
 }
 
+// Readings of the part on which a diagnosis is fitted coarse to fine: 73 per sweep of a plan of seven circles, two
+// directions, two feeds, so that those inside the play of a slider after its reversals count too. With half of them, the
+// last steps are a third more.
+constexpr Eigen::Index kFewRows = 2048;
 // Readings per reading of the part from which the part is worth while: below, the steps that it saves cost little more.
 constexpr Eigen::Index kLeastStride = 4;
 
@@ -75,10 +79,14 @@ class CompressedCost : public ceres::CostFunction {
   double noise_mm_;
 };
 
-const NormalEquations& at_or_throw(Accumulator& accumulator, const Model& model) {
-  const NormalEquations& out = accumulator.at(model);
+/// Return the normal equations at a model. Throws std::invalid_argument where a sample has no solution, naming it;
+/// `stride` is that of the accumulator's samples.
+const NormalEquations& at_or_throw(Accumulator& accumulator, const Model& model, Sums sums = Sums::kAll,
+                                   Eigen::Index stride = 1) {
+  const NormalEquations& out = accumulator.at(model, sums);
   if (out.failure >= 0) {
-    throw std::invalid_argument("sample " + std::to_string(out.failure) + ": " + status_name(out.failure_status));
+    throw std::invalid_argument("sample " + std::to_string(stride * out.failure) + ": " +
+                                status_name(out.failure_status));
   }
   return out;
 }
@@ -106,9 +114,10 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
 }
 
 /// Compute rank and condition of the machine's own unknowns at the nominal machine, where redundancies are exact to
-/// first order: the Schur complement of the set-up's part of J'J.
-Identifiability machine_identifiability(const Model& model, Accumulator& accumulator, const Unknowns& unknowns,
-                                        const FitOptions& options) {
+/// first order: the Schur complement of the set-up's part of J'J, of which evenly spaced samples yield it as well as all.
+/// `stride` is that of the accumulator's samples.
+Identifiability machine_identifiability(const Model& model, Accumulator& accumulator, Eigen::Index stride,
+                                        const Unknowns& unknowns, const FitOptions& options) {
   std::vector<bool> is_set_up;
   for (const Term& term : model.terms) {
     is_set_up.insert(is_set_up.end(), term.values.size(), term.effect->info().is_set_up);
@@ -117,8 +126,9 @@ Identifiability machine_identifiability(const Model& model, Accumulator& accumul
   for (Eigen::Index j = 0; j < unknowns.size(); ++j) (is_set_up[unknowns.columns[j]] ? set_up : machine).push_back(j);
   Model nominal = model;
   nominal.set_values(Eigen::VectorXd::Zero(model.size()));
+  const Eigen::VectorXd scale = std::sqrt(static_cast<double>(stride)) * unknowns.scale;
   const Eigen::MatrixXd information =
-      unknowns.scale.asDiagonal() * at_or_throw(accumulator, nominal).information * unknowns.scale.asDiagonal();
+      scale.asDiagonal() * at_or_throw(accumulator, nominal, Sums::kAll, stride).information * scale.asDiagonal();
   return identifiability_of(information, machine, set_up, kRedundant, options.noise_mm / options.identified_fraction);
 }
 
@@ -157,32 +167,41 @@ void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& 
 }
 
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
-/// some of its standard deviations away from that of all readings, where steps along the geodesic end. `out` stays
-/// unusable where there is no part worth while, the end is not at rest, or all readings like it less than the start.
-void fit_coarse_to_fine(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-                        Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options, FitResult& out) {
+/// some of its standard deviations away from that of all readings, to which the last steps lead. Where they do not come
+/// to rest, steps along the geodesic do. `out` stays unusable where neither does, or all readings like the end less than
+/// the start, whose cost is `at_start`.
+void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
+                        const FitOptions& options, double at_start, FitResult& out) {
   constexpr double kCoarseTolerance = 1e-6;  // of the cost, some hundreds: far below the distance to the end
-  // Of chi-square, relative: an estimate from 20,000 readings is then within 0.002 of its standard deviation. Rounding of
-  // the sums is a thousandth of it.
-  constexpr double kFall = 1e-10;
-  constexpr int kMost = 12;  // steps; four suffice where the model is complete
-  const Eigen::VectorXd start = unknowns.scaled_start();
-  FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm);
-  if (few.stride() < kLeastStride) return;
-  const double at_start = posterior_at(model, accumulator, unknowns, options.noise_mm, start).cost;
+  constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
+  constexpr int kMost = 12;        // steps along the geodesic
+  const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
   const ceres::Solver::Summary summary =
       minimize(model, few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, kCoarseTolerance, near);
   if (!summary.IsSolutionUsable()) return;
-  const double chi_squared = std::max(2.0 * posterior_at(model, accumulator, unknowns, options.noise_mm, near).cost,
-                                      static_cast<double>(samples.size()));
-  const Descent end =
-      descend([&](const Eigen::VectorXd& z) { return posterior_at(model, accumulator, unknowns, options.noise_mm, z); },
-              few, near, bounds_about(unknowns, start), kFall * chi_squared, kMost);
-  out.usable = end.is_at_rest && end.cost <= at_start;
+  const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
+    return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
+  };
+  const LastSteps end =
+      take_last_steps([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kGradient); }, few, near, bound);
+  Eigen::VectorXd z = end.z;
+  double cost = end.cost;
   out.iterations = end.steps;
+  out.usable = end.is_at_rest;
+  if (!out.usable) {
+    const double chi_squared =
+        std::max(2.0 * of_all(near, Sums::kAll).cost, static_cast<double>(accumulator.residual_mm().size()));
+    const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, near, bound,
+                                  kFall * chi_squared, kMost);
+    z = other.z;
+    cost = other.cost;
+    out.iterations += other.steps;
+    out.usable = other.is_at_rest;
+  }
+  out.usable = out.usable && cost <= at_start;
   out.termination = "Converged: no further step improves the fit.";
-  out.values = unknowns.values(end.z.data());
+  out.values = unknowns.values(z.data());
 }
 
 /// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.
@@ -220,6 +239,23 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   return out.usable ? fine.z : start;
 }
 
+/// Fill in what a diagnosis has beyond a fit, and fit coarse to fine where that is worth while.
+void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, Accumulator& accumulator,
+              const Unknowns& unknowns, const FitOptions& options, FitResult& out) {
+  const double squared = at_or_throw(accumulator, model, Sums::kResidual).squared;
+  out.rms_before_mm = rms(accumulator.residual_mm());
+  if (samples.size() < kLeastStride * kFewRows || options.robust_mm > 0.0) {
+    out.machine = machine_identifiability(model, accumulator, 1, unknowns, options);
+    return;
+  }
+  FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm, kFewRows);
+  few.accumulator().start_from(accumulator, few.stride());
+  out.machine = machine_identifiability(model, few.accumulator(), few.stride(), unknowns, options);
+  const double prior = unknowns.scaled_start().squaredNorm();
+  const double at_start = 0.5 * (squared / (options.noise_mm * options.noise_mm) + prior);
+  fit_coarse_to_fine(model, accumulator, few, unknowns, options, at_start, out);
+}
+
 /// Compute the covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.
 Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unknowns& unknowns, double noise_mm) {
   const auto per_noise = unknowns.scale / noise_mm;
@@ -239,13 +275,15 @@ Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unk
 /// Evenly spaced rows suffice: h is smooth along a circle.
 class Curvature {
  public:
-  Curvature(const Model& model, const Samples& samples, const Unknowns& unknowns, const Eigen::MatrixXd& spread,
-            double noise_mm)
+  /// `solved` has passed over the samples.
+  Curvature(const Model& model, const Samples& samples, const Accumulator& solved, const Unknowns& unknowns,
+            const Eigen::MatrixXd& spread, double noise_mm)
       : model_(model), unknowns_(unknowns) {
     const Eigen::Index stride = std::max<Eigen::Index>(1, samples.size() / kRows);
     rows_ = samples.every(stride);
     no_reading_.setZero(rows_.size());
     accumulator_ = std::make_unique<Accumulator>(rows_, no_reading_, unknowns.columns);
+    accumulator_->start_from(solved, stride);
     accumulator_->keep_jacobian();
     here_ = jacobian(Eigen::VectorXd::Zero(unknowns.size()));
     gain_ = (static_cast<double>(stride) / (noise_mm * noise_mm)) * spread * here_.transpose();
@@ -355,14 +393,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.hypothesis && options.robust_mm == 0.0) {
     z = fit_hypothesis(model, samples, measured_mm, accumulator, unknowns, options.noise_mm, out);
   }
-  if (!options.hypothesis) {
-    out.machine = machine_identifiability(model, accumulator, unknowns, options);
-    at_or_throw(accumulator, model);
-    out.rms_before_mm = rms(accumulator.residual_mm());
-  }
-  if (!options.hypothesis && options.robust_mm == 0.0) {
-    fit_coarse_to_fine(model, samples, measured_mm, accumulator, unknowns, options, out);
-  }
+  if (!options.hypothesis) diagnose(model, samples, measured_mm, accumulator, unknowns, options, out);
   if (!out.usable) minimize_all(model, accumulator, unknowns, options, z, out);
 
   Model fitted = model;
@@ -375,7 +406,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.sweep.size() != 0) out.correlation = autocorrelation_time(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
-  if (!options.hypothesis) spread += Curvature(fitted, samples, unknowns, spread, effective_mm).spread();
+  if (!options.hypothesis) spread += Curvature(fitted, samples, accumulator, unknowns, spread, effective_mm).spread();
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

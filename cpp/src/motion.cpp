@@ -55,21 +55,24 @@ std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eige
   return {first, last};
 }
 
-/// Compute the weights of the values in rows [first, last] for the slope in `row` of the polynomial through all of
-/// them.
-Eigen::Array<double, kFewestRows, 1> slope_through_all(const Eigen::VectorXd& time_s, Eigen::Index first,
-                                                       Eigen::Index row) {
-  Eigen::Array<double, kFewestRows, 1> out = Eigen::Array<double, kFewestRows, 1>::Zero();
+/// Weights of the rows of a window; its maximum size is fixed, so that nothing is allocated.
+using Weights = Eigen::Array<double, Eigen::Dynamic, 1, 0, 2 * kMost + 1, 1>;
+
+/// Compute the weights of the values in kFewestRows rows from `first` on for the slope in `row` of the polynomial through
+/// all of them.
+Weights slope_through_all(const Eigen::VectorXd& time_s, Eigen::Index first, Eigen::Index row) {
+  Weights out = Weights::Zero(kFewestRows);
   const Eigen::Index here = row - first;
   for (Eigen::Index at = 0; at < kFewestRows; ++at) {
     if (at == here) continue;
-    double weight = 1.0 / (time_s[first + at] - time_s[row]);
-    out[here] -= weight;
+    double above = 1.0, below = time_s[first + at] - time_s[row];
     for (Eigen::Index other = 0; other < kFewestRows; ++other) {
       if (other == here || other == at) continue;
-      weight *= (time_s[row] - time_s[first + other]) / (time_s[first + at] - time_s[first + other]);
+      above *= time_s[row] - time_s[first + other];
+      below *= time_s[first + at] - time_s[first + other];
     }
-    out[at] = weight;
+    out[at] = above / below;
+    out[here] -= 1.0 / (time_s[first + at] - time_s[row]);
   }
   return out;
 }
@@ -93,10 +96,10 @@ std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int 
   return out;
 }
 
-/// Weights of the rows from `first` on for the value and the slope in one row.
+/// Weights for the value and the slope in one row, of the rows from `first` on.
 struct Stencil {
   Eigen::Index first;
-  Eigen::VectorXd value, slope;
+  Weights value, slope;
 };
 
 /// Compute the stencil of the least-squares parabola through a window. Where sampling is so slow that a window has the
@@ -107,39 +110,56 @@ Stencil stencil(const Eigen::VectorXd& time_s, Eigen::Index row) {
   const Eigen::Index count = last - first + 1;
   const double half_s = std::max(time_s[last] - time_s[row], time_s[row] - time_s[first]);
   const double per_s = half_s > 0.0 ? 1.0 / half_s : 1.0;
-  const Eigen::ArrayXd u = (time_s.segment(first, count).array() - time_s[row]) * per_s;
-  const std::array<double, 5> moment = {static_cast<double>(count), u.sum(), u.square().sum(), u.cube().sum(),
-                                        u.square().square().sum()};
+  const Weights u = (time_s.segment(first, count).array() - time_s[row]) * per_s;
+  std::array<double, 5> moment = {static_cast<double>(count), 0.0, 0.0, 0.0, 0.0};
+  for (Eigen::Index at = 0; at < count; ++at) {
+    double power = u[at];
+    for (int order = 1; order < 5; ++order, power *= u[at]) moment[order] += power;
+  }
   const auto [value, slope] = value_and_slope(moment, static_cast<int>(std::min<Eigen::Index>(last - first, 2)));
   Stencil out{first, value[0] + u * (value[1] + u * value[2]), per_s * (slope[0] + u * (slope[1] + u * slope[2]))};
   if (count == kFewestRows) out.slope = slope_through_all(time_s, first, row);
   return out;
 }
 
-Track slopes(const std::vector<Stencil>& stencils, const Track& of) {
-  Track out(of.rows(), kLegs);
-  for (Eigen::Index row = 0; row < of.rows(); ++row) {
-    const Stencil& each = stencils[static_cast<std::size_t>(row)];
-    out.row(row) = each.slope.transpose() * of.middleRows(each.first, each.slope.size());
+/// The stencils of all rows of a sweep, one after another: windows are mostly short, and a sweep may be long.
+class Stencils {
+ public:
+  explicit Stencils(const Eigen::VectorXd& time_s) {
+    begin_.push_back(0);
+    for (Eigen::Index row = 0; row < time_s.size(); ++row) {
+      const Stencil each = stencil(time_s, row);
+      first_.push_back(each.first);
+      value_.insert(value_.end(), each.value.data(), each.value.data() + each.value.size());
+      slope_.insert(slope_.end(), each.slope.data(), each.slope.data() + each.slope.size());
+      begin_.push_back(value_.size());
+    }
   }
-  return out;
-}
 
-std::vector<Stencil> stencils_of(const Eigen::VectorXd& time_s) {
-  std::vector<Stencil> out;
-  for (Eigen::Index row = 0; row < time_s.size(); ++row) out.push_back(stencil(time_s, row));
-  return out;
-}
+  Track values(const Track& of) const { return applied(value_, of); }
+  Track slopes(const Track& of) const { return applied(slope_, of); }
 
-Smooth smooth(const Eigen::VectorXd& time_s, const std::vector<Stencil>& stencils, const Track& raw_mm,
-              int derivatives) {
-  Smooth out{time_s, Track(raw_mm.rows(), kLegs), {}};
-  for (Eigen::Index row = 0; row < raw_mm.rows(); ++row) {
-    const Stencil& each = stencils[static_cast<std::size_t>(row)];
-    out.place_mm.row(row) = each.value.transpose() * raw_mm.middleRows(each.first, each.value.size());
+ private:
+  Track applied(const std::vector<double>& weights, const Track& of) const {
+    Track out = Track::Zero(of.rows(), kLegs);
+    for (std::size_t row = 0; row < first_.size(); ++row) {
+      for (std::size_t at = begin_[row]; at < begin_[row + 1]; ++at) {
+        const auto from = first_[row] + static_cast<Eigen::Index>(at - begin_[row]);
+        out.row(static_cast<Eigen::Index>(row)) += weights[at] * of.row(from);
+      }
+    }
+    return out;
   }
+
+  std::vector<Eigen::Index> first_;  // row of each stencil's first weight
+  std::vector<std::size_t> begin_;   // of each stencil's weights, and their end
+  std::vector<double> value_, slope_;
+};
+
+Smooth smooth(const Eigen::VectorXd& time_s, const Stencils& stencils, const Track& raw_mm, int derivatives) {
+  Smooth out{time_s, stencils.values(raw_mm), {}};
   for (int order = 0; order < derivatives; ++order) {
-    out.derivative.push_back(slopes(stencils, order == 0 ? raw_mm : out.derivative.back()));
+    out.derivative.push_back(stencils.slopes(order == 0 ? raw_mm : out.derivative.back()));
   }
   return out;
 }
@@ -238,7 +258,7 @@ std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi
       }
     }
     const Eigen::VectorXd times_s = time_s(rows);
-    const std::vector<Stencil> stencils = stencils_of(times_s);
+    const Stencils stencils(times_s);
     for (std::size_t which = 0; which < coordinates.size(); ++which) {
       const Coordinates& each = coordinates[which];
       const Smooth track = smooth(times_s, stencils, each.table(rows, Eigen::all), each.derivatives);

@@ -11,17 +11,19 @@ Posterior posterior_of(const NormalEquations& equations, const Unknowns& unknown
   const Eigen::VectorXd per_noise = unknowns.scale / noise_mm;
   out.is_reachable = true;
   out.cost = 0.5 * (equations.squared / (noise_mm * noise_mm) + z.squaredNorm());
+  if (equations.gradient.size() == 0) return out;
   out.downhill = per_noise.cwiseProduct(equations.gradient) / noise_mm - z;
+  if (equations.information.size() == 0) return out;
   out.information = per_noise.asDiagonal() * equations.information * per_noise.asDiagonal();
   out.information.diagonal().array() += 1.0;
   return out;
 }
 
 Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, double noise_mm,
-                       const Eigen::VectorXd& z) {
+                       const Eigen::VectorXd& z, Sums sums) {
   Model there = model;
   there.set_values(unknowns.values(z.data()));
-  return posterior_of(accumulator.at(there), unknowns, noise_mm, z);
+  return posterior_of(accumulator.at(there, sums), unknowns, noise_mm, z);
 }
 
 BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,

@@ -14,16 +14,16 @@ struct Posterior {
   bool is_reachable = false;  // the rest is meaningless where a sample has no solution
   double cost = 0.0;
   Eigen::VectorXd downhill;     // minus the gradient of the cost
-  Eigen::MatrixXd information;  // J'J / noise^2 + 1
+  Eigen::MatrixXd information;  // J'J / noise^2 + 1; empty where it was not summed
 };
 
 /// Compute the posterior from the readings' normal equations at scaled values z.
 Posterior posterior_of(const NormalEquations& equations, const Unknowns& unknowns, double noise_mm,
                        const Eigen::VectorXd& z);
 
-/// Compute the posterior at scaled values z, in one pass over an accumulator's samples.
+/// Compute the posterior at scaled values z, in one pass over an accumulator's samples; of it what `sums` yield.
 Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, double noise_mm,
-                       const Eigen::VectorXd& z);
+                       const Eigen::VectorXd& z, Sums sums = Sums::kAll);
 
 /// Minimum of a quadratic between bounds: step' downhill - step' matrix step / 2 is largest. Values that a step would
 /// take beyond their bound stay on it, and the step of the others is solved again.

@@ -36,20 +36,10 @@ double angle_between(const Vector3& one, const Vector3& other) {
   return std::acos(std::clamp(one.dot(other), -1.0, 1.0));
 }
 
-/// Fill the columns of motion, of sliders and joints. Angles of joints are handled as arcs of the leg's far end, so
-/// that the dead band of reversals is that of the sliders.
-void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, const PerLeg& leg_length_mm,
-                   State& state) {
-  const SliderTable length_mm =
-      Eigen::Map<const Vector6>(leg_length_mm.data()).transpose().replicate(sliders_mm.rows(), 1);
-  const SliderTable slider_arc_mm = poses.slider_joint_angle_rad.cwiseProduct(length_mm);
-  const SliderTable platform_arc_mm = poses.platform_joint_angle_rad.cwiseProduct(length_mm);
-  SliderTable position_mm = SliderTable::Zero(sliders_mm.rows(), kLegs);
-  position_mm.leftCols<3>() = poses.position_mm;
-  std::vector<Motion> all =
-      motions(state.time_s, state.sweep,
-              {{sliders_mm, kMostDerivatives}, {slider_arc_mm, 1}, {platform_arc_mm, 1}, {position_mm, 1}});
-  Motion& slider = all[0];
+/// Fill the columns of the sliders' motion, as many derivatives as asked for.
+void fill_motion(Samples& samples, int derivatives) {
+  State& state = samples.state;
+  Motion slider = std::move(motions(state.time_s, state.sweep, {{samples.sliders_mm, derivatives}}).front());
   state.velocity_mm_s = std::move(slider.velocity_mm_s);
   state.acceleration_mm_s2 = std::move(slider.acceleration_mm_s2);
   state.jerk_mm_s3 = std::move(slider.jerk_mm_s3);
@@ -57,18 +47,84 @@ void derive_motion(const SliderTable& sliders_mm, const NominalPoses& poses, con
   state.travel_direction = std::move(slider.travel_direction);
   state.since_reversal_s = std::move(slider.since_reversal_s);
   state.since_reversal_mm = std::move(slider.since_reversal_mm);
-  const auto turned_mm = all[1].since_reversal_mm.array();
-  state.slider_joint_rate_rad_s = all[1].velocity_mm_s.cwiseQuotient(length_mm);
-  state.slider_joint_direction = std::move(all[1].travel_direction);
+}
+
+void fill_poses(const NominalGeometry& nominal, Samples& samples) {
+  State& state = samples.state;
+  NominalPoses poses = nominal_poses(nominal, samples.sliders_mm);
+  state.position_mm = std::move(poses.position_mm);
+  state.platform_rpy_rad = std::move(poses.platform_rpy_rad);
+  state.slider_joint_angle_rad = std::move(poses.slider_joint_angle_rad);
+  state.platform_joint_angle_rad = std::move(poses.platform_joint_angle_rad);
+}
+
+/// Fill the columns of the joints' motion, and those of the poses they follow from. Angles of joints are handled as arcs
+/// of the leg's far end, so that the dead band of reversals is that of the sliders.
+void fill_joint_motion(const NominalGeometry& nominal, Samples& samples) {
+  State& state = samples.state;
+  fill_poses(nominal, samples);
+  const SliderTable length_mm =
+      Eigen::Map<const Vector6>(nominal.machine.leg_length_mm.data()).transpose().replicate(samples.size(), 1);
+  const SliderTable slider_arc_mm = state.slider_joint_angle_rad.cwiseProduct(length_mm);
+  const SliderTable platform_arc_mm = state.platform_joint_angle_rad.cwiseProduct(length_mm);
+  SliderTable position_mm = SliderTable::Zero(samples.size(), kLegs);
+  position_mm.leftCols<3>() = state.position_mm;
+  std::vector<Motion> all =
+      motions(state.time_s, state.sweep, {{slider_arc_mm, 1}, {platform_arc_mm, 1}, {position_mm, 1}});
+  const auto turned_mm = all[0].since_reversal_mm.array();
+  state.slider_joint_rate_rad_s = all[0].velocity_mm_s.cwiseQuotient(length_mm);
+  state.slider_joint_direction = std::move(all[0].travel_direction);
   state.slider_joint_since_reversal_rad = (turned_mm < kLongAgo).select(turned_mm / length_mm.array(), kLongAgo);
-  state.platform_joint_rate_rad_s = all[2].velocity_mm_s.cwiseQuotient(length_mm);
-  state.speed_mm_s = all[3].velocity_mm_s.rowwise().norm();
+  state.platform_joint_rate_rad_s = all[1].velocity_mm_s.cwiseQuotient(length_mm);
+  state.speed_mm_s = all[2].velocity_mm_s.rowwise().norm();
 }
 
 double wrapped(double angle_rad) {
   constexpr double kTurn = 2.0 * M_PI;
   const double out = angle_rad - kTurn * std::floor(angle_rad / kTurn);
   return out < kTurn ? out : 0.0;  // of -1e-17 the difference rounds to a whole turn
+}
+
+/// Columns that are derived together.
+struct Derivation {
+  std::vector<std::string> columns;
+  void (*fill)(const NominalGeometry&, Samples&);
+};
+
+/// Every derivation; the last ones, from `kPartial` on, fill a part of what an earlier one fills.
+const std::vector<Derivation>& derivations() {
+  static const std::vector<Derivation> all = {
+      {{"angle_wrapped_rad"},
+       [](const NominalGeometry&, Samples& samples) {
+         samples.state.angle_wrapped_rad = samples.state.angle_rad.unaryExpr(&wrapped);
+       }},
+      {{"acceleration_mm_s2", "jerk_mm_s3", "snap_mm_s4"},
+       [](const NominalGeometry&, Samples& samples) { fill_motion(samples, kMostDerivatives); }},
+      {{"slider_joint_rate_rad_s", "slider_joint_direction", "slider_joint_since_reversal_rad",
+        "platform_joint_rate_rad_s", "speed_mm_s"},
+       &fill_joint_motion},
+      {{"leg_force"},
+       [](const NominalGeometry& nominal, Samples& samples) {
+         samples.state.leg_force = leg_force(nominal, samples.sliders_mm);
+       }},
+      {{"nominal_reading_mm"},
+       [](const NominalGeometry& nominal, Samples& samples) {
+         samples.state.nominal_reading_mm = nominal_reading_mm(nominal, samples);
+       }},
+      {{"velocity_mm_s", "travel_direction", "since_reversal_s", "since_reversal_mm"},
+       [](const NominalGeometry&, Samples& samples) { fill_motion(samples, 1); }},
+      {{"position_mm", "platform_rpy_rad", "slider_joint_angle_rad", "platform_joint_angle_rad"}, &fill_poses},
+  };
+  return all;
+}
+
+constexpr std::size_t kPartial = 5;
+
+const Derivation& derivation_of(const std::string& column) {
+  for (const Derivation& each : derivations()) {
+    if (std::find(each.columns.begin(), each.columns.end(), column) != each.columns.end()) return each;
+  }
+  throw std::invalid_argument(column + " is no column that follows from others");
 }
 
 }  // namespace
@@ -134,20 +190,14 @@ Eigen::VectorXd nominal_reading_mm(const NominalGeometry& nominal, const Samples
   return (predicted.status.array() == 0).select(predicted.reading_mm, kUnknown);
 }
 
-void derive(const NominalGeometry& nominal, Samples& samples) {
-  State& state = samples.state;
-  require_column(state, "time_s", "the sliders' motion");
-  require_column(state, "sweep", "the sliders' motion");
+void derive(const NominalGeometry& nominal, Samples& samples, const std::vector<std::string>& columns) {
+  require_column(samples.state, "time_s", "the sliders' motion");
+  require_column(samples.state, "sweep", "the sliders' motion");
   samples.validate();
-  state.angle_wrapped_rad = state.angle_rad.unaryExpr(&wrapped);
-  NominalPoses poses = nominal_poses(nominal, samples.sliders_mm);
-  derive_motion(samples.sliders_mm, poses, nominal.machine.leg_length_mm, state);
-  state.position_mm = std::move(poses.position_mm);
-  state.platform_rpy_rad = std::move(poses.platform_rpy_rad);
-  state.slider_joint_angle_rad = std::move(poses.slider_joint_angle_rad);
-  state.platform_joint_angle_rad = std::move(poses.platform_joint_angle_rad);
-  state.leg_force = leg_force(nominal, samples.sliders_mm);
-  state.nominal_reading_mm = nominal_reading_mm(nominal, samples);
+  if (columns.empty()) {
+    for (std::size_t each = 0; each < kPartial; ++each) derivations()[each].fill(nominal, samples);
+  }
+  for (const std::string& column : columns) derivation_of(column).fill(nominal, samples);
 }
 
 }  // namespace hexdbb

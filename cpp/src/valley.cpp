@@ -20,18 +20,17 @@ Eigen::VectorXd every(const Eigen::VectorXd& column, Eigen::Index stride) {
 }  // namespace
 
 FewReadings::FewReadings(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-                         const Unknowns& unknowns, double noise_mm)
+                         const Unknowns& unknowns, double noise_mm, Eigen::Index rows)
     : model_(model),
       unknowns_(unknowns),
-      stride_(std::max<Eigen::Index>(1, samples.size() / kRows)),
+      stride_(std::max<Eigen::Index>(1, samples.size() / rows)),
       samples_(samples.every(stride_)),
       measured_mm_(every(measured_mm, stride_)),
       noise_mm_(noise_mm / std::sqrt(static_cast<double>(stride_))),
-      accumulator_(samples_, measured_mm_, unknowns.columns) {
-  accumulator_.keep_jacobian();
-}
+      accumulator_(samples_, measured_mm_, unknowns.columns) {}
 
 Eigen::VectorXd FewReadings::curvature(const Eigen::VectorXd& z, const Eigen::VectorXd& v) {
+  if (accumulator_.jacobian().rows() == 0) accumulator_.keep_jacobian();
   at(z);
   const Eigen::VectorXd here = measured_mm_ - accumulator_.residual_mm();
   const Eigen::VectorXd probed = z + kProbe * v;

@@ -29,9 +29,9 @@ class FewReadings {
  public:
   static constexpr Eigen::Index kRows = 1024;  // 36 per sweep of a plan of seven circles, two directions, two feeds
 
-  /// `noise_mm` is that of one reading of all.
+  /// `noise_mm` is that of one reading of all; `rows` is how many of them about.
   FewReadings(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, const Unknowns& unknowns,
-              double noise_mm);
+              double noise_mm, Eigen::Index rows = kRows);
   FewReadings(const FewReadings&) = delete;
   FewReadings& operator=(const FewReadings&) = delete;
 

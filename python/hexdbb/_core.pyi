@@ -20,6 +20,7 @@ __all__: list[str] = [
     "DesignSums",
     "EffectInfo",
     "FitResult",
+    "FittedCircle",
     "Identifiability",
     "Machine",
     "Model",
@@ -31,6 +32,7 @@ __all__: list[str] = [
     "SetUp",
     "StateColumn",
     "TABLE_VARIABLES",
+    "Zone",
     "autocorrelation_time",
     "chi_square_tail",
     "compensation_of",
@@ -49,9 +51,12 @@ __all__: list[str] = [
     "guideway_vertex",
     "identifiability",
     "inverse_table",
+    "least_squares_circle",
     "limit_threads",
     "log_normal_below",
+    "minimum_zone",
     "normal_equations",
+    "orthonormal_harmonics",
     "platform_joint",
     "port_sensitivity",
     "predict",
@@ -202,14 +207,16 @@ class Samples:
         ValueError
             An unknown column, a column of another length, an index out of range.
         """
-    def derive(self, machine: Machine) -> None:
+    def derive(self, machine: Machine, columns: collections.abc.Sequence[str] = []) -> None:
         """
-        Compute every column that follows from time_s, sweep, angle_rad and the sliders.
+        Compute columns that follow from time_s, sweep, angle_rad and the sliders: those named, and what is found on
+        the way; all where none is named.
 
         Raises
         ------
         ValueError
-            Where time_s or sweep is missing, or time does not rise within a sweep.
+            Where time_s or sweep is missing, or time does not rise within a sweep, or a
+            column is named that follows from no others.
         """
     def rows(self, which: typing.Annotated[numpy.typing.ArrayLike, numpy.int64]) -> Samples:
         """
@@ -537,6 +544,35 @@ class DesignSums:
     def square(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
         """
         W'W of one group after another, shape (groups * columns, columns).
+class FittedCircle:
+    """
+    A circle in the plane of a path.
+    """
+    @property
+    def centre_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Shape (2,).
+        """
+    @property
+    def radius_mm(self) -> float: ...
+
+class Zone:
+    """
+    Two concentric circles that enclose a path.
+    """
+    @property
+    def centre_mm(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[2, 1]"]:
+        """
+        Shape (2,).
+        """
+    @property
+    def inner_mm(self) -> float: ...
+    @property
+    def outer_mm(self) -> float: ...
+    @property
+    def width_mm(self) -> float:
+        """
+        Radial separation of the two circles.
         """
 
 class CompensationError(ValueError):
@@ -969,6 +1005,18 @@ def inverse_table(
         Leg at fault from 0, or -1.
     """
 
+def least_squares_circle(
+    points_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]", "flags.f_contiguous"],
+) -> FittedCircle:
+    """
+    Fit the circle with the smallest sum of squared radial distances to points (n, 2).
+
+    Raises
+    ------
+    ValueError
+        Fewer than three points, or all on one line.
+    """
+
 def limit_threads(most: typing.SupportsInt | typing.SupportsIndex) -> None:
     """
     Limit the threads that fits use, in the whole process; 0: as many as cores. ValueError where negative.
@@ -979,11 +1027,38 @@ def log_normal_below(value: typing.SupportsFloat | typing.SupportsIndex) -> floa
     Return the logarithm of the probability that a standard normal value lies below a value.
     """
 
+def minimum_zone(
+    points_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]", "flags.f_contiguous"],
+) -> Zone:
+    """
+    Find the two concentric circles of smallest radial separation that enclose points (n, 2).
+
+    Raises
+    ------
+    ValueError
+        Fewer than four points at different angles, or all on one line.
+    RuntimeError
+        No zone was found within the iteration limit.
+    """
+
 def normal_equations(
     model: Model, samples: Samples, measured_mm: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"]
 ) -> NormalEquations:
     """
     Compute the normal equations for all values of a model in one pass. ValueError where lengths differ.
+    """
+
+def orthonormal_harmonics(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    highest: typing.SupportsInt | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+    """
+    Return a constant and harmonics 1 to highest of angles (n,) as orthonormal columns, (n, 1 + 2 highest).
+
+    Raises
+    ------
+    ValueError
+        A negative number of harmonics.
     """
 
 def platform_joint(

@@ -237,6 +237,35 @@ TEST(State, EveryColumnIsDescribed) {
   EXPECT_EQ(filled.size() + given_by_a_record.size(), names.size());
 }
 
+TEST(State, OnlyWhatIsWantedIsDerived) {
+  const Samples whole = moving_samples(Machine(), {CircleSpec()}, 60);
+  for_each_column(whole.state, [&](const ColumnInfo& info, const auto& column) {
+    if (column.size() == 0) return;
+    Samples samples = whole;
+    samples.state = State{};
+    samples.state.time_s = whole.state.time_s;
+    samples.state.sweep = whole.state.sweep;
+    samples.state.angle_rad = Eigen::VectorXd::Zero(whole.size());
+    const std::string name = info.name;
+    if (name == "time_s" || name == "circle" || name == "sweep" || name == "temperature_c" || name == "warming_k") {
+      EXPECT_NE(refusal([&] { derive(NominalGeometry(Machine()), samples, {name}); }).find(name), std::string::npos);
+      return;
+    }
+    derive(NominalGeometry(Machine()), samples, {name});
+    for_each_column(samples.state, [&](const ColumnInfo& found, const auto& derived) {
+      if (name != found.name) return;
+      ASSERT_EQ(derived.rows(), column.rows()) << name;
+      for (Eigen::Index at = 0; at < derived.size(); ++at) {
+        EXPECT_NEAR(static_cast<double>(derived.data()[at]), static_cast<double>(column.data()[at]), 1e-12) << name;
+      }
+    });
+    if (name == "travel_direction") {
+      EXPECT_EQ(samples.state.leg_force.size(), 0);
+      EXPECT_EQ(samples.state.snap_mm_s4.size(), 0);
+    }
+  });
+}
+
 TEST(State, SpeedIsThatOfTheCircle) {
   constexpr double kLap_s = 20.0, kRadius_mm = 100.0;
   const Samples samples = moving_samples(Machine(), {CircleSpec()}, 400, kLap_s);

@@ -93,7 +93,7 @@ def judged(folder: Path, model: str, workers: int) -> Summary:
 
 
 def engine_share(fleet: Fleet, folder: Path, model: str) -> Share:
-    """Time some records with a clock around every function of the engine; the median of each."""
+    """Time some records with a clock around every function of the engine and what makes samples; the median of each."""
     inside = 0.0
 
     def timed(function: Any) -> Any:
@@ -107,11 +107,12 @@ def engine_share(fleet: Fleet, folder: Path, model: str) -> Share:
 
         return call
 
-    functions = [name for name, each in vars(_core).items() if isinstance(each, BuiltinFunctionType)]
+    functions = [(_core, name) for name, each in vars(_core).items() if isinstance(each, BuiltinFunctionType)]
+    functions += [(_core.Samples, name) for name in ("__init__", "derive", "rows")]
     found = []
     with ExitStack() as stack:
-        for name in functions:
-            stack.enter_context(mock.patch.object(_core, name, timed(getattr(_core, name))))
+        for owner, name in functions:
+            stack.enter_context(mock.patch.object(owner, name, timed(getattr(owner, name))))
         for number in range(min(SHARED, fleet.records)):
             path = str(folder / fleet.file(number * fleet.records // min(SHARED, fleet.records)))
             begun, inside = time.perf_counter(), 0.0

@@ -95,6 +95,7 @@ ALLOWED: dict[str, set[str]] = {
         "diagnosis",
         "predictors",
         "discovery",
+        "_core",
     },
     # what changes over the records of years
     "trend": {

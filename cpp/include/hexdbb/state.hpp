@@ -196,8 +196,9 @@ NominalPoses nominal_poses(const NominalGeometry& nominal, const SliderTable& sl
 /// Readings of the nominal machine in the nominal set-up; NaN where it has no pose.
 Eigen::VectorXd nominal_reading_mm(const NominalGeometry& nominal, const Samples& samples);
 
-/// Fill every column that follows from time_s, sweep, angle_rad (where known) and the sliders: motion, wrapped angle,
-/// pose, leg forces, joints, nominal readings.
-void derive(const NominalGeometry& nominal, Samples& samples);
+/// Fill columns that follow from time_s, sweep, angle_rad (where known) and the sliders: motion, wrapped angle, pose, leg
+/// forces, joints, nominal readings. `columns` names those that are wanted; what is found on the way is filled too. All
+/// are where it is empty. Throws std::invalid_argument for a column that follows from no others.
+void derive(const NominalGeometry& nominal, Samples& samples, const std::vector<std::string>& columns = {});
 
 }  // namespace hexdbb

@@ -10,10 +10,21 @@
 #include "block_column.hpp"
 #include "catalogue.hpp"
 #include "elements.hpp"
+#include "multiversion.hpp"
 
 namespace hexdbb::effects {
 
 namespace {
+
+/// Compute the derivative by the play of a block's readings.
+HEXDBB_MULTIVERSION
+void derivative(Eigen::Index rows, double size, const double* direction, const double* travelled, const double* slider,
+                double* out) noexcept {
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const double half = 0.5 * direction[row] * slider[row];
+    out[row] = travelled[row] < size ? half : -half;
+  }
+}
 
 class Backlash : public Effect {
  public:
@@ -33,11 +44,9 @@ class Backlash : public Effect {
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
              JacobianBlock jacobian) const override {
     for (int k = 0; k < kLegs; ++k) {
-      const auto direction = block.of(block.samples.state.travel_direction, k).array();
-      const auto travelled = block.of(block.samples.state.since_reversal_mm, k).array();
-      const auto crossing = travelled < std::abs(values[k]);
-      jacobian.col(k).array() =
-          sensitivity.col(port::kSlider + k).array() * crossing.select(0.5 * direction, -0.5 * direction);
+      derivative(block.count, std::abs(values[k]), block.of(block.samples.state.travel_direction, k).data(),
+                 block.of(block.samples.state.since_reversal_mm, k).data(), sensitivity.col(port::kSlider + k).data(),
+                 jacobian.col(k).data());
     }
   }
 };

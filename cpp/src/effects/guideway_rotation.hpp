@@ -55,11 +55,11 @@ class GuidewayRotation : public Effect {
       const Lever& lever = levers_[guideway_of(k)];
       const double angle = values[guideway_of(k)];
       const Affine rate = lever.at(std::cos(angle), std::sin(angle));
-      for (int axis = 0; axis < 3; ++axis) {
-        add_affine_times(block.count, rate.constant[axis], rate.slope[axis], block.slider_mm(k).data(),
-                         sensitivity.col(port::kSliderJoint + 3 * k + axis).data(),
-                         jacobian.col(guideway_of(k)).data());
-      }
+      const double constant[3] = {rate.constant[0], rate.constant[1], rate.constant[2]};
+      const double slope[3] = {rate.slope[0], rate.slope[1], rate.slope[2]};
+      add_affine_times(block.count, constant, slope, block.slider_mm(k).data(),
+                       sensitivity.col(port::kSliderJoint + 3 * k).data(), sensitivity.outerStride(),
+                       jacobian.col(guideway_of(k)).data());
     }
   }
 

@@ -28,19 +28,34 @@ class PlacePerSetUp : public Effect {
   }
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
-    for (Eigen::Index row = 0; row < block.count; ++row) {
-      ports.block<1, 3>(row, first_port_) += values.segment<3>(3 * block.mount(row)).transpose();
-    }
+    for_each_run(block, [&](Eigen::Index first, Eigen::Index count, int mount) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double value = values[3 * mount + axis];
+        if (value != 0.0) ports.col(first_port_ + axis).segment(first, count).array() += value;
+      }
+    });
   }
 
   void chain(const SampleBlock& block, Values, ConstPortBlock sensitivity, JacobianBlock jacobian) const override {
     jacobian.setZero();
-    for (Eigen::Index row = 0; row < block.count; ++row) {
-      jacobian.block<1, 3>(row, 3 * block.mount(row)) = sensitivity.block<1, 3>(row, first_port_);
-    }
+    for_each_run(block, [&](Eigen::Index first, Eigen::Index count, int mount) {
+      for (int axis = 0; axis < 3; ++axis) {
+        jacobian.col(3 * mount + axis).segment(first, count) =
+            sensitivity.col(first_port_ + axis).segment(first, count);
+      }
+    });
   }
 
  private:
+  /// Call visit(first row, number of rows, mount) for neighbouring rows of one mount.
+  template <class Visit>
+  static void for_each_run(const SampleBlock& block, Visit visit) {
+    for (Eigen::Index row = 0, end = 0; row < block.count; row = end) {
+      while (end < block.count && block.mount(end) == block.mount(row)) ++end;
+      visit(row, end - row, block.mount(row));
+    }
+  }
+
   static EffectInfo with_elements(EffectInfo info, int mounts) {
     info.element_kind = "mount";
     for (int element = 0; element < mounts; ++element) info.elements.push_back(std::to_string(element + 1));

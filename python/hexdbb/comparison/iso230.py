@@ -27,7 +27,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from hexdbb.comparison.circle_fit import FittedCircle, least_squares_circle, minimum_zone
+from hexdbb import _core
+from hexdbb.comparison.circle_fit import least_squares_circle, minimum_zone
 from hexdbb.errors import InputError
 
 FloatArray = npt.NDArray[np.float64]
@@ -64,7 +65,7 @@ class Path:
         return np.column_stack([radius * np.cos(self.angle_rad), radius * np.sin(self.angle_rad)])
 
     @cached_property
-    def least_squares(self) -> FittedCircle:
+    def least_squares(self) -> _core.FittedCircle:
         """The least squares circle through the path, origin at the nominal centre."""
         return least_squares_circle(self.points_mm)
 
@@ -150,16 +151,15 @@ def circular_deviation_mm(path: Path) -> float:
     ISO 230-4:2005 (2022: circular error). The zone is found exactly, see `circle_fit`; it does not depend on
     where the set-up put the centre.
     """
-    return minimum_zone(path.points_mm, path.least_squares.centre_mm).width_mm
+    return minimum_zone(path.points_mm).width_mm
 
 
-def bidirectional_circular_deviation_mm(ccw: Path, cw: Path, centre_mm: FloatArray | None = None) -> float:
+def bidirectional_circular_deviation_mm(ccw: Path, cw: Path) -> float:
     """Return the bi-directional circular deviation G(b): the minimum zone that encloses both directions' actual paths.
 
     ISO 230-4:2005 (2022: bi-directional circular error). Never smaller than either direction's G.
-    `centre_mm` is `set_up_centre_mm` of both where it is known.
     """
-    return minimum_zone(np.vstack([ccw.points_mm, cw.points_mm]), centre_mm).width_mm
+    return minimum_zone(np.vstack([ccw.points_mm, cw.points_mm])).width_mm
 
 
 def circular_hysteresis_mm(ccw: Path, cw: Path) -> float:

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
 from hexdbb.comparison.circles import DIRECTION_NAMES, lap_mean_path
 from hexdbb.comparison.quantities import QUANTITIES, Quantities, Quantity, evaluate_quantities
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows
 
 
 def largest_quantities(samples: Samples, keys: Sequence[str]) -> Quantities:
@@ -37,10 +36,8 @@ def largest_quantities(samples: Samples, keys: Sequence[str]) -> Quantities:
 
 def _of_circles(samples: Samples, chosen: list[Quantity]) -> Iterator[Quantities]:
     """Yield the quantities of every circle, feed and direction."""
-    keys = np.column_stack([samples["set_up"], samples["feed_mm_s"]])
-    _, member = np.unique(keys, axis=0, return_inverse=True)
-    member = member.ravel()
-    for number in range(int(member.max()) + 1):
+    first, member = distinct_rows(samples["set_up"], samples["feed_mm_s"])
+    for number in range(len(first)):
         part = samples.part(member == number)
         record = samples.records[int(part["record"][0])]
         circle, bar_mm = record.circle(int(part["circle"][0])), record.gauge.bar_length_mm

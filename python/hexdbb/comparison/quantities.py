@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 from hexdbb.comparison import iso230
@@ -22,11 +23,15 @@ Quantities = Mapping[str, float | None]
 
 @dataclass(frozen=True)
 class Measurand:
-    """Input of a quantity: one direction's path, the other's if there is one, and the set-up's centre."""
+    """Input of a quantity: one direction's path, and the other's if there is one."""
 
     own: Path
     other: Path | None
-    centre_mm: FloatArray
+
+    @cached_property
+    def centre_mm(self) -> FloatArray:
+        """The set-up's centre offset (2,), of both directions together."""
+        return iso230.set_up_centre_mm(self.own, *(() if self.other is None else (self.other,)))
 
 
 @dataclass(frozen=True)
@@ -54,9 +59,9 @@ class Quantity:
     evaluate: Callable[[Measurand], float | None]
 
 
-def _of_both(evaluate: Callable[[Path, Path, FloatArray], float]) -> Callable[[Measurand], float | None]:
+def _of_both(evaluate: Callable[[Path, Path], float]) -> Callable[[Measurand], float | None]:
     def when_both(measurand: Measurand) -> float | None:
-        return None if measurand.other is None else evaluate(measurand.own, measurand.other, measurand.centre_mm)
+        return None if measurand.other is None else evaluate(measurand.own, measurand.other)
 
     return when_both
 
@@ -76,19 +81,13 @@ QUANTITIES: tuple[Quantity, ...] = (
         True,
         _of_both(iso230.bidirectional_circular_deviation_mm),
     ),
-    Quantity(
-        "circular_hysteresis",
-        "H",
-        "circular hysteresis",
-        True,
-        _of_both(lambda ccw, cw, _: iso230.circular_hysteresis_mm(ccw, cw)),
-    ),
+    Quantity("circular_hysteresis", "H", "circular hysteresis", True, _of_both(iso230.circular_hysteresis_mm)),
     Quantity(
         "mean_bidirectional_radial_deviation",
         "D",
         "mean bi-directional radial deviation",
         True,
-        _of_both(lambda ccw, cw, _: iso230.mean_bidirectional_radial_deviation_mm(ccw, cw)),
+        _of_both(iso230.mean_bidirectional_radial_deviation_mm),
     ),
     Quantity(
         "radial_deviation_max",
@@ -139,12 +138,10 @@ def evaluate_quantities(paths: Mapping[int, Path], chosen: Sequence[Quantity] = 
     """
     full = {direction: path for direction, path in paths.items() if path.is_full_circle}
     values: dict[int, Quantities] = dict.fromkeys(paths, MappingProxyType(dict.fromkeys(q.key for q in chosen)))
-    if full:
-        centre_mm = iso230.set_up_centre_mm(*full.values())
-        of_both: dict[str, float | None] = {}
-        for direction, own in full.items():
-            measurand = Measurand(own, full.get(-direction), centre_mm)
-            of_both = of_both or {q.key: q.evaluate(measurand) for q in chosen if q.of_both}
-            of_own = {q.key: q.evaluate(measurand) for q in chosen if not q.of_both}
-            values[direction] = MappingProxyType({q.key: (of_both | of_own)[q.key] for q in chosen})
+    of_both: dict[str, float | None] = {}
+    for direction, own in full.items():
+        measurand = Measurand(own, full.get(-direction))
+        of_both = of_both or {q.key: q.evaluate(measurand) for q in chosen if q.of_both}
+        of_own = {q.key: q.evaluate(measurand) for q in chosen if not q.of_both}
+        values[direction] = MappingProxyType({q.key: (of_both | of_own)[q.key] for q in chosen})
     return values

@@ -126,7 +126,7 @@ def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
     noise = noise_of(samples)
     first = evaluate_fit(samples, known, known.free, noise, robust=robust)
     (fitted, result), either_sign = settle_signs(
-        first, lambda start: evaluate_fit(samples, start, start.free, noise, robust=robust), noise.sigma_mm
+        samples, first, lambda start: evaluate_fit(samples, start, start.free, noise, robust=robust), noise.sigma_mm
     )
     fitted = with_bands(fitted, result.covariance, samples)
     _require_determined(fitted, result, samples)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from hexdbb import _core
 
-RIDGE = 1e-9
-"""Added to the mean square of a column: the harmonics of a short arc depend on each other to rounding."""
+Floats = NDArray[np.float64]
 
 
 def orthonormal_harmonics(angle_rad: Floats, highest: int) -> Floats:
@@ -22,11 +21,6 @@ def orthonormal_harmonics(angle_rad: Floats, highest: int) -> Floats:
     Returns
     -------
     ndarray, shape (n, 1 + 2 highest)
-        Nearly orthogonal already over whole turns, so that a Cholesky factor suffices.
+        Each column is orthogonal to those before it.
     """
-    turn = np.exp(1j * angle_rad)
-    powers = np.cumprod(np.broadcast_to(turn, (highest, len(turn))), axis=0)  # one exponential instead of `highest`
-    basis = np.vstack([np.ones((1, len(turn))), powers.real, powers.imag])
-    factor = np.linalg.cholesky(basis @ basis.T + RIDGE * len(turn) * np.eye(len(basis)))
-    orthonormal: Floats = np.linalg.solve(factor, basis).T
-    return orthonormal
+    return _core.orthonormal_harmonics(angle_rad, highest)

@@ -1,9 +1,19 @@
 """Values whose size the readings determine and whose sign they do not.
 
 Horizontal circles see the cup's height to second order only: off by d it shortens the bar by d^2 / (2 L), above or
-below alike, so that a fit may end on either side. Every value of the set-up that stands clear of zero is therefore
-fitted again from the opposite sign: the better of the two solutions is kept, and where the readings hardly prefer one,
-the value does not count as identifiable.
+below alike, so that a fit may end on either side. A value of the set-up that stands clear of zero is therefore turned
+to the opposite sign, and where the readings do not turn it back, the model is fitted again from there: the better of
+the two solutions is kept, and where the readings hardly prefer one, the value does not count as identifiable.
+
+Whether they turn it back follows from one Gauss-Newton step at the turned value x = -c, all other values free, for the
+readings that the solution predicts. With the readings' answer to the value a x + b x^2 and q = 2 b c / a, the step ends
+at
+
+    c (1 + q) / (1 - q),
+
+at c itself where the answer is linear (q = 0) and at -c where it is even (q infinite). Between c / 2 and 2 c the
+quadratic part is less than a third of the linear one (|q| < 1/3): the slope has one sign from -c to c, so that a fit
+from -c would come back.
 """
 
 from __future__ import annotations
@@ -14,22 +24,30 @@ import numpy as np
 
 from hexdbb import _core
 from hexdbb.model import Model, Parameter
+from hexdbb.samples import Samples, linearise
 from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 CLEAR_OF_ZERO = 2.0
 """Stated standard deviations above which a value has a sign: below, the other sign is within its uncertainty."""
 HARDLY_PREFERRED = 9.0
 """Difference of twice the log-posterior below which neither sign is preferred: three standard deviations, squared."""
+TURNED_BACK = (0.5, 2.0)
+"""End of the step from the opposite sign, over the value, between which the readings determine the sign: see above."""
+ROWS = 1000
+"""Evenly spaced readings for that step: 36 for each capture of a plan of seven circles, two directions and two feeds,
+where set-up values change the readings by the angle's first harmonics."""
 
 Fit = Callable[[Model], tuple[Model, _core.FitResult]]
 Fitted = tuple[Model, _core.FitResult]
 
 
-def settle_signs(fitted: Fitted, fit: Fit, noise_mm: float) -> tuple[Fitted, list[str]]:
-    """Fit again from the other sign of each value of the set-up that has one, and keep the better solution.
+def settle_signs(samples: Samples, fitted: Fitted, fit: Fit, noise_mm: float) -> tuple[Fitted, list[str]]:
+    """Fit again from the other sign of each value of the set-up whose sign is open, and keep the better solution.
 
     Parameters
     ----------
+    samples : Samples
+        What was fitted to.
     fitted : tuple of Model and engine result
         A first solution.
     fit : callable
@@ -48,9 +66,10 @@ def settle_signs(fitted: Fitted, fit: Fit, noise_mm: float) -> tuple[Fitted, lis
     unsure: list[int] = []
     for column in _signed(*fitted):
         model = fitted[0]
-        turned = model.values.copy()
-        turned[column] *= -1.0
-        other = fit(model.with_values(turned))
+        turned = _turned(model, column)
+        if _is_turned_back(samples, fitted, turned, column, noise_mm):
+            continue
+        other = fit(turned)
         if other[0].values[column] * model.values[column] > 0.0:
             continue
         gain = _cost(*fitted, noise_mm) - _cost(*other, noise_mm)
@@ -71,6 +90,32 @@ def _signed(model: Model, result: _core.FitResult) -> list[int]:
         )
         if column in free and parameter.is_set_up and abs(value) > CLEAR_OF_ZERO * sigma
     ]
+
+
+def _turned(model: Model, column: int) -> Model:
+    values = model.values.copy()
+    values[column] *= -1.0
+    return model.with_values(values)
+
+
+def _is_turned_back(samples: Samples, fitted: Fitted, turned: Model, column: int, noise_mm: float) -> bool:
+    """Return whether a step from the turned value ends near the fitted one: the readings determine its sign."""
+    model, result = fitted
+    stride = max(len(samples) // ROWS, 1)
+    some = samples.part(np.arange(0, len(samples), stride))
+    there = linearise(some, turned)
+    fitted_mm = some.reading_mm - result.residual_mm[::stride]
+    free = result.free_columns
+    scale = model.prior_sigma[free]
+    jacobian = there.jacobian[:, free] * (scale * np.sqrt(stride) / noise_mm)
+    missing = (fitted_mm - there.reading_mm) * (np.sqrt(stride) / noise_mm)
+    away = ((model.values - turned.values)[free]) / scale  # the prior's pull, its centre on the solution
+    information = jacobian.T @ jacobian + np.eye(len(free))
+    step = np.linalg.solve(information, jacobian.T @ missing + away)
+    place = list(free).index(column)
+    end = turned.values[column] + step[place] * scale[place]
+    least, most = TURNED_BACK
+    return bool(least < end / model.values[column] < most)
 
 
 def _cost(model: Model, result: _core.FitResult, noise_mm: float) -> float:

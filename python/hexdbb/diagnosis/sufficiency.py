@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.diagnosis.harmonics import orthonormal_harmonics
 from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
 from hexdbb.model import Model
@@ -143,8 +144,8 @@ def explained_um(samples: Samples, model: Model, residual_mm: Floats) -> float:
     square = 0.0
     for each in np.unique(set_up):
         rows = set_up == each
-        basis = np.column_stack([np.ones(int(rows.sum())), np.cos(angle_rad[rows]), np.sin(angle_rad[rows])])
-        left = caused[rows] - basis @ np.linalg.lstsq(basis, caused[rows], rcond=None)[0]
+        basis = orthonormal_harmonics(angle_rad[rows], 1)
+        left = caused[rows] - basis @ (caused[rows] @ basis)
         square += float(left @ left)
     return float(np.sqrt(square / max(len(caused), 1))) * 1e3
 

@@ -227,6 +227,8 @@ class Model:
     def with_mounts(self, keys: Sequence[MountKey]) -> Model:
         """Return the same model knowing these mounts too; their cups stand where planned until they are fitted."""
         new = [key for key in keys if key not in self.mounts]
+        if not new:
+            return self
         wider = replace(self, mounts=(*self.mounts, *new))
         return replace(wider, terms=tuple(extended(term, wider.info(term.effect).size) for term in self.terms))
 
@@ -286,7 +288,10 @@ class Model:
             parts: dict[str, Any] = {name: column[span] for name, column in columns.items()}
             terms.append(replace(term, **parts))
             at = span.stop
-        return replace(self, terms=tuple(terms))
+        other = replace(self, terms=tuple(terms))
+        # Names and kinds of the values stay the same, and a fit changes values often.
+        vars(other).update({name: found for name, found in vars(self).items() if name in ("_parameters", "needs")})
+        return other
 
     def _with_term(self, term: Term) -> Model:
         return replace(self, terms=tuple(term if each.effect == term.effect else each for each in self.terms))

@@ -18,7 +18,7 @@ The names end in their unit. Columns that are not in this table are kept as they
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -81,6 +81,11 @@ class RowSource:
         line = f" (line {self.line_of(row)})" if self.line_of is not None else ""
         shown = value if isinstance(value, str) else format_value(value)
         return BadRowError(f"{self.name}: row {row + 1}{line}: {column}: {shown} (expected {expected})", row)
+
+
+def joined(parts: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    """Return parts one after another; a single one as it is, not copied."""
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
 def normalise(columns: Mapping[str, Any], source: RowSource) -> Columns:

@@ -9,23 +9,28 @@ versions before digests, and of other programs, are read without.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
+from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, replacing
 from hexdbb.record.checks import check_record
-from hexdbb.record.columns import RowSource
+from hexdbb.record.columns import Columns, RowSource, joined
 from hexdbb.record.digests import DIGESTS_KEY, digests_of, stated_digests, text_keys
 from hexdbb.record.footer_copy import rebuilt, write_with_copy
 from hexdbb.record.record import Record
-from hexdbb.record.tables import KEY, from_table, read_header, to_table
+from hexdbb.record.tables import KEY, from_columns, read_header, to_columns, to_table
 
 SUFFIX = ".parquet"
 ROWS_PER_GROUP = 4096
 """Limits what one damaged place can cost: the rows of one row group, 16 s at 250 Hz. Fewer rows would compress worse
 and make the file's index, of 200 bytes a column and row group, larger than a hundredth of the data."""
+GROUPS_AT_ONCE = 32
+"""Row groups that are read together: 13 MB of an own record's 14 columns, and still long enough to be read in threads.
+"""
 
 DAMAGE = (pa.ArrowException, OSError, ValueError, KeyError, OverflowError, MemoryError)
 """What pyarrow raises for damaged files; `UnicodeDecodeError` of a name that is not text is a `ValueError`."""
@@ -41,23 +46,36 @@ def read_parquet(path: Path) -> Record:
     """
     try:
         with pq.ParquetFile(path, page_checksum_verification=True) as file:
-            table = file.read()
-        table.validate(full=True)
-        # A damaged file may hold column names that are not text; pyarrow decodes them only on access.
-        table.column_names  # noqa: B018
+            metadata, columns = _contents(file)
     except DAMAGE as error:
         raise _damage(path, error) from None
-    metadata = text_keys(table.schema.metadata)
     if KEY in metadata:
         read_header(metadata[KEY], path)  # a later format may state its digests in another way
     digests = stated_digests(metadata, path)
     if digests is not None and (keys := digests.damaged_metadata(metadata)):
         raise InputError(f"{path}: metadata {', '.join(keys)}: damaged or changed (expected what was written)")
-    record = from_table(table, path)
+    record = from_columns(columns, metadata, path)
     if digests is not None and (parts := list(digests.damaged_parts(record.columns))):
         raise damaged_parts_error(path, parts)
     check_record(record, RowSource(str(path)))
     return record
+
+
+def _contents(file: pq.ParquetFile) -> tuple[dict[str, bytes], Columns]:
+    """Read metadata and all columns, some row groups at a time, so that no second copy of the whole is held."""
+    metadata: dict[str, bytes] = {}
+    parts: dict[str, list[NDArray[Any]]] = {}
+    for first in range(0, max(file.num_row_groups, 1), GROUPS_AT_ONCE):
+        table = file.read_row_groups(list(range(file.num_row_groups))[first : first + GROUPS_AT_ONCE])
+        table.validate(full=True)
+        metadata = metadata or text_keys(table.schema.metadata)
+        # A damaged file may hold column names that are not text; pyarrow decodes them only on access.
+        for name, values in to_columns(table).items():
+            parts.setdefault(name, []).append(values)
+    columns = {name: joined(parts.pop(name)) for name in list(parts)}
+    if any(len(values) != file.metadata.num_rows for values in columns.values()):
+        raise ValueError(f"its index states {file.metadata.num_rows} rows")
+    return metadata, columns
 
 
 def damaged_parts_error(path: Path, parts: list[tuple[str, int]]) -> InputError:

@@ -81,7 +81,7 @@ class Record:
     @property
     def sliders_mm(self) -> NDArray[np.float64]:
         """Slider coordinates as the encoders report them, mm, shape (n, 6)."""
-        return np.column_stack([self.columns[name] for name in SLIDER_COLUMNS])
+        return np.array([self.columns[name] for name in SLIDER_COLUMNS]).T  # column by column, as the engine has them
 
     @property
     def reading_mm(self) -> NDArray[np.float64]:

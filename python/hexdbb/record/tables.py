@@ -18,6 +18,7 @@ from hexdbb.files.validation import dump_toml, format_location, format_value, pa
 from hexdbb.machine import MachineFile
 from hexdbb.record.arrow import array_of, values_of
 from hexdbb.record.columns import Columns
+from hexdbb.record.digests import text_keys
 from hexdbb.record.measurement import Measurement
 from hexdbb.record.record import Record
 
@@ -67,13 +68,23 @@ def from_table(table: pa.Table, path: Path) -> Record:
     InputError
         The table is not a record, or of a later format, or a column has the wrong type or length.
     """
-    metadata = {key.decode(errors="replace"): value for key, value in (table.schema.metadata or {}).items()}
+    return from_columns(to_columns(table), text_keys(table.schema.metadata), path)
+
+
+def from_columns(columns: Columns, metadata: dict[str, bytes], path: Path) -> Record:
+    """Build a record from columns, each of shape (n,), and the metadata of the table they were read from.
+
+    Raises
+    ------
+    InputError
+        As `from_table`.
+    """
     if not {KEY, MEASUREMENT_KEY, MACHINE_KEY} <= metadata.keys():
         raise InputError(f'{path}: not a record (expected metadata "{KEY}"; bring data of other programs as .csv)')
     header = read_header(metadata[KEY], path)
     measurement = parse_toml(metadata[MEASUREMENT_KEY].decode(errors="replace"), Measurement, f"{path}: measurement")
     return Record(
-        columns=to_columns(table),
+        columns=columns,
         gauge=measurement.gauge,
         mounts=measurement.mounts,
         circles=measurement.circles,

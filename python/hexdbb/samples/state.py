@@ -1,12 +1,14 @@
 """From the columns of a record's file, or of a plan, to those columns of the engine's state that follow from no others.
 
 Units are converted, time and temperature count from the record's first sample, sweeps are numbered through all records.
-Velocity, reversals, leg forces and nominal readings are derived in the engine (`state.hpp`).
+A column of records is made when it is first asked for: few questions need them all, and of two million readings each
+takes 16 MB. Velocity, reversals, leg forces and nominal readings are derived in the engine (`state.hpp`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,15 +16,18 @@ from numpy.typing import NDArray
 
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.record.columns import joined
 from hexdbb.samples.thermometer import smoothed
 
 Columns = dict[str, NDArray[Any]]
+Make = Callable[[], NDArray[Any]]
+"""Makes a column."""
 
 SECONDS_PER_MINUTE = 60.0
 
 
-def state_columns(records: Sequence[Record]) -> Columns:
-    """Return the columns of the engine's state that records hold, one record after another.
+def state_columns(records: Sequence[Record]) -> dict[str, Make]:
+    """Return the columns of the engine's state that records hold, one record after another, each as it is made.
 
     Parameters
     ----------
@@ -30,16 +35,12 @@ def state_columns(records: Sequence[Record]) -> Columns:
 
     Returns
     -------
-    dict of str to ndarray, each of shape (n,)
-        Times in s, temperatures in °C and K (nan where not measured), angles in rad, feeds in mm/s.
+    dict of str to callable
+        Each returns its column, shape (n,): times in s, temperatures in °C and K (nan where not measured), angles in
+        rad, feeds in mm/s.
     """
-    parts = [_columns(record) for record in records]
-    sweeps = 0
-    for part in parts:
-        _, number = np.unique(part["sweep"], return_inverse=True)
-        part["sweep"] = (sweeps + number).astype(np.int32)
-        sweeps += int(number.max(initial=-1)) + 1
-    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
+    made: dict[str, Make] = {name: partial(_of_all, of_one, records) for name, of_one in OF_RECORD.items()}
+    return made | {"sweep": partial(_sweeps, records)}
 
 
 def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating]) -> Columns:
@@ -78,21 +79,42 @@ def planned_columns(runs: Sequence[CircleRun], angle_rad: NDArray[np.floating]) 
     }
 
 
-def _columns(record: Record) -> Columns:
-    columns = record.columns
+def _of_all(of_one: Callable[[Record], NDArray[Any]], records: Sequence[Record]) -> NDArray[Any]:
+    return joined([of_one(record) for record in records])
+
+
+def _sweeps(records: Sequence[Record]) -> NDArray[Any]:
+    """Number the sweeps of all records from 0, in the order of their numbers within each."""
+    parts: list[NDArray[Any]] = []
+    before = 0
+    for record in records:
+        _, number = np.unique(record.columns["sweep"], return_inverse=True)
+        parts.append((before + number).astype(np.int32))
+        before += int(number.max(initial=-1)) + 1
+    return joined(parts)
+
+
+def _first(record: Record) -> tuple[float, float]:
+    """Return time (s) and temperature (°C) of the record's first sample."""
     assert record.origin is not None  # a record sets it when it is made
-    start_s, start_c = record.origin
-    temperature_c = np.full(len(record), np.nan)
-    if "temperature_c" in columns:
-        temperature_c = smoothed(columns["t_s"], columns["sweep"], columns["temperature_c"])
-    return {
-        "time_s": columns["t_s"] - start_s,
-        "circle": columns["circle"],
-        "sweep": columns["sweep"],
-        "lap": columns["lap"],
-        "direction": columns["direction"].astype(np.float64),
-        "angle_rad": np.radians(columns["angle_deg"]),
-        "feed_mm_s": columns["feed_mm_min"] / SECONDS_PER_MINUTE,
-        "temperature_c": temperature_c,
-        "warming_k": temperature_c - start_c,
-    }
+    return record.origin
+
+
+def _temperature_c(record: Record) -> NDArray[Any]:
+    columns = record.columns
+    if "temperature_c" not in columns:
+        return np.full(len(record), np.nan)
+    return smoothed(columns["t_s"], columns["sweep"], columns["temperature_c"])
+
+
+OF_RECORD: dict[str, Callable[[Record], NDArray[Any]]] = {
+    "time_s": lambda record: record.columns["t_s"] - _first(record)[0],
+    "circle": lambda record: record.columns["circle"],
+    "lap": lambda record: record.columns["lap"],
+    "direction": lambda record: record.columns["direction"].astype(np.float64),
+    "angle_rad": lambda record: np.radians(record.columns["angle_deg"]),
+    "feed_mm_s": lambda record: record.columns["feed_mm_min"] / SECONDS_PER_MINUTE,
+    "temperature_c": _temperature_c,
+    "warming_k": lambda record: _temperature_c(record) - _first(record)[1],
+}
+"""Columns of the state that follow from one record alone, shape (n,)."""

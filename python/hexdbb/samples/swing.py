@@ -19,6 +19,8 @@ from hexdbb.machine import MachineFile
 Floats = NDArray[np.float64]
 
 DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "bar_angle_rad", "time_in_sweep_s")
+DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep")
+"""Columns that these follow from."""
 STEP_S = 1e-3
 """Half the time over which the swing is differenced: sliders move some 0.1 mm in it, far above rounding, far below
 lengths over which the swing bends."""

@@ -16,9 +16,10 @@ from hexdbb.machine import MachineFile
 from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
+from hexdbb.record.columns import joined
 from hexdbb.samples.fixings import mount_key, require_agreement
-from hexdbb.samples.state import planned_columns, state_columns
-from hexdbb.samples.swing import DERIVED, derived_columns
+from hexdbb.samples.state import Make, planned_columns, state_columns
+from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
 
 Floats = NDArray[np.float64]
 Columns = dict[str, NDArray[Any]]
@@ -33,8 +34,8 @@ PLANNED = "planned"
 class Whole:
     """All samples of a table: their columns by name, and what was computed from them already.
 
-    Columns of the engine's state that follow from others are derived when first asked for: a prediction of geometry
-    needs none of them.
+    Columns of the engine's state are made, or derived from others, when first asked for: a prediction of geometry needs
+    none of them.
     """
 
     machine: MachineFile
@@ -44,6 +45,8 @@ class Whole:
     columns: Columns
     origin: str
     """What errors call it."""
+    pending: dict[str, Make] = field(default_factory=dict)
+    """Columns of the engine's state that records hold and that were not asked for yet."""
     tabulated: dict[OwnEffect, Tabulated] = field(default_factory=dict)
     shaped: dict[OwnEffect, tuple[bytes, Tabulated]] = field(default_factory=dict)
     """Effects with shape parameters, evaluated at the values of which these are the bytes."""
@@ -62,11 +65,13 @@ class Whole:
     def column(self, name: str) -> NDArray[Any] | None:
         """Return a column, None where there is no such."""
         if name not in self.columns:
-            if name in STATE:
-                self.columns |= self._derived_state()
+            if name in self.pending:
+                self.columns[name] = self.pending.pop(name)()
+            elif name in STATE:
+                self.columns |= self._derived_state(name)
             elif name in DERIVED:
-                self.column("velocity_mm_s")
-                self.columns |= derived_columns(self.machine, self.columns, self.set_ups)
+                given = {each: column for each in DERIVED_FROM if (column := self.column(each)) is not None}
+                self.columns |= derived_columns(self.machine, given, self.set_ups)
         return self.columns.get(name)
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
@@ -92,11 +97,10 @@ class Whole:
             state={name: column for name in names if (column := self.column(name)) is not None},
         )
 
-    def _derived_state(self) -> Columns:
-        """Return the columns of the engine's state that follow from the given ones."""
-        given = [name for name in STATE if name in self.columns]
-        block = self._engine(self.mounts, given)
-        block.derive(engine_machine(self.machine))
+    def _derived_state(self, name: str) -> Columns:
+        """Return a column of the engine's state that follows from the given ones, and what is found on the way."""
+        block = self._engine(self.mounts, ("time_s", "sweep", "angle_rad"))
+        block.derive(engine_machine(self.machine), [name])
         return {name: column for name, column in block.state.items() if name not in self.columns}
 
 
@@ -122,20 +126,22 @@ def of_records(records: Sequence[Record]) -> Whole:
     set_up_rows, record_rows = [], []
     for index, record in enumerate(records):
         circle_ids, member = np.unique(record.columns["circle"], return_inverse=True)
-        set_up_rows.append(len(set_ups) + member)
-        record_rows.append(np.full(len(record), index))
+        set_up_rows.append((len(set_ups) + member).astype(np.int32))
+        record_rows.append(np.full(len(record), index, np.int32))
         for circle in (record.circle(int(each)) for each in circle_ids):
             keys.append(mount_key(record, circle.mount))
             cup_mm = record.mount(circle.mount).cup_mm
             set_ups.append(_set_up(cup_mm, circle.ball_offset_mm, record.gauge.bar_length_mm))
     columns: Columns = {
-        "record": np.concatenate(record_rows),
-        "set_up": np.concatenate(set_up_rows),
-        "sliders_mm": np.vstack([record.sliders_mm for record in records]),
-        "reading_mm": np.concatenate([record.reading_mm for record in records]),
+        "record": joined(record_rows),
+        "set_up": joined(set_up_rows),
+        "sliders_mm": joined([record.sliders_mm for record in records]),
+        "reading_mm": joined([record.reading_mm for record in records]),
     }
     origin = ", ".join(record.name for record in records)
-    return _completed(records[0].machine, tuple(records), set_ups, keys, columns, state_columns(records), origin)
+    found = _completed(records[0].machine, tuple(records), set_ups, keys, columns, origin)
+    found.pending = state_columns(records)
+    return found
 
 
 def of_runs(
@@ -149,8 +155,8 @@ def of_runs(
     """Build the table of one lap of each of some runs, as the nominal machine would drive them (`Samples.planned`)."""
     count = len(angle_rad) * len(runs)
     columns: Columns = {
-        "record": np.zeros(count, np.int64),
-        "set_up": np.repeat(np.arange(len(runs)), len(angle_rad)),
+        "record": np.zeros(count, np.int32),
+        "set_up": np.repeat(np.arange(len(runs), dtype=np.int32), len(angle_rad)),
         "sliders_mm": np.vstack([_sliders_mm(machine, run, angle_rad, origin) for run in runs]),
         "reading_mm": np.full(count, np.nan),
     }
@@ -159,7 +165,7 @@ def of_runs(
     if warming_k is not None:
         state["warming_k"] = warming_k
     keys = [MountKey(PLANNED, run.mount.id) for run in runs]
-    return _completed(machine, (), set_ups, keys, columns, state, origin)
+    return _completed(machine, (), set_ups, keys, columns | state, origin)
 
 
 def _completed(
@@ -168,15 +174,13 @@ def _completed(
     set_ups: Sequence[_core.SetUp],
     keys: Sequence[MountKey],
     columns: Columns,
-    state: Columns,
     origin: str,
 ) -> Whole:
     """Complete the table by its mounts; `keys` are those of the set-ups."""
     mounts = tuple(dict.fromkeys(keys))
-    of_set_up = np.array([mounts.index(key) for key in keys])
-    columns["set_up"] = columns["set_up"].astype(np.int32)
-    columns["mount"] = of_set_up[columns["set_up"]].astype(np.int32)
-    return Whole(machine, records, tuple(set_ups), mounts, {**columns, **state}, origin)
+    of_set_up = np.array([mounts.index(key) for key in keys], np.int32)
+    columns["mount"] = of_set_up[columns["set_up"]]
+    return Whole(machine, records, tuple(set_ups), mounts, columns, origin)
 
 
 def _sliders_mm(machine: MachineFile, run: CircleRun, angle_rad: Floats, origin: str) -> Floats:

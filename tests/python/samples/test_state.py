@@ -60,7 +60,7 @@ def test_columns_are_in_the_engines_units() -> None:
 
 def test_sweeps_and_circles_of_several_records() -> None:
     first, second = record_of(2), record_of(3, start_s=7.0)
-    state = state_columns([first, second])
+    state = {name: make() for name, make in state_columns([first, second]).items()}
     sweeps = [len(record.sweeps()) for record in (first, second)]
     assert state["sweep"].max() + 1 == sum(sweeps)
     assert (np.diff(state["sweep"]) >= 0).all()

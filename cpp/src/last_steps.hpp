@@ -1,0 +1,32 @@
+// The end of a diagnosis: steps from the minimum of a part of the readings to that of all.
+//
+// The gradient of all readings determines where their minimum is; J'J only determines how fast steps come there. J'J sums
+// products that are smooth along a circle, so that evenly spaced readings yield it to some per cent. A step therefore
+// takes the gradient from one pass over all readings and J'J from one over the part:
+//   z += (J'J of the part / noise^2 + 1)^-1 downhill.
+// Measured on six records of 20,000 readings with 45 values: each step divides the distance by three to eight, the same
+// with J'J of all. What limits both is what J'J leaves out of the second derivative of the cost, residuals times the
+// readings' second derivatives, along one or two directions that the readings determine weakly. Convergence is linear
+// there, so that two steps tell the rest of the way: with f = step, D the change since the last point, the point is
+//   z + f - g (Dz + Df),   g = <Df, f> / <Df, Df>,
+// Anderson's mixing (1965) of depth one, products in the metric of J'J.
+#pragma once
+
+#include <functional>
+
+#include "valley.hpp"
+
+namespace hexdbb {
+
+struct LastSteps {
+  Eigen::VectorXd z;
+  double cost = std::numeric_limits<double>::infinity();  // where the last step began
+  int steps = 0;
+  bool is_at_rest = false;  // false also where a step made all readings' cost worse
+};
+
+/// Step to the minimum of all readings. `downhill_at` returns the posterior of all readings without information.
+LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&)>& downhill_at, FewReadings& few,
+                          Eigen::VectorXd z, const Eigen::VectorXd& bound);
+
+}  // namespace hexdbb
