@@ -7,6 +7,7 @@ from pathlib import Path
 
 from tests.documents.shown import blocks
 from tests.fleet.made import Fleet, write_model
+from tests.imports.one_set_up import write_files
 
 from hexdbb.record import write_record
 from hexdbb_truth.months import Year
@@ -117,6 +118,7 @@ def _import(folder: Path, run: Run) -> None:
     }
     for name, source in files.items():
         (folder / name).write_bytes((ROOT / "tests" / "data" / "imports" / source).read_bytes())
+    write_files(folder, with_mapping=True)
 
 
 def _thesis_tables(folder: Path, run: Run) -> None:

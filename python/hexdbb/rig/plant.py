@@ -96,15 +96,15 @@ class Machine:
             mechanism.act(motion, push)
         return push
 
-    def poses(self, drive_mm: Array, push: Push, guess: Poses) -> Poses:
+    def poses(self, drive_mm: Array, push: Push | None, guess: Poses) -> Poses:
         """Compute the poses of the platform.
 
         Parameters
         ----------
         drive_mm : numpy.ndarray
             Drive positions, mm, shape (n, 6).
-        push : Push
-            Displacements of the mechanisms at the same n instants.
+        push : Push or None
+            Displacements of the mechanisms at the same n instants; None at one instant where nothing is displaced.
         guess : Poses
             Start of the iteration at n instants.
 
@@ -114,7 +114,7 @@ class Machine:
             The machine has no pose for these positions.
         """
         geometry, sliders_mm = self.geometry, drive_mm
-        if not self.mechanisms and len(drive_mm) == 1:  # on the bus, most often; zeros need not be added
+        if push is None:
             joints, lengths = geometry.joints_mm[None], geometry.lengths_mm[None]
             hexapod = Hexapod(geometry.slider_joints_mm(sliders_mm), joints, lengths)
         else:
@@ -126,7 +126,7 @@ class Machine:
             )
         try:
             poses = solve_poses(hexapod, guess)
-            if self.mechanisms and push.compliance_mm_n.any():
+            if push is not None and push.compliance_mm_n.any():
                 poses = self._balanced(hexapod, push.compliance_mm_n, poses)
         except NoPoseError as error:
             where = np.round(sliders_mm[error.instant], 3).tolist()
@@ -141,15 +141,15 @@ class Machine:
             poses = solve_poses(pressed, poses)
         return poses
 
-    def reading_mm(self, mounted: Mounted, push: Push, poses: Poses) -> Array:
+    def reading_mm(self, mounted: Mounted, push: Push | None, poses: Poses) -> Array:
         """Return length minus nominal length of the mounted bar as the gauge shows it, without noise.
 
         Parameters
         ----------
         mounted : Mounted
             The bar.
-        push : Push
-            Displacements of the mechanisms at n instants.
+        push : Push or None
+            Displacements of the mechanisms at n instants; None where nothing is displaced.
         poses : Poses
             At n instants.
 
@@ -160,14 +160,11 @@ class Machine:
         """
         errors = self.setup_errors
         ball, cup = mounted.ball + errors.ball, mounted.cup + errors.cups.get(mounted.mount, 0.0)
-        if self.mechanisms:
+        if push is not None:
             ball, cup = ball + push.ball_mm, cup + push.cup_mm
         bar = poses.position_mm + (poses.rotation @ ball[..., None])[:, :, 0] - cup
-        change = np.sqrt((bar * bar) @ _ONES) - (mounted.bar_length_mm + errors.bar_length_mm)
-        if not self.mechanisms:
-            return change
-        reading: Array = (1.0 + push.gain) * change + push.reading_mm
-        return reading
+        change: Array = np.sqrt((bar * bar) @ _ONES) - (mounted.bar_length_mm + errors.bar_length_mm)
+        return change if push is None else (1.0 + push.gain) * change + push.reading_mm
 
 
 class Plant:
@@ -185,7 +182,7 @@ class Plant:
         self.machine = machine
         self.time_s = 0.0
         self.poses = Poses(np.array(position_mm, dtype=float)[None], np.array(rotation, dtype=float)[None])
-        self._push = Push(1)
+        self._push: Push | None = Push(1) if machine.mechanisms else None
         self._before = (self._push, self.poses, 0.0)
         self._earlier = self.poses.position_mm
         self._read: tuple[Mounted, float] | None = None
@@ -235,7 +232,7 @@ class Plant:
         """
         now = float(self.machine.reading_mm(mounted, self._push, self.poses)[0])
         push, poses, dt_s = self._before
-        if self._push.delay_s == 0.0 or dt_s == 0.0:
+        if self._push is None or self._push.delay_s == 0.0 or dt_s == 0.0:
             return now
         before = float(self.machine.reading_mm(mounted, push, poses)[0])
         return now + self._push.delay_s * (now - before) / dt_s

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from tests.imports.make import PACE
+from tests.imports.one_set_up import CIRCLES, FEED_MM_MIN, PLAN, write_files
 
 from hexdbb.cli import cli
 from hexdbb.diagnosis import diagnose, fit_mounts
@@ -18,37 +18,19 @@ from hexdbb.logbook import content_of
 from hexdbb.model import new_model
 from hexdbb.plan import Mount, Plan, load_plan
 from hexdbb.record import Record, read_record, write_record
-from hexdbb.rig.truth import TruthFile
 from hexdbb.samples import Samples
 from hexdbb.trend.joint import JointFit, Part, fit_together, started
-from hexdbb_truth.simulate import simulate
-
-CIRCLES = (0, 1, 3)
-"""Of the plan `standard`, all in one mount: level, rolled, pitched."""
-FEED = 753.98
 
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """One file of each circle, angle and reading only, of a machine without errors."""
-    plan = load_plan("standard")
-    circles = tuple(each for each in plan.circles if each.id in CIRCLES)
-    driven = plan.model_copy(update={"circles": circles, "feeds_mm_min": (FEED,)})
-    columns = simulate(TruthFile(seed=3), driven, 3, PACE).columns
-    folder, paths = tmp_path_factory.mktemp("files"), []
-    for circle in CIRCLES:
-        rows = columns["circle"] == circle
-        readings = zip(*(columns[name][rows] for name in ("angle_deg", "reading_um", "direction")), strict=True)
-        lines = ["angle (deg),reading (um),direction", *(f"{a:.4f},{r:.1f},{d:+d}" for a, r, d in readings)]
-        paths.append(folder / f"circle{circle}.csv")
-        paths[-1].write_text("\n".join(lines) + "\n")
-    return paths
+    return write_files(tmp_path_factory.mktemp("files"), with_mapping=False)
 
 
 def read(files: list[Path], mount: str | None = None) -> list[Record]:
     return [
-        read_measured(path, mapping_of(plan="standard", circle=circle, feed_mm_min=FEED, mount=mount))
-        for path, circle in zip(files, CIRCLES, strict=True)
+        read_measured(path, mapping_of(plan=PLAN, circle=circle, feed_mm_min=FEED_MM_MIN, mount=mount))
+        for path, circle in zip(files, CIRCLES.values(), strict=True)
     ]
 
 
@@ -130,8 +112,8 @@ def test_files_of_one_set_up_that_contradict_are_refused(files: list[Path], key:
 
 
 def test_commands_say_what_counts_as_one_set_up(files: list[Path], tmp_path: Path) -> None:
-    for path, circle in zip(files, CIRCLES, strict=True):
-        mapping = mapping_of(plan="standard", circle=circle, feed_mm_min=FEED)
+    for path, circle in zip(files, CIRCLES.values(), strict=True):
+        mapping = mapping_of(plan=PLAN, circle=circle, feed_mm_min=FEED_MM_MIN)
         save_mapping(mapping, path.with_suffix(".toml"), overwrite=True)
     words = ["compare", "--no-plot", *map(str, files)]
     apart = CliRunner().invoke(cli, words)
@@ -146,7 +128,7 @@ def test_the_logbook_keeps_the_name(files: list[Path], tmp_path: Path) -> None:
     book = tmp_path / "glider"
     options = ["--plan", "standard", "--circle", "0", "--mount", "march", "--date", "2026-03-01"]
     mapping = files[0].with_suffix(".toml")
-    save_mapping(mapping_of(feed_mm_min=FEED), mapping, overwrite=True)
+    save_mapping(mapping_of(feed_mm_min=FEED_MM_MIN), mapping, overwrite=True)
     added = CliRunner().invoke(cli, ["log", "add", str(book), str(files[0]), *options])
     assert added.exit_code == 0, added.output
     (kept,) = (book / "records").iterdir()
