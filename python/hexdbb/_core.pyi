@@ -531,19 +531,6 @@ class FitResult:
         Shape (size,), engine units.
         """
 
-class DesignSums:
-    """
-    Sums of a design W over each group of its rows, with a table T.
-    """
-    @property
-    def cross(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        W'T of one group after another, shape (groups * columns, k).
-        """
-    @property
-    def square(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-        """
-        W'W of one group after another, shape (groups * columns, columns).
 class FittedCircle:
     """
     A circle in the plane of a path.
@@ -573,6 +560,21 @@ class Zone:
     def width_mm(self) -> float:
         """
         Radial separation of the two circles.
+        """
+
+class DesignSums:
+    """
+    Sums of a design W over each group of its rows, with a table T.
+    """
+    @property
+    def cross(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        W'T of one group after another, shape (groups * columns, k).
+        """
+    @property
+    def square(self) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
+        """
+        W'W of one group after another, shape (groups * columns, columns).
         """
 
 class CompensationError(ValueError):
