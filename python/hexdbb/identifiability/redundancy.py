@@ -41,22 +41,22 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
     rows : ndarray, shape (k, unknowns)
         Each with a one at its own pivot and zeros at the others' pivots.
     pivots : list of int
-        The unknown of each pivot: the largest entry left, later unknowns first among equals, so that what the thesis
-        lists last is explained by what it lists first.
+        The unknown of each pivot: the one that the directions left move most, later unknowns first among near equals,
+        so that what the thesis lists last is explained by what it lists first. How much they move an unknown does not
+        depend on the basis that spans them, hence neither does the choice.
     """
-    rows = directions.T.copy()
+    rows = directions.T
+    left, _ = np.linalg.qr(directions)
     pivots: list[int] = []
-    for index in range(len(rows)):
-        size = np.abs(rows[index:]).max(axis=0)
+    for _ in range(len(rows)):
+        size = np.linalg.norm(left, axis=1)
         size[pivots] = 0.0
         pivot = int(np.flatnonzero(size > 0.9 * size.max())[-1])
-        best = index + int(np.argmax(np.abs(rows[index:, pivot])))
-        rows[[index, best]] = rows[[best, index]]
-        rows[index] /= rows[index, pivot]
-        others = np.arange(len(rows)) != index
-        rows[others] -= np.outer(rows[others, pivot], rows[index])
+        unit = left[pivot] / size[pivot]
+        left = left - np.outer(left @ unit, unit)
         pivots.append(pivot)
-    return rows, pivots
+    reduced: Floats = np.linalg.solve(rows[:, pivots], rows)
+    return reduced, pivots
 
 
 def sentences(directions: Floats, parameters: Sequence[Parameter], displaced: Displacements) -> list[str]:
@@ -99,7 +99,10 @@ def _generic(moves_mm: Floats, labels: Sequence[str]) -> list[str]:
     rows, pivots = echelon(moves_mm)
     said = []
     for row, pivot in sorted(zip(rows, pivots, strict=True), key=lambda each: each[1]):
-        others = [int(j) for j in np.argsort(-np.abs(row)) if j != pivot and abs(row[j]) > SMALL * np.abs(row).max()]
+        amounts = np.abs(row) / np.abs(row).max()
+        # Equal amounts of a symmetric machine differ by rounding only: then in the order of the model.
+        largest = np.argsort(-amounts.round(6), kind="stable")
+        others = [int(j) for j in largest if j != pivot and amounts[j] > SMALL]
         if not others:
             said.append(f"{labels[pivot]} changes no reading")
             continue
