@@ -21,7 +21,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import Trial
-from hexdbb.evidence.verdict import Found
+from hexdbb.evidence.verdict import Found, is_for_sure
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
 from hexdbb.model import Choice, Model, Size
@@ -79,7 +79,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
-    grade = found[0].grade if judged.checked.share >= search.criteria.explained_min else "unknown"
+    grade = found[0].grade if is_for_sure(search, judged.node) else "unknown"
     hypotheses = [each.hypothesis for each in found]
     model, result = _fitted(search, judged.node.trial, hypotheses)
     names = [each.name for each in hypotheses if isinstance(each, Learned)]

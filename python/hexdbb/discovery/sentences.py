@@ -11,6 +11,7 @@ from hexdbb.files.plain_text import capital
 from hexdbb.learned.places import is_learned
 
 UNKNOWN = "something is missing that no known effect explains"
+NEAR = "something is missing that known effects come near to, but do not predict"
 
 
 def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:
@@ -29,7 +30,8 @@ def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, held
     """
     explained = explained_words(len(causes), share, heldout)
     if grade == "unknown":
-        return f"{UNKNOWN}: {_list([each.clause for each in causes])}; {explained}"
+        what = UNKNOWN if any(is_learned(each.choice) for each in causes) else NEAR
+        return f"{what}: {_list([each.clause for each in causes])}; {explained}"
     named = [each.clause for each in causes if each.verdict != "unknown"]
     clause = capital("; ".join(named))
     if grade == "ambiguous":

@@ -25,6 +25,8 @@ class Checked:
     """Whether something that is not predicted was put down to its form."""
     claimed: tuple[str, ...] = ()
     """Groupings that the hypotheses claim to predict."""
+    predicts_worse: bool = False
+    """Whether what was excused is predicted worse than without the hypotheses."""
 
 
 def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
@@ -39,7 +41,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
-    reasons, excused = [], False
+    reasons, excused, worse = [], False, False
     if all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members):
         return Checked(predicted, share, (), claimed=(ARC,))
     for grouping, held in predicted.items():
@@ -50,10 +52,10 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
             continue
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
         if extrapolates and _bends_geometry(trial, share, criteria):
-            excused = True
+            excused, worse = True, worse or held.share < 0.0
         else:
             reasons.append(f"does not predict {WORDS[grouping]}")
-    return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted))
+    return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted), predicts_worse=worse)
 
 
 def _bends_geometry(trial: Trial, share: float, criteria: Criteria) -> bool:

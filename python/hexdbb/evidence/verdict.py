@@ -108,9 +108,19 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
-    if search.checked(node).share < search.criteria.explained_min:
+    if not is_for_sure(search, node):
         grade = "unknown"
     return Verdict(grade, found, node, search.checked(node), before, wider)
+
+
+def is_for_sure(search: Search, node: Node) -> bool:
+    """Check that causes together explain enough to be named for sure.
+
+    One effect of another form may predict circles left out worse than geometry alone does. Several that do so together
+    were put together to fit: each takes what the others leave.
+    """
+    checked = search.checked(node)
+    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.predicts_worse)
 
 
 def _is_form(search: Search) -> bool:

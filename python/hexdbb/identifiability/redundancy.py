@@ -46,7 +46,7 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
         depend on the basis that spans them, hence neither does the choice.
     """
     rows = directions.T
-    left, _ = np.linalg.qr(directions)
+    left: Floats = np.linalg.qr(directions)[0]
     pivots: list[int] = []
     for _ in range(len(rows)):
         size = np.linalg.norm(left, axis=1)
