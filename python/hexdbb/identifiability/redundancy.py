@@ -53,7 +53,7 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
         size[pivots] = 0.0
         pivot = int(np.flatnonzero(size > 0.9 * size.max())[-1])
         unit = left[pivot] / size[pivot]
-        left = left - np.outer(left @ unit, unit)
+        left -= np.outer(left @ unit, unit)
         pivots.append(pivot)
     reduced: Floats = np.linalg.solve(rows[:, pivots], rows)
     return reduced, pivots
