@@ -53,10 +53,10 @@ def echelon(directions: Floats) -> tuple[Floats, list[int]]:
         size[pivots] = 0.0
         pivot = int(np.flatnonzero(size > 0.9 * size.max())[-1])
         unit = left[pivot] / size[pivot]
-        left -= np.outer(left @ unit, unit)
+        left -= (left @ unit)[:, None] * unit
         pivots.append(pivot)
-    reduced: Floats = np.linalg.solve(rows[:, pivots], rows)
-    return reduced, pivots
+    reduced = np.linalg.solve(rows[:, pivots], rows)
+    return reduced.astype(np.float64), pivots
 
 
 def sentences(directions: Floats, parameters: Sequence[Parameter], displaced: Displacements) -> list[str]:
