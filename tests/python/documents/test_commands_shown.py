@@ -31,7 +31,7 @@ NOT_RUN = {
     r"^make ": "builds the tree the test runs in, or calls this test",
     r"^\. ": "the test's interpreter is the environment",
     r"socketcan:can0": "needs a CAN interface",
-    r"^hexdbb check-realtime": "a minute long, and its verdict is on the computer: tests/python/capture/test_real_time.py",
+    r"^hexdbb check-realtime": "a minute long, and judges the computer; tests/python/capture/test_real_time.py runs it",
     r"^hexdbb workbench": "serves until it is ended, at an address drawn anew; tests/python/workbench opens it",
     r"(?:s3|tcp)://|^export |^dask ": "needs a store or a scheduler, which tests/python/fleet and cluster have",
     r"^(?:cmake|sudo|pip|git) ": "builds or installs; held by tests of their own",
