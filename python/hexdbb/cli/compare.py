@@ -120,13 +120,13 @@ def _comparison(
 
 
 def _load_drawing() -> None:
-    """Import what draws, which takes matplotlib half a second: there is time while another process computes."""
+    """Import what draws, which takes matplotlib half a second: there is time while the likely cause is looked for."""
     with keeps_all():
         import_module("hexdbb.plots.pages")
 
 
 def _nothing() -> None:
-    """Do nothing while another process computes."""
+    """Do nothing while the likely cause is looked for."""
 
 
 def _draw(comparison: Comparison, stem: Path, is_all: bool, progress: Progress) -> list[Path]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import nullcontext
 from dataclasses import dataclass, field
-from functools import cache, partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,10 +30,10 @@ from hexdbb.threads import one_thread
 if TYPE_CHECKING:
     from hexdbb.discovery import LikelyCause
 
-R = TypeVar("R")
-
 WORST_COUNT = 5
 """Number of worst arcs listed: as many as are read."""
+Sought = Callable[[], "LikelyCause | None"]
+"""Returns the likely cause of a residual, when it is found."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,9 +127,8 @@ def compare(
         Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
         20,000 samples.
     meanwhile : callable, optional
-        For a command, which has the computer to itself: what takes longest, the likely cause or without it the ranking
-        of predictors, is then computed in a process of its own where that is possible (`hexdbb.processes.beside`), and
-        this is called while it is.
+        For a command, which has the computer to itself: the likely cause is then looked for in a process of its own
+        where that is possible (`hexdbb.processes.beside`), and this is called while it is.
 
     Raises
     ------
@@ -141,41 +139,23 @@ def compare(
     _require_samples(samples)
     known, fitted = fit_mounts(samples, model)
     predicted = predict(samples, known)
-    pushes = cache(lambda: Pushes.of(samples, known))
-    noise_mm = noise_of(samples).sigma_mm
 
     def cause() -> LikelyCause | None:
         from hexdbb.discovery import likely_cause  # a quarter of the start of a comparison without
 
         return likely_cause(samples, known, predicted.residual_mm)
 
-    def ranked() -> list[Predictor]:
-        return rank_predictors(samples, predicted.residual_mm, pushes(), noise_mm)
+    search = cause if find_cause else _no_cause
+    apart = find_cause and meanwhile is not None and not known.own_effects  # a user's function may do more than return
+    with beside(search) if apart else nullcontext(search) as found:
 
-    compared = partial(_compared, samples, predicted.reading_mm, pushes, noise_mm, fitted)
-    # What takes longest is computed apart; not with a user's function, which may do more than return.
-    apart = meanwhile is not None and not known.own_effects
-    if find_cause:
-        with _apart(cause, apart) as found:
-            return compared(ranked, _after(meanwhile, found))
-    with _apart(ranked, apart) as predictors:
-        return compared(_after(meanwhile, predictors), _no_cause)
+        def sought() -> LikelyCause | None:
+            if meanwhile is not None:
+                meanwhile()
+            return found()
 
-
-def _apart(function: Callable[[], R], is_apart: bool) -> AbstractContextManager[Callable[[], R]]:
-    """Let a function be computed in a process of its own, or where it is called."""
-    return beside(function) if is_apart else nullcontext(function)
-
-
-def _after(first: Callable[[], object] | None, function: Callable[[], R]) -> Callable[[], R]:
-    """Return the function, called after another."""
-
-    def both() -> R:
-        if first is not None:
-            first()
-        return function()
-
-    return both
+        noise_mm = noise_of(samples).sigma_mm
+        return _compared(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, sought, False)
 
 
 def compare_readings(
@@ -212,35 +192,28 @@ def compare_readings(
     InputError
         No samples in a record, or predictions that do not belong to the samples.
     """
-    _require_samples(samples)
-
-    def ranked() -> list[Predictor]:
-        return rank_predictors(samples, samples.reading_mm - predicted_mm, pushes, noise_mm)
-
-    return _compared(
-        samples, predicted_mm, lambda: pushes, noise_mm, fitted_mounts, ranked, lambda: cause, is_commanded=is_commanded
-    )
+    return _compared(samples, predicted_mm, pushes, noise_mm, fitted_mounts, lambda: cause, is_commanded)
 
 
 def _compared(
     samples: Samples,
     predicted_mm: FloatArray,
-    pushes: Callable[[], Pushes | None],
+    pushes: Pushes | None,
     noise_mm: float,
     fitted_mounts: Sequence[str],
-    ranked: Callable[[], list[Predictor]],
-    sought: Callable[[], LikelyCause | None],
-    is_commanded: bool = False,
+    sought: Sought,
+    is_commanded: bool,
 ) -> Comparison:
-    """Compare as `compare_readings` does; what may be computed apart is asked for last, the likely cause after all."""
+    """Compare as `compare_readings` does; the likely cause is asked for when all else is computed that needs none."""
+    _require_samples(samples)
     _check_prediction(samples, predicted_mm)
     residual_mm = samples.reading_mm - predicted_mm
     circles = compare_circles(samples, predicted_mm)
+    predictors = rank_predictors(samples, residual_mm, pushes, noise_mm)
     worst = tuple(worst_arcs(circles, WORST_COUNT))
-    predictors = ranked()
     cause = sought()
     if cause is not None:
-        predictors = marked(predictors, samples, residual_mm, pushes(), noise_mm, cause)
+        predictors = marked(predictors, samples, residual_mm, pushes, noise_mm, cause)
     return Comparison(
         samples=samples,
         predicted_mm=predicted_mm,
