@@ -28,7 +28,6 @@ ALLOWED: dict[str, set[str]] = {
     "units": set(),
     "_core": set(),
     "threads": set(),
-    "processes": set(),
     "files": {"errors"},
     # many tasks on Dask, whatever they compute
     "cluster": {"errors", "files", "_core"},
@@ -85,7 +84,6 @@ ALLOWED: dict[str, set[str]] = {
     "comparison": {
         "errors",
         "files",
-        "processes",
         "threads",
         "units",
         "plan",

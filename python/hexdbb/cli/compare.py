@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
-from importlib import import_module
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,7 +19,6 @@ from hexdbb.comparison import Comparison, compare, compare_commanded
 from hexdbb.comparison.tables import comparison_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
-from hexdbb_start import keeps_all
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -90,8 +88,7 @@ def command(
         refuse_existing(stem.with_name(stem.name + suffix), overwrite=True)
     messages = message_console()
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
-        meanwhile = _nothing if no_plot else _load_drawing
-        comparison = _comparison(records, model_path, effects_path, not no_cause, meanwhile, progress)
+        comparison = _comparison(records, model_path, effects_path, not no_cause, progress)
         written = [] if no_plot else _draw(comparison, stem, pages == "all", progress)
     if as_json:
         say(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
@@ -102,12 +99,7 @@ def command(
 
 
 def _comparison(
-    paths: tuple[Path, ...],
-    model_path: Path | None,
-    effects_path: Path | None,
-    find_cause: bool,
-    meanwhile: Callable[[], None],
-    progress: Progress,
+    paths: tuple[Path, ...], model_path: Path | None, effects_path: Path | None, find_cause: bool, progress: Progress
 ) -> Comparison:
     if model_path is None:
         if effects_path is not None:
@@ -116,34 +108,23 @@ def _comparison(
         return compare_commanded(read_samples(paths, progress.console))
     model = existing_model(model_path, effects_path)
     progress.add_task("comparing", total=None)
-    return compare(read_samples(paths, progress.console), model, find_cause=find_cause, meanwhile=meanwhile)
-
-
-def _load_drawing() -> None:
-    """Import what draws, which takes matplotlib half a second: there is time while the likely cause is looked for."""
-    with keeps_all():
-        import_module("hexdbb.plots.pages")
-
-
-def _nothing() -> None:
-    """Do nothing while the likely cause is looked for."""
+    return compare(read_samples(paths, progress.console), model, find_cause=find_cause)
 
 
 def _draw(comparison: Comparison, stem: Path, is_all: bool, progress: Progress) -> list[Path]:
-    _load_drawing()
-    from hexdbb.plots import comparison_pages, save_figure, save_pdf
+    from hexdbb.plots import comparison_pages, save_figure, save_pdf  # matplotlib takes a second to import
 
     pages = comparison_pages(comparison)
     task = progress.add_task("drawing", total=len(pages) if is_all else 1)
-    with keeps_all():  # a page has a hundred thousand objects, and ends before any of them could be freed
-        first = pages[0].draw()
-        written = save_figure(first, stem, [".png"])
+
+    first = pages[0].draw()
 
     def drawn() -> Iterator[Figure]:
         for page in pages:
             yield first if page is pages[0] else page.draw()
             progress.advance(task)
 
+    written = save_figure(first, stem, [".png"])
     if is_all:
         written.append(save_pdf(drawn(), stem.with_name(f"{stem.name}.pdf")))
     return written

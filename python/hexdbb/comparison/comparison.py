@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from contextlib import nullcontext
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from hexdbb.comparison.bystanders import marked
 from hexdbb.comparison.circles import CircleComparison, compare_circles, root_mean_square
 from hexdbb.comparison.iso230 import FloatArray
+from hexdbb.comparison.json_form import ComparisonJson
 from hexdbb.comparison.notebook import comparison_html
 from hexdbb.comparison.radial import RadialError, radial_errors
 from hexdbb.comparison.tables import comparison_text
@@ -23,7 +23,6 @@ from hexdbb.files.frames import to_frame
 from hexdbb.files.plain_text import plain_text
 from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
-from hexdbb.processes import beside
 from hexdbb.samples import Samples, predict
 from hexdbb.threads import one_thread
 
@@ -32,8 +31,6 @@ if TYPE_CHECKING:
 
 WORST_COUNT = 5
 """Number of worst arcs listed: as many as are read."""
-Sought = Callable[[], "LikelyCause | None"]
-"""Returns the likely cause of a residual, when it is found."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +85,6 @@ class Comparison:
 
     def to_json(self) -> dict[str, Any]:
         """Return the object `hexdbb compare --json` prints: micrometres, None where a quantity cannot be evaluated."""
-        from hexdbb.comparison.json_form import ComparisonJson  # only --json needs it
-
         return ComparisonJson.of(self).to_json()
 
     def __str__(self) -> str:
@@ -110,9 +105,7 @@ class Comparison:
 
 
 @one_thread
-def compare(
-    samples: Samples, model: Model, *, find_cause: bool = True, meanwhile: Callable[[], object] | None = None
-) -> Comparison:
+def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Comparison:
     """Compare the readings of samples with those that a model predicts.
 
     The cups of mounts that the model does not know are fitted first, all else held; `Comparison.fitted_mounts` states
@@ -126,9 +119,6 @@ def compare(
     find_cause : bool
         Whether the likely cause of the residual is looked for, where that is more than noise: two or three seconds for
         20,000 samples.
-    meanwhile : callable, optional
-        For a command, which has the computer to itself: the likely cause is then looked for in a process of its own
-        where that is possible (`hexdbb.processes.beside`), and this is called while it is.
 
     Raises
     ------
@@ -139,23 +129,13 @@ def compare(
     _require_samples(samples)
     known, fitted = fit_mounts(samples, model)
     predicted = predict(samples, known)
-
-    def cause() -> LikelyCause | None:
+    cause = None
+    if find_cause:
         from hexdbb.discovery import likely_cause  # a quarter of the start of a comparison without
 
-        return likely_cause(samples, known, predicted.residual_mm)
-
-    search = cause if find_cause else _no_cause
-    apart = find_cause and meanwhile is not None and not known.own_effects  # a user's function may do more than return
-    with beside(search) if apart else nullcontext(search) as found:
-
-        def sought() -> LikelyCause | None:
-            if meanwhile is not None:
-                meanwhile()
-            return found()
-
-        noise_mm = noise_of(samples).sigma_mm
-        return _compared(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, sought, False)
+        cause = likely_cause(samples, known, predicted.residual_mm)
+    noise_mm = noise_of(samples).sigma_mm
+    return compare_readings(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, cause)
 
 
 def compare_readings(
@@ -192,26 +172,11 @@ def compare_readings(
     InputError
         No samples in a record, or predictions that do not belong to the samples.
     """
-    return _compared(samples, predicted_mm, pushes, noise_mm, fitted_mounts, lambda: cause, is_commanded)
-
-
-def _compared(
-    samples: Samples,
-    predicted_mm: FloatArray,
-    pushes: Pushes | None,
-    noise_mm: float,
-    fitted_mounts: Sequence[str],
-    sought: Sought,
-    is_commanded: bool,
-) -> Comparison:
-    """Compare as `compare_readings` does; the likely cause is asked for when all else is computed that needs none."""
     _require_samples(samples)
     _check_prediction(samples, predicted_mm)
     residual_mm = samples.reading_mm - predicted_mm
     circles = compare_circles(samples, predicted_mm)
     predictors = rank_predictors(samples, residual_mm, pushes, noise_mm)
-    worst = tuple(worst_arcs(circles, WORST_COUNT))
-    cause = sought()
     if cause is not None:
         predictors = marked(predictors, samples, residual_mm, pushes, noise_mm, cause)
     return Comparison(
@@ -220,17 +185,13 @@ def _compared(
         residual_mm=residual_mm,
         circles=tuple(circles),
         radial=radial_errors(circles),
-        worst=worst,
+        worst=tuple(worst_arcs(circles, WORST_COUNT)),
         worst_samples=worst_samples(samples, residual_mm, cause, noise_mm),
         predictors=tuple(predictors),
         fitted_mounts=tuple(fitted_mounts),
         cause=cause,
         is_commanded=is_commanded,
     )
-
-
-def _no_cause() -> None:
-    return None
 
 
 def _require_samples(samples: Samples) -> None:
