@@ -11,7 +11,6 @@ import numpy as np
 from hexdbb.comparison.bystanders import marked
 from hexdbb.comparison.circles import CircleComparison, compare_circles, root_mean_square
 from hexdbb.comparison.iso230 import FloatArray
-from hexdbb.comparison.json_form import ComparisonJson
 from hexdbb.comparison.notebook import comparison_html
 from hexdbb.comparison.radial import RadialError, radial_errors
 from hexdbb.comparison.tables import comparison_text
@@ -85,6 +84,8 @@ class Comparison:
 
     def to_json(self) -> dict[str, Any]:
         """Return the object `hexdbb compare --json` prints: micrometres, None where a quantity cannot be evaluated."""
+        from hexdbb.comparison.json_form import ComparisonJson  # only --json needs it
+
         return ComparisonJson.of(self).to_json()
 
     def __str__(self) -> str:
