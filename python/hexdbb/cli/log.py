@@ -90,7 +90,7 @@ def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
 
 
 def _say_kept_set_up(path: Path, kept: Record, given: str) -> None:
-    """Say that a record that is in a logbook keeps its set-up, where another is given now."""
+    """Print a note where a record in the logbook has another set-up than the one given now: it keeps its own."""
     names = {mount.fixing for mount in kept.mounts}
     if names != {given}:
         name = ", ".join(f'"{each}"' for each in names if each is not None) or "a set-up of its own"

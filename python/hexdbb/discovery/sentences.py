@@ -11,7 +11,7 @@ from hexdbb.files.plain_text import capital
 from hexdbb.learned.places import is_learned
 
 UNKNOWN = "something is missing that no known effect explains"
-NEAR = "something is missing that known effects come near to, but do not predict"
+NEAR = "something is missing that known effects explain in part only, or do not predict"
 
 
 def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, heldout: Mapping[str, HeldOut]) -> str:

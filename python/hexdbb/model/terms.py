@@ -20,7 +20,7 @@ class MountKey:
     """One fixing of the cup: a record's mounts count as fixings of its own, unless they have the name of one."""
 
     record_hash: str
-    """Of the record's content; ``fixing NAME`` where several records share it."""
+    """Content hash of the record, or ``fixing NAME`` where several records share the fixing."""
     mount_id: int
 
 
