@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis.extrapolation import expected_error
+from hexdbb.diagnosis.glitches import glitches, glitches_sentence
 from hexdbb.diagnosis.heldout import Refit, as_it_is, held_out
 from hexdbb.diagnosis.judging import judging_noise
 from hexdbb.diagnosis.mirror import settle_signs
@@ -96,6 +97,8 @@ class Fit:
 
     Attributes
     ----------
+    samples : Samples
+        What was fitted to: all that were given but those that stand alone.
     known : Model
         The start, with the mounts of the samples.
     model : Model
@@ -106,14 +109,18 @@ class Fit:
         Of the engine: from the start; from where the signs that the readings leave open were settled.
     either_sign : tuple of str
         Values that are as good with the other sign, in sentences.
+    left_out : str or None
+        How many readings stand alone, in a sentence.
     """
 
+    samples: Samples
     known: Model
     model: Model
     noise: Noise
     first: _core.FitResult
     result: _core.FitResult
     either_sign: tuple[str, ...]
+    left_out: str | None = None
 
 
 def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
@@ -123,6 +130,18 @@ def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
         raise InputError("the model has no free value (expected at least one to fit)")
     _require_distinct(samples)
     known = model.with_mounts(samples.mounts)
+    fit = _fit(samples, known, robust)
+    if robust:
+        return fit
+    residual_mm = fit.result.residual_mm
+    alone = glitches(samples, residual_mm, fit.noise.sigma_mm)
+    if not alone.any():
+        return fit
+    told = glitches_sentence(samples, residual_mm, alone)
+    return replace(_fit(samples.part(~alone), known, robust), left_out=told)
+
+
+def _fit(samples: Samples, known: Model, robust: bool) -> Fit:
     noise = noise_of(samples)
     first = evaluate_fit(samples, known, known.free, noise, robust=robust)
     (fitted, result), either_sign = settle_signs(
@@ -130,7 +149,7 @@ def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
     )
     fitted = with_bands(fitted, result.covariance, samples)
     _require_determined(fitted, result, samples)
-    return Fit(known, fitted, noise, first[1], result, tuple(either_sign))
+    return Fit(samples, known, fitted, noise, first[1], result, tuple(either_sign))
 
 
 def diagnose(
@@ -142,6 +161,8 @@ def diagnose(
     against: tuple[Model, Refit] | None = None,
 ) -> Diagnosis:
     """Fit a model's free effects to samples. The model's ledger stays as it is (`hexdbb.ledger.fit_model` writes it).
+
+    Readings that stand alone (`hexdbb.diagnosis.glitches`) are left out, unless a robust fit is asked for.
 
     Parameters
     ----------
@@ -166,7 +187,7 @@ def diagnose(
         Where the fit did not end in a usable solution.
     """
     fit = fit_free(samples, model, robust=robust)
-    known, fitted, noise, result = fit.known, fit.model, fit.noise, fit.result
+    samples, known, fitted, noise, result = fit.samples, fit.known, fit.model, fit.noise, fit.result
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
@@ -195,6 +216,7 @@ def diagnose(
         unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
         warnings=(
             *not_measured_sentences(samples.records),
+            *([] if fit.left_out is None else [fit.left_out]),
             *fit.either_sign,
             *warnings_of(fitted, result, enough, checked, expected),
         ),

@@ -42,7 +42,7 @@ class Diagnosis:
     Attributes
     ----------
     samples : Samples
-        What was fitted to.
+        What was fitted to: without readings that stand alone.
     model : Model
         With the fitted values.
     rms_before_um, rms_after_um : float

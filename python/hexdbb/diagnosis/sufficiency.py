@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.diagnosis.glitches import bridged, glitches
 from hexdbb.diagnosis.harmonics import orthonormal_harmonics
 from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
@@ -103,7 +104,7 @@ def assess_sufficiency(
     matters_um: float | None = None,
     test: FitTest | None = None,
 ) -> Sufficiency:
-    """Judge what a fitted model leaves.
+    """Judge what a fitted model leaves, but for readings that stand alone (`hexdbb.diagnosis.glitches`).
 
     Parameters
     ----------
@@ -120,7 +121,8 @@ def assess_sufficiency(
         Prepared for the samples and the noise.
     """
     judged = noise or judging_noise(samples)
-    lack = (test or FitTest(samples, judged.noise)).of(residual_mm, int(model.free.sum()))
+    left_mm = bridged(samples, residual_mm, glitches(samples, residual_mm, judged.noise.sigma_mm))
+    lack = (test or FitTest(samples, judged.noise)).of(left_mm, int(model.free.sum()))
     if matters_um is None:
         matters_um = default_matters_um(judged.noise.sigma_mm * 1e3, explained_um(samples, model, residual_mm))
     return Sufficiency(lack, matters_um, judged.is_steady)

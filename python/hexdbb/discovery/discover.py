@@ -7,12 +7,21 @@ learned, are searched and decided by their evidence (`hexdbb.evidence`); their o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hexdbb import _core
-from hexdbb.diagnosis import FitTest, JudgingNoise, Sufficiency, assess_sufficiency, explains_changes, judging_noise
+from hexdbb.diagnosis import (
+    FitTest,
+    JudgingNoise,
+    Sufficiency,
+    assess_sufficiency,
+    explains_changes,
+    glitches,
+    glitches_sentence,
+    judging_noise,
+)
 from hexdbb.discovery.causes import Told, told
 from hexdbb.discovery.own_effects import require_usable_effects
 from hexdbb.discovery.result import Discovery
@@ -81,26 +90,47 @@ def discover(
     known = model.with_mounts(samples.mounts)
     names = _asked(samples, known, candidates)
     require_usable_effects(samples, known, names)
-    judging = judging_noise(samples)
-    test = FitTest(samples, judging.noise)
     progress("fitting the model as it is")
-    engine = Engine(samples, with_judged_free(samples.unmeasured, known), judging.noise, criteria)
+    begun = _begun(samples, with_judged_free(samples.unmeasured, known), criteria)
+    engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
+    test = FitTest(samples, noise)
 
     def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
-        return assess_sufficiency(samples, fitted, residual_mm, noise=judging, matters_um=matters_um, test=test)
+        return assess_sufficiency(samples, fitted, residual_mm, noise=begun.judging, matters_um=matters_um, test=test)
 
     enough = judged(engine.base, engine.residual_mm)
     if not enough.matters:
-        return _nothing(engine, enough, judging)
+        return _with_remarks(_nothing(engine, enough), begun)
     progress("screening all hypotheses, fitting the best")
     search = Search(engine, names, criteria, learns=not known_only)
     verdict = judge(search, enough.matters_um)
     outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
     if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
         residual_mm = predict(samples, outcome.model).residual_mm
-        structure = unexplained_structure(samples, outcome.model, residual_mm, judging.noise)
+        structure = unexplained_structure(samples, outcome.model, residual_mm, noise)
         outcome = replace(outcome, structure=structure)
-    return _with_remark(outcome, engine, judging)
+    return _with_remarks(outcome, begun)
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """What a search begins with: readings that do not stand alone, the noise they are judged by, what was left out."""
+
+    engine: Engine
+    judging: JudgingNoise
+    left_out: str | None
+
+
+def _begun(samples: Samples, model: Model, criteria: Criteria) -> _Begun:
+    judging = judging_noise(samples)
+    engine = Engine(samples, model, judging.noise, criteria)
+    alone = glitches(samples, engine.residual_mm, judging.noise.sigma_mm)
+    if not alone.any():
+        return _Begun(engine, judging, None)
+    kept = samples.part(~alone)
+    judging = judging_noise(kept)
+    left_out = glitches_sentence(samples, engine.residual_mm, alone)
+    return _Begun(Engine(kept, model, judging.noise, criteria), judging, left_out)
 
 
 def absent_effects(model: Model) -> list[str]:
@@ -110,13 +140,12 @@ def absent_effects(model: Model) -> list[str]:
     return [name for name in (*_core.effect_names("catalogue"), *model.own_effects) if name not in wholly]
 
 
-def _nothing(engine: Engine, enough: Sufficiency, judging: JudgingNoise) -> Discovery:
+def _nothing(engine: Engine, enough: Sufficiency) -> Discovery:
     rms_um = enough.lack_of_fit.rms_um
     sentence = f"nothing that matters is missing: {enough.sentence}" if enough.is_significant else NOTHING
-    found = Discovery(
+    return Discovery(
         "none", sentence, enough, (), (), engine.samples, engine.noise, engine.base, engine.base, None, rms_um, rms_um
     )
-    return _with_remark(found, engine, judging)
 
 
 def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
@@ -142,12 +171,15 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
     )
 
 
-def _with_remark(found: Discovery, engine: Engine, judging: JudgingNoise) -> Discovery:
-    """Add what was not measured, and what laps tell of the noise.
+def _with_remarks(found: Discovery, begun: _Begun) -> Discovery:
+    """Add what was left out or not measured, and what laps tell of the noise.
 
     A machine that does not repeat does not lack nothing, unless the model explains why (a screw that warms).
     """
-    found = replace(found, remarks=(*found.remarks, *not_measured_sentences(engine.samples.records)))
+    engine, judging = begun.engine, begun.judging
+    left_out = () if begun.left_out is None else (begun.left_out,)
+    remarks = (*found.remarks, *left_out, *not_measured_sentences(engine.samples.records))
+    found = replace(found, remarks=remarks)
     explained = not judging.is_steady and explains_changes(engine.samples, engine.residual_mm, judging)
     if judging.remark is None or explained:
         return found

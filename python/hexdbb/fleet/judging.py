@@ -160,8 +160,8 @@ def _judged(record: Record, start: _Start, command: str) -> list[Row]:
 def _diagnosed(samples: Samples, model: Model) -> list[Row]:
     """Return a row for every value of the machine's own that was fitted; sigma is null where not known alone."""
     found = fit_free(samples, model)
-    noise = judging_noise(samples, found.noise)
-    enough = assess_sufficiency(samples, found.model, found.result.residual_mm, noise=noise)
+    noise = judging_noise(found.samples, found.noise)
+    enough = assess_sufficiency(found.samples, found.model, found.result.residual_mm, noise=noise)
     columns, parameters = found.model.columns(), found.model.parameters()
     common: Row = {
         "rms_before_um": found.first.rms_before_mm * UM_PER_MM,

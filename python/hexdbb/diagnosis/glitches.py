@@ -1,0 +1,128 @@
+"""Readings that stand alone: glitches of the gauge or its line, which no model of a machine is asked to explain.
+
+A reading stands alone where what a model leaves differs from the median of its neighbours by far more than noise, and
+than such differences are elsewhere on its sweep. An error of the machine has neighbours, or comes again at the same
+angle of the same circle in another lap or direction; where there is one lap only, it may show once, at a drive's
+reversal. Where many readings stand alone they are the noise, and none is a glitch.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.samples import Samples
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+NEIGHBOURS = 3
+"""Readings to each side whose median is expected: a step between two of them stays a step, and three readings off
+together are the machine's."""
+ALONE = 6.0
+"""Standard deviations from that median beyond which a reading is off: one in 10^8 of normal noise."""
+MEDIAN_TO_SIGMA = 1.4826
+"""Standard deviation of a normal variable over the median of its size."""
+OF_DIFFERENCE = np.sqrt(1.5)
+"""Standard deviation of a reading minus the mean of its two neighbours, over that of one reading."""
+AGAIN = 3.0
+"""Standard deviations of that difference at which a reading is looked at, and another of the same place is off too."""
+SAME_PLACE_RAD = np.radians(1.0)
+"""Angle within which two readings of a circle are of one place: two or three readings of a usual lap."""
+REVERSAL_S = 0.2
+"""Time about a drive's reversal in which it may cross its play, or jump, from one reading to the next."""
+HOPELESS = 0.1
+"""Part of the readings from which on none is looked at twice."""
+MOST = 0.02
+"""Part of the readings from which on they are no exceptions: gauges glitch once in some hundreds at worst."""
+
+
+def glitches(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
+    """Find readings that stand alone.
+
+    Parameters
+    ----------
+    samples : Samples
+    residual_mm : ndarray, shape (n,)
+        What a model leaves of their readings.
+    noise_mm : float
+        Standard deviation of one reading.
+
+    Returns
+    -------
+    ndarray of bool, shape (n,)
+    """
+    off = np.zeros(len(residual_mm))
+    alone = np.zeros(len(residual_mm), dtype=np.bool_)
+    for rows in samples.sweeps():
+        if len(rows) > 2 * NEIGHBOURS:
+            off[rows], usual_mm = _off_neighbours(residual_mm[rows], noise_mm)
+            doubtful = np.flatnonzero(np.abs(off[rows]) > AGAIN)
+            apart_mm = residual_mm[rows[doubtful]] - _medians(residual_mm[rows], doubtful)
+            alone[rows[doubtful]] = np.abs(apart_mm) > ALONE * usual_mm
+    if alone.mean() > HOPELESS:
+        return np.zeros_like(alone)
+    for row in np.flatnonzero(alone):
+        alone[row] = not _is_of_machine(samples, off, row)
+    return alone if alone.mean() < MOST else np.zeros_like(alone)
+
+
+def bridged(samples: Samples, residual_mm: Floats, found: Mask) -> Floats:
+    """Return a residual with readings that stand alone replaced by what lies between their neighbours."""
+    if not found.any():
+        return residual_mm
+    whole = residual_mm.copy()
+    for rows in samples.sweeps():
+        gone = found[rows]
+        if gone.any() and not gone.all():
+            whole[rows[gone]] = np.interp(np.flatnonzero(gone), np.flatnonzero(~gone), residual_mm[rows[~gone]])
+    return whole
+
+
+def glitches_sentence(samples: Samples, residual_mm: Floats, found: Mask) -> str:
+    """Say how many readings stand alone, and how far."""
+    count, far_um = int(found.sum()), float(np.abs(residual_mm[found]).max()) * 1e3
+    stands = "1 reading stands" if count == 1 else f"{count} readings stand"
+    return (
+        f"{stands} alone, up to {far_um:.3g} µm off ({100.0 * count / len(samples):.2g} % of all):"
+        " glitches of the gauge or its line, by which the model is not judged"
+    )
+
+
+def _off_neighbours(residual_mm: Floats, noise_mm: float) -> tuple[Floats, float]:
+    """Return how far each reading of a sweep is from the middle of its two neighbours, in standard deviations.
+
+    The second value is the standard deviation of one reading, as the sweep shows it: the noise at least.
+    """
+    apart_mm = np.zeros_like(residual_mm)
+    apart_mm[1:-1] = residual_mm[1:-1] - 0.5 * (residual_mm[:-2] + residual_mm[2:])
+    usual_mm = max(noise_mm, MEDIAN_TO_SIGMA * float(np.median(np.abs(apart_mm))) / OF_DIFFERENCE)
+    return apart_mm / (OF_DIFFERENCE * usual_mm), usual_mm
+
+
+def _medians(values: Floats, places: NDArray[np.intp]) -> Floats:
+    """Return the medians of the neighbourhoods of some places."""
+    ends = np.pad(values, NEIGHBOURS, mode="edge")
+    medians: Floats = np.median(np.lib.stride_tricks.sliding_window_view(ends, 2 * NEIGHBOURS + 1)[places], axis=1)
+    return medians
+
+
+def _is_of_machine(samples: Samples, off: Floats, row: np.intp) -> bool:
+    """Check whether a reading is off to the same side at its place in another lap or direction.
+
+    Near a reversal, where the other direction says nothing, that takes another lap; without one it may be the machine.
+    """
+    apart_rad = np.remainder(samples["angle_rad"] - samples["angle_rad"][row] + np.pi, 2.0 * np.pi) - np.pi
+    there = (samples["set_up"] == samples["set_up"][row]) & (np.abs(apart_rad) <= SAME_PLACE_RAD)
+    same_sweep = samples["sweep"] == samples["sweep"][row]
+    other_lap = there & same_sweep & (samples["lap"] != samples["lap"][row])
+    if np.any(off[there & ~same_sweep | other_lap] * np.sign(off[row]) > AGAIN):
+        return True
+    return not other_lap.any() and _is_at_reversal(samples, row)
+
+
+def _is_at_reversal(samples: Samples, row: np.intp) -> bool:
+    """Check for the reversal of any drive, before or behind a reading."""
+    time_s = samples["time_s"]
+    near = (samples["sweep"] == samples["sweep"][row]) & (np.abs(time_s - time_s[row]) <= REVERSAL_S)
+    return bool(np.any(np.ptp(samples["travel_direction"][near], axis=0) > 0.0))

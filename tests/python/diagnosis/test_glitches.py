@@ -1,0 +1,91 @@
+"""Readings that stand alone are left out and told of; what comes again, or is wider, is the machine's."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hexdbb.diagnosis import diagnose, glitches
+from hexdbb.discovery import discover
+from hexdbb.model import new_model
+from hexdbb.record import Record
+from hexdbb.samples import Samples
+from hexdbb_truth.forms.cases import case
+
+NOISE_MM = 0.5e-3
+
+
+@pytest.fixture(scope="module")
+def clean() -> Record:
+    return case("none-calibrate-s1").record()
+
+
+def with_readings(record: Record, readings_um: np.ndarray) -> Record:
+    return replace(record, columns={**record.columns, "reading_um": readings_um})
+
+
+def glitched(record: Record, share: float) -> tuple[Record, np.ndarray]:
+    draw = np.random.default_rng(5)
+    hit = draw.choice(len(record), round(share * len(record)), replace=False)
+    readings = record.columns["reading_um"].copy()
+    readings[hit] += draw.choice([-1.0, 1.0], len(hit)) * draw.uniform(8.0, 60.0, len(hit))
+    return with_readings(record, readings), hit
+
+
+def white(record: Record) -> np.ndarray:
+    return np.random.default_rng(6).normal(0.0, NOISE_MM, len(record))
+
+
+def test_noise_alone_has_no_glitch(clean: Record) -> None:
+    assert not glitches(Samples.of([clean]), white(clean), NOISE_MM).any()
+
+
+def test_glitches_are_found_and_nothing_else(clean: Record) -> None:
+    samples, left = Samples.of([clean]), white(clean)
+    hit = np.arange(50, len(clean), 501)
+    left[hit] += 12.0 * NOISE_MM
+    found = glitches(samples, left, NOISE_MM)
+    assert set(np.flatnonzero(found)) <= set(hit)
+    assert found[hit].mean() > 0.9  # a few lie beside another by chance, or near a reversal
+
+
+def test_what_comes_again_in_another_lap_is_the_machine(clean: Record) -> None:
+    samples, left = Samples.of([clean]), white(clean)
+    narrow = np.abs(np.remainder(samples["angle_rad"] - 1.0, 2.0 * np.pi)) < np.radians(0.8)
+    assert 0 < narrow.mean() < 0.02
+    left[narrow] += 20.0 * NOISE_MM
+    assert not glitches(samples, left, NOISE_MM)[narrow].any()
+
+
+def test_steps_and_wide_bumps_are_the_machine(clean: Record) -> None:
+    samples, left = Samples.of([clean]), white(clean)
+    left += 20.0 * NOISE_MM * (samples["angle_rad"] > 2.0)
+    left[300:305] += 30.0 * NOISE_MM
+    assert not glitches(samples, left, NOISE_MM).any()
+
+
+def test_many_readings_that_stand_alone_are_noise(clean: Record) -> None:
+    left = white(clean)
+    left[::20] += 20.0 * NOISE_MM * np.random.default_rng(7).choice([-1.0, 1.0], len(left[::20]))
+    assert not glitches(Samples.of([clean]), left, NOISE_MM).any()
+
+
+def test_a_clean_machine_with_glitches_lacks_nothing(clean: Record) -> None:
+    record, hit = glitched(clean, 0.004)
+    samples = Samples.of([record])
+    found = diagnose(samples, new_model(record.machine), check_held_out=False)
+    assert found.sufficiency.is_sufficient
+    left_out = len(record) - len(found.samples)
+    assert 0.9 * len(hit) <= left_out <= len(hit)
+    assert any(f"{left_out} readings stand alone" in each for each in found.warnings)
+    verdict = discover(samples, found.model)
+    assert verdict.verdict == "none"
+    assert any("stand alone" in each for each in verdict.remarks)
+
+
+def test_a_fault_with_glitches_keeps_its_name() -> None:
+    record, _ = glitched(case("backlash-d10-x10-calibrate-s1").record(), 0.004)
+    found = discover(Samples.of([record]), new_model(record.machine), known_only=True)
+    assert [each.choice for each in found.causes] == ["backlash:5"]
