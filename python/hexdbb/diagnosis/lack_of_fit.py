@@ -7,12 +7,13 @@ uncertainty counts.
 shape      Is the residual smooth? On every sweep the residual is split into what a Fourier series of `HARMONICS`
 harmonics of the angle
            takes and the rest; were the residual white, both would have the same variance: an F-test that needs no
-           stated noise. A gauge noisier or quieter than stated does not deceive it.
+           stated noise. A gauge noisier or quieter than stated does not deceive it. Noise that changes slowly is smooth
+           as well, but differs from lap to lap: where laps are repeated, what they share must exceed what they do not.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,8 @@ Floats = NDArray[np.float64]
 HARMONICS = 8
 LEAST_ROWS = 40
 """A sweep needs this many samples for its harmonics and a rest to compare them with."""
+WHOLE_LAP = 0.95
+"""Part of the longest lap's samples that a lap must have: harmonics of an arc are no harmonics of the circle."""
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from."""
 MAX_PREPARED = 400_000
@@ -48,7 +51,7 @@ class LackOfFit:
     level : float
         The residual's excess over the noise in standard deviations of that excess.
     shape_p : float
-        Probability of so smooth a residual by chance.
+        Probability of so smooth a residual by chance; where laps are repeated, of one that they share so far.
     smooth_um : float
         RMS of the smooth part beyond what the rest of the residual leads one to expect there.
     """
@@ -85,6 +88,7 @@ class FitTest:
         self._noise = noise
         self._angle_rad = samples["angle_rad"]
         self._sweeps = [rows for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
+        self._laps = list(_repeated_laps(samples["lap"], self._sweeps))
         self._prepared = list(self._bases()) if len(samples) <= MAX_PREPARED else None
 
     def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
@@ -120,5 +124,36 @@ class FitTest:
             return 1.0, 0.0
         variance = rest / rest_freedom
         chance = _core.f_tail(smooth_freedom, rest_freedom, smooth / smooth_freedom / variance)
+        if chance < SHAPE_P:
+            chance = max(chance, self._shared_by_laps(residual_mm, fitted_values))
         beyond = max(smooth - smooth_freedom * variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
+
+    def _shared_by_laps(self, residual_mm: Floats, fitted_values: int) -> float:
+        """Return the probability of laps so alike by chance; 0 where too few are repeated.
+
+        An analysis of variance of the harmonics of single laps: their mean in a sweep against their scatter about it.
+        """
+        shared, scatter, shared_freedom, scatter_freedom = 0.0, 0.0, -fitted_values, 0
+        for laps in self._laps:
+            bases = (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in laps)
+            parts = np.array([residual_mm[rows] @ basis for rows, basis in zip(laps, bases, strict=True)])
+            mean = parts.mean(axis=0)
+            shared += len(laps) * float(mean @ mean)
+            scatter += float(np.sum((parts - mean) ** 2))
+            shared_freedom += len(mean)
+            scatter_freedom += (len(laps) - 1) * len(mean)
+        if shared_freedom <= 0 or scatter_freedom <= 0 or scatter <= 0.0:
+            return 0.0
+        return _core.f_tail(shared_freedom, scatter_freedom, shared / shared_freedom * scatter_freedom / scatter)
+
+
+def _repeated_laps(lap: NDArray[np.int64], sweeps: Sequence[NDArray[np.intp]]) -> Iterator[list[NDArray[np.intp]]]:
+    """Yield the rows of every whole lap, sweep by sweep, where there are two or more of enough rows."""
+    for rows in sweeps:
+        own = lap[rows]
+        laps = [rows[own == each] for each in np.unique(own)]
+        most = max(map(len, laps))
+        whole = [each for each in laps if len(each) >= max(LEAST_ROWS, WHOLE_LAP * most)]
+        if len(whole) > 1:
+            yield whole

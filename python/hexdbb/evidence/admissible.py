@@ -37,13 +37,15 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     value badly is no reason. Nor is it one that a form not quite right, whose remainder geometry bends after, does not
     predict circles that geometry alone does not predict either. Free functions of time alone claim nothing of a time
     that was left out, and every group lies in a time of its own; what stands beside them claims what it claims alone.
+    What lies between other readings they do claim: noise that changes slowly is no function. What predicts no grouping
+    at all is refused however little it adds to the noise.
     """
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons, excused, worse = [], False, False
     if all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members):
-        return Checked(predicted, share, (), claimed=(ARC,))
+        return Checked(predicted, share, _not_between(predicted, share, criteria), claimed=(ARC,))
     for grouping, held in predicted.items():
         if grouping == ARC:
             continue
@@ -55,7 +57,19 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
             excused, worse = True, worse or held.share < 0.0
         else:
             reasons.append(f"does not predict {WORDS[grouping]}")
+    claimed = [held for grouping, held in predicted.items() if grouping != ARC]
+    if claimed and not (
+        reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
+    ):
+        reasons.append("predicts nothing that was left out")
     return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted), predicts_worse=worse)
+
+
+def _not_between(predicted: Mapping[str, HeldOut], share: float, criteria: Criteria) -> tuple[str, ...]:
+    """Return why functions of time are refused: they must predict arcs left out as well as a cause has to explain."""
+    between = predicted.get(ARC)
+    is_refuted = between is not None and between.share < criteria.explained_min * min(share, 1.0)
+    return ("does not predict the times between",) if is_refuted else ()
 
 
 def _bends_geometry(trial: Trial, share: float, criteria: Criteria) -> bool:

@@ -68,3 +68,27 @@ def test_a_gauge_noisier_than_stated_deceives_the_level_and_not_the_shape(
     found = test.of(2.0 * white(record, 4), 0)
     assert found.level > 4.0
     assert found.shape_p > 1e-3
+
+
+def slow_noise(record: Record, seed: int) -> np.ndarray:
+    """White noise, and as much that keeps its value for some twenty readings."""
+    draw, kept = np.random.default_rng(seed), 0.95
+    slow = np.zeros(len(record))
+    for row, step in enumerate(draw.normal(0.0, NOISE.sigma_mm * np.sqrt(1.0 - kept**2), len(record))):
+        slow[row] = kept * slow[row - 1] + step
+    return draw.normal(0.0, NOISE.sigma_mm, len(record)) + slow
+
+
+def test_noise_that_changes_slowly_is_noise_where_laps_are_repeated(test_of_fit: tuple[FitTest, Record]) -> None:
+    _, record = test_of_fit
+    test = FitTest(Samples.of([record]), Noise(np.sqrt(2.0) * NOISE.sigma_mm, "repeated laps"))
+    found = [test.of(slow_noise(record, seed), 0) for seed in range(10)]
+    assert not any(each.shape_p < 1e-4 for each in found)
+    shared = 0.5 * NOISE.sigma_mm * np.cos(2.0 * np.radians(record.columns["angle_deg"]))
+    assert test.of(slow_noise(record, 1) + shared, 0).shape_p < 1e-6
+
+
+def test_noise_that_changes_slowly_is_seen_where_no_lap_is_repeated(test_of_fit: tuple[FitTest, Record]) -> None:
+    _, record = test_of_fit
+    first = record.part(record.columns["lap"] == record.columns["lap"].min())
+    assert FitTest(Samples.of([first]), NOISE).of(slow_noise(first, 2), 0).shape_p < 1e-4
