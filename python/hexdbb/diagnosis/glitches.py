@@ -28,7 +28,8 @@ OF_DIFFERENCE = np.sqrt(1.5)
 AGAIN = 3.0
 """Standard deviations of that difference at which a reading is looked at, and another of the same place is off too."""
 SAME_PLACE_RAD = np.radians(1.0)
-"""Angle within which two readings of a circle are of one place: two or three readings of a usual lap."""
+"""Angle within which two readings of a circle are of one place: two or three readings of a usual lap; at slower rates
+as far as neighbours are apart, but for spikes at reversals, which are shorter than that."""
 REVERSAL_S = 0.2
 """Time about a drive's reversal in which it may cross its play, or jump, from one reading to the next."""
 HOPELESS = 0.1
@@ -108,17 +109,28 @@ def _medians(values: Floats, places: NDArray[np.intp]) -> Floats:
 
 
 def _is_of_machine(samples: Samples, off: Floats, row: np.intp) -> bool:
-    """Check whether a reading is off to the same side at its place in another lap or direction.
+    """Check whether a reading is off to the same side at its place in another lap, or in most other sweeps there.
 
     Near a reversal, where the other direction says nothing, that takes another lap; without one it may be the machine.
     """
-    apart_rad = np.remainder(samples["angle_rad"] - samples["angle_rad"][row] + np.pi, 2.0 * np.pi) - np.pi
-    there = (samples["set_up"] == samples["set_up"][row]) & (np.abs(apart_rad) <= SAME_PLACE_RAD)
-    same_sweep = samples["sweep"] == samples["sweep"][row]
-    other_lap = there & same_sweep & (samples["lap"] != samples["lap"][row])
-    if np.any(off[there & ~same_sweep | other_lap] * np.sign(off[row]) > AGAIN):
+    angle_rad, sweep = samples["angle_rad"], samples["sweep"]
+    apart_rad = np.abs(_wrapped(angle_rad - angle_rad[row]))
+    other_sweep = (samples["set_up"] == samples["set_up"][row]) & (sweep != sweep[row])
+    other_lap = (sweep == sweep[row]) & (samples["lap"] != samples["lap"][row])
+    last = min(row, len(angle_rad) - 2)
+    near = apart_rad <= max(SAME_PLACE_RAD, abs(_wrapped(angle_rad[last + 1] - angle_rad[last])))
+    again = off * np.sign(off[row]) > AGAIN
+    others = np.unique(sweep[near & other_sweep])
+    if np.any(again & near & other_lap) or len(np.unique(sweep[near & other_sweep & again])) > 0.5 * len(others):
         return True
-    return not other_lap.any() and _is_at_reversal(samples, row)
+    is_repeated = np.any(other_lap & (apart_rad <= SAME_PLACE_RAD))
+    return not is_repeated and _is_at_reversal(samples, row)
+
+
+def _wrapped(angle_rad: Floats) -> Floats:
+    """Return angles within half a turn of zero."""
+    within: Floats = np.remainder(angle_rad + np.pi, 2.0 * np.pi) - np.pi
+    return within
 
 
 def _is_at_reversal(samples: Samples, row: np.intp) -> bool:

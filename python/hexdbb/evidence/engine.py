@@ -16,7 +16,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.learned import Learned, Space
-from hexdbb.model import Model, OwnEffect, Tabulated, Term, is_shaped, new_term
+from hexdbb.model import Model, OwnEffect, Tabulated, Term, new_term
 from hexdbb.model.terms import started_term
 from hexdbb.samples import Samples, effect_pushes
 
@@ -124,7 +124,6 @@ class Engine:
         self.row_noise_mm = noise.sigma_mm / np.sqrt(count)
         self._fitted_rows = np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), criteria.fit_rows)).astype(int))
         self._fitted_part = samples.part(chosen[self._fitted_rows])
-        self._tabulated: dict[str, Tabulated] = {}
 
     @cached_property
     def readings(self) -> Readings:
@@ -280,14 +279,10 @@ class Engine:
         return model.engine(self._tabulate)
 
     def _tabulate(self, effect: OwnEffect, values: Floats) -> Tabulated:
-        """Evaluate an effect for the whole table; a user's is kept, a learned one belongs to one fit."""
+        """Evaluate an effect for the whole table; a learned one belongs to one fit and is not kept."""
         if isinstance(effect, TabulatedLearned):
             return effect.tabulated(self.samples)
-        if is_shaped(effect):
-            return effect.tabulated_at(self.samples, values)
-        if effect.name not in self._tabulated:
-            self._tabulated[effect.name] = effect.tabulated(self.samples)
-        return self._tabulated[effect.name]
+        return self.samples.tabulated(effect, values)
 
 
 def _held(model: Model, effect: str) -> Term:

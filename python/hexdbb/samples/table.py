@@ -217,11 +217,30 @@ class Samples:
         InputError
             An effect of the user's own that fails, with its file and line.
         """
-        return model.engine(self._tabulated)
+        return model.engine(self.tabulated)
+
+    def tabulated(self, effect: OwnEffect, values: Floats) -> Tabulated:
+        """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs.
+
+        Parameters
+        ----------
+        effect : OwnEffect
+        values : ndarray, shape (size,)
+            Of its parameters: shape parameters among them change the table.
+        """
+        known = self._whole.tabulated
+        if not is_shaped(effect):
+            if effect not in known:
+                known[effect] = effect.tabulated(Samples(self._whole))
+            return known[effect]
+        at = values.tobytes()  # another fit's values need another table; the last one serves most calls
+        if effect not in self._whole.shaped or self._whole.shaped[effect][0] != at:
+            self._whole.shaped[effect] = (at, effect.tabulated_at(Samples(self._whole), values))
+        return self._whole.shaped[effect][1]
 
     def pushes_of(self, effect: OwnEffect, values: Floats) -> Floats:
         """Return what an effect that is not the engine's pushes at its values, (n, 55, size), mm per unit of one."""
-        return self._tabulated(effect, values).pushes(self.row_numbers)
+        return self.tabulated(effect, values).pushes(self.row_numbers)
 
     def columns(self) -> Columns:
         """Return every column with shape (n,): ``velocity_mm_s_1`` of slider 1, ``position_mm_x``."""
@@ -249,18 +268,6 @@ class Samples:
         flat = self.columns()
         rows = [[_cell(flat[name][row]) for name in SHOWN] for row in range(min(SHOWN_ROWS, len(self)))]
         return f"<p>{len(self)} samples; columns {escape(', '.join(self.column_names))}</p>{html_table(SHOWN, rows)}"
-
-    def _tabulated(self, effect: OwnEffect, values: Floats) -> Tabulated:
-        """Return what a user's effect pushes in the whole table, of which the engine takes the rows it needs."""
-        known = self._whole.tabulated
-        if not is_shaped(effect):
-            if effect not in known:
-                known[effect] = effect.tabulated(Samples(self._whole))
-            return known[effect]
-        at = values.tobytes()  # another fit's values need another table; the last one serves most calls
-        if effect not in self._whole.shaped or self._whole.shaped[effect][0] != at:
-            self._whole.shaped[effect] = (at, effect.tabulated_at(Samples(self._whole), values))
-        return self._whole.shaped[effect][1]
 
     def _require_known(self, model: Model) -> None:
         for place in np.unique(self["mount"]):
