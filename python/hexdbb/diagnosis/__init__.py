@@ -2,7 +2,7 @@
 
 from hexdbb.diagnosis.extrapolation import ExpectedError, expected_error
 from hexdbb.diagnosis.fit import Fit, diagnose, evaluate_fit, fit_free, refitter
-from hexdbb.diagnosis.glitches import glitches, glitches_sentence
+from hexdbb.diagnosis.glitches import glitches_in, glitches_sentence
 from hexdbb.diagnosis.heldout import HeldOut, Refit, as_it_is, held_out
 from hexdbb.diagnosis.judging import JudgingNoise, explains_changes, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
@@ -34,7 +34,7 @@ __all__ = [
     "explains_changes",
     "fit_free",
     "fit_mounts",
-    "glitches",
+    "glitches_in",
     "glitches_sentence",
     "held_out",
     "is_white",

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis.extrapolation import expected_error
-from hexdbb.diagnosis.glitches import glitches, glitches_sentence
+from hexdbb.diagnosis.glitches import glitches_in, glitches_sentence
 from hexdbb.diagnosis.heldout import Refit, as_it_is, held_out
 from hexdbb.diagnosis.judging import judging_noise
 from hexdbb.diagnosis.mirror import settle_signs
@@ -134,7 +134,7 @@ def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
     if robust:
         return fit
     residual_mm = fit.result.residual_mm
-    alone = glitches(samples, residual_mm, fit.noise.sigma_mm)
+    alone = glitches_in(samples, residual_mm, fit.noise.sigma_mm)
     if not alone.any():
         return fit
     told = glitches_sentence(samples, residual_mm, alone)

@@ -38,7 +38,7 @@ MOST = 0.02
 """Part of the readings from which on they are no exceptions: gauges glitch once in some hundreds at worst."""
 
 
-def glitches(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
+def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     """Find readings that stand alone.
 
     Parameters
@@ -117,7 +117,7 @@ def _is_of_machine(samples: Samples, off: Floats, row: np.intp) -> bool:
     apart_rad = np.abs(_wrapped(angle_rad - angle_rad[row]))
     other_sweep = (samples["set_up"] == samples["set_up"][row]) & (sweep != sweep[row])
     other_lap = (sweep == sweep[row]) & (samples["lap"] != samples["lap"][row])
-    last = min(row, len(angle_rad) - 2)
+    last = min(int(row), len(angle_rad) - 2)
     near = apart_rad <= max(SAME_PLACE_RAD, abs(_wrapped(angle_rad[last + 1] - angle_rad[last])))
     again = off * np.sign(off[row]) > AGAIN
     others = np.unique(sweep[near & other_sweep])

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis.glitches import bridged, glitches
+from hexdbb.diagnosis.glitches import bridged, glitches_in
 from hexdbb.diagnosis.harmonics import orthonormal_harmonics
 from hexdbb.diagnosis.judging import JudgingNoise, judging_noise
 from hexdbb.diagnosis.lack_of_fit import FitTest, LackOfFit
@@ -121,7 +121,7 @@ def assess_sufficiency(
         Prepared for the samples and the noise.
     """
     judged = noise or judging_noise(samples)
-    left_mm = bridged(samples, residual_mm, glitches(samples, residual_mm, judged.noise.sigma_mm))
+    left_mm = bridged(samples, residual_mm, glitches_in(samples, residual_mm, judged.noise.sigma_mm))
     lack = (test or FitTest(samples, judged.noise)).of(left_mm, int(model.free.sum()))
     if matters_um is None:
         matters_um = default_matters_um(judged.noise.sigma_mm * 1e3, explained_um(samples, model, residual_mm))

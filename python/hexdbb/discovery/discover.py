@@ -18,7 +18,7 @@ from hexdbb.diagnosis import (
     Sufficiency,
     assess_sufficiency,
     explains_changes,
-    glitches,
+    glitches_in,
     glitches_sentence,
     judging_noise,
 )
@@ -124,7 +124,7 @@ class _Begun:
 def _begun(samples: Samples, model: Model, criteria: Criteria) -> _Begun:
     judging = judging_noise(samples)
     engine = Engine(samples, model, judging.noise, criteria)
-    alone = glitches(samples, engine.residual_mm, judging.noise.sigma_mm)
+    alone = glitches_in(samples, engine.residual_mm, judging.noise.sigma_mm)
     if not alone.any():
         return _Begun(engine, judging, None)
     kept = samples.part(~alone)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb.diagnosis import diagnose, glitches
+from hexdbb.diagnosis import diagnose, glitches_in
 from hexdbb.discovery import discover
 from hexdbb.model import new_model
 from hexdbb.record import Record
@@ -39,14 +39,14 @@ def white(record: Record) -> np.ndarray:
 
 
 def test_noise_alone_has_no_glitch(clean: Record) -> None:
-    assert not glitches(Samples.of([clean]), white(clean), NOISE_MM).any()
+    assert not glitches_in(Samples.of([clean]), white(clean), NOISE_MM).any()
 
 
 def test_glitches_are_found_and_nothing_else(clean: Record) -> None:
     samples, left = Samples.of([clean]), white(clean)
     hit = np.arange(50, len(clean), 501)
     left[hit] += 12.0 * NOISE_MM
-    found = glitches(samples, left, NOISE_MM)
+    found = glitches_in(samples, left, NOISE_MM)
     assert set(np.flatnonzero(found)) <= set(hit)
     assert found[hit].mean() > 0.9  # a few lie beside another by chance, or near a reversal
 
@@ -56,20 +56,20 @@ def test_what_comes_again_in_another_lap_is_the_machine(clean: Record) -> None:
     narrow = np.abs(np.remainder(samples["angle_rad"] - 1.0, 2.0 * np.pi)) < np.radians(0.8)
     assert 0 < narrow.mean() < 0.02
     left[narrow] += 20.0 * NOISE_MM
-    assert not glitches(samples, left, NOISE_MM)[narrow].any()
+    assert not glitches_in(samples, left, NOISE_MM)[narrow].any()
 
 
 def test_steps_and_wide_bumps_are_the_machine(clean: Record) -> None:
     samples, left = Samples.of([clean]), white(clean)
     left += 20.0 * NOISE_MM * (samples["angle_rad"] > 2.0)
     left[300:305] += 30.0 * NOISE_MM
-    assert not glitches(samples, left, NOISE_MM).any()
+    assert not glitches_in(samples, left, NOISE_MM).any()
 
 
 def test_many_readings_that_stand_alone_are_noise(clean: Record) -> None:
     left = white(clean)
     left[::20] += 20.0 * NOISE_MM * np.random.default_rng(7).choice([-1.0, 1.0], len(left[::20]))
-    assert not glitches(Samples.of([clean]), left, NOISE_MM).any()
+    assert not glitches_in(Samples.of([clean]), left, NOISE_MM).any()
 
 
 def test_a_clean_machine_with_glitches_lacks_nothing(clean: Record) -> None:
