@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hexdbb.errors import InputError
+from hexdbb.importing.clock import holds_days
 from hexdbb.importing.mapping import Mapping
 from hexdbb.importing.quantities import UNITS_OF, recognised, stated_unit
 from hexdbb.importing.table import Table
@@ -58,6 +59,8 @@ def assigned(table: Table, mapping: Mapping) -> dict[str, Column]:
         named, _ = recognised(heading) if heading else (None, None)
         quantity = named or ""
         if not quantity or place in given.values() or quantity in wanted:
+            continue
+        if quantity == "time" and holds_days(table, place):
             continue
         if quantity in found:
             twice.setdefault(quantity, place)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from hexdbb.errors import InputError
 from hexdbb.importing import values as v
+from hexdbb.importing.clock import started
 from hexdbb.importing.columns import Column, assigned
 from hexdbb.importing.grid import Grid
 from hexdbb.importing.quantities import QUANTITIES
@@ -35,6 +38,8 @@ def series_of(grid: Grid, setting: Setting) -> Series:
     _require_all_sliders(table, others)
     if table.part[-1] > 0 and "sweep" not in others:
         others["sweep"] = np.array(table.part, dtype=np.float64)
+    began = started(table)
+    metadata: dict[str, Any] = {} if began is None else {"started": began}
     notes = [f"{grid.how}; {table.how}; {_columns_words(found, angle_unit, table)}"]
     wide = [(name, sign) for name, sign in (("reading_ccw", 1), ("reading_cw", -1)) if name in found]
     if wide and "reading" in found:
@@ -44,14 +49,16 @@ def series_of(grid: Grid, setting: Setting) -> Series:
     if wide:
         if "time" in found:
             notes.append(f"{found['time']} left out: one time for two runs")
-        return _by_place(table, found, wide, Series(angle_deg, angle_deg, None, lines, others, notes), setting)
+        return _by_place(
+            table, found, wide, Series(angle_deg, angle_deg, None, lines, others, notes, metadata), setting
+        )
     if "time" in found:
         others["t_s"] = v.time_s(table, found["time"])
     reading_um = _reading(table, found["reading"], setting)
     direction = v.direction(table, found["direction"], setting.mapping) if "direction" in found else None
     if direction is None and setting.mapping.direction is not None:
         direction = np.full(len(lines), setting.mapping.direction, np.int8)
-    return Series(angle_deg, reading_um, direction, lines, others, notes)
+    return Series(angle_deg, reading_um, direction, lines, others, notes, metadata)
 
 
 def _reading(table: Table, column: Column, setting: Setting) -> Floats:
@@ -80,6 +87,7 @@ def _by_place(
         whole.lines,
         {**whole.others, "sweep": np.repeat(np.arange(float(len(wide))), len(places))},
         whole.notes,
+        whole.metadata,
     )
 
 

@@ -9,15 +9,15 @@ a unit that the mapping states is taken as it is.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from datetime import date, datetime, time, timedelta
+from datetime import timedelta
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
+from hexdbb.importing.clock import clock_times
 from hexdbb.importing.columns import Column
-from hexdbb.importing.grid import Cell, shown
+from hexdbb.importing.grid import shown
 from hexdbb.importing.mapping import Mapping
 from hexdbb.importing.numbers import MINUS
 from hexdbb.importing.quantities import CCW, CW, NEVER_STATED, QUANTITIES, UNITS_OF
@@ -31,8 +31,6 @@ readings."""
 WHOLE_DEG, WHOLE_RAD = 90.0, (6.0, 6.6)
 """Angles that span 90 or more are degrees where nothing is stated: ninety radians are fourteen turns without a wrap.
 Angles stated as degrees that span one turn of radians are doubted."""
-DOTTED_DATE = re.compile(r"^(\d{1,2})\.(\d{1,2})\.(\d{4})(?=\D|$)")
-"""Day, month, year with points between them, which nobody writes in another order; with slashes either may be first."""
 SIGNS = {"+": 1, "-": -1}
 """Directions of travel as signs without a number."""
 
@@ -115,40 +113,15 @@ def time_s(table: Table, column: Column) -> Floats:
     grid, rows = table.grid, table.rows
     if grid.number(grid.cell(table.rows[0], column.place)) is not None:
         return values_of(table, column)
-    times = []
-    for row in rows:
-        seconds = _clock_s(grid.cell(row, column.place))
-        if seconds is None:
-            cell = shown(grid.cell(row, column.place))
-            expected = "a number, or a time as 2026-03-01 10:22:03.250; --column time= leaves the column out"
-            raise InputError(f"{grid.name}: {grid.at(row)}: column {column}: {cell} (expected {expected})")
-        times.append(seconds)
-    values: Floats = np.array(times, dtype=np.float64)
-    since: Floats = values - values[0]
-    return since
-
-
-def _clock_s(cell: Cell) -> float | None:
-    if isinstance(cell, str):
-        parsed = list(_parsed(cell))
-        return parsed[0] if parsed else None
-    if isinstance(cell, datetime):
-        return (cell.replace(tzinfo=None) - datetime(2000, 1, 1)) / timedelta(seconds=1)
-    if isinstance(cell, time):
-        return (datetime.combine(date(2000, 1, 1), cell.replace(tzinfo=None)) - datetime(2000, 1, 1)).total_seconds()
-    return None
-
-
-def _parsed(text: str) -> Iterator[float]:
-    text = DOTTED_DATE.sub(lambda found: f"{found[3]}-{found[2]:0>2}-{found[1]:0>2}", text.replace(",", "."))
-    for parse in (datetime.fromisoformat, time.fromisoformat):
-        try:
-            found = parse(text)
-        except ValueError:
-            continue
-        seconds = _clock_s(found)
-        if seconds is not None:
-            yield seconds
+    found = clock_times(table, column.place)
+    if None in found:
+        row = rows[found.index(None)]
+        cell = shown(grid.cell(row, column.place))
+        expected = "a number, or a time as 2026-03-01 10:22:03.250; --column time= leaves the column out"
+        raise InputError(f"{grid.name}: {grid.at(row)}: column {column}: {cell} (expected {expected})")
+    times = [each for each in found if each is not None]
+    values: Floats = np.array([(each - times[0]) / timedelta(seconds=1) for each in times], dtype=np.float64)
+    return values
 
 
 def direction(table: Table, column: Column, mapping: Mapping) -> NDArray[np.int8]:

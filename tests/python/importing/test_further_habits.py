@@ -58,6 +58,18 @@ def test_dates_with_points_are_times(tmp_path: Path) -> None:
     record = imported(tmp_path / "a.csv", decimal=".")
     np.testing.assert_allclose(np.diff(record.columns["t_s"]), 0.25, atol=1e-9)
     assert record.not_measured.time is None
+    assert record.metadata["started"] == "2026-03-01T23:59:00"
+
+
+@pytest.mark.parametrize(("clock", "is_timed"), [(";Time", True), ("", False)])
+def test_a_column_of_days_is_the_day_of_the_test_and_no_time(tmp_path: Path, clock: str, is_timed: bool) -> None:
+    head, *rows = table(["Angle (deg);Deviation (um);Direction"])
+    times = [f";08:{k // 60:02d}:{k % 60:02d}" if is_timed else "" for k in range(len(rows))]
+    lines = [f"Date{clock};{head}", *(f"2026-03-02{t};{row}" for t, row in zip(times, rows, strict=True))]
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    record = imported(tmp_path / "a.csv")
+    assert record.metadata["started"] == "2026-03-02"
+    assert (record.not_measured.time is None) == is_timed
 
 
 def test_dates_that_may_be_read_in_two_ways_are_asked_about(tmp_path: Path) -> None:
