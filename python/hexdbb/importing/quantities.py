@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from hexdbb.record import SLIDER_COLUMNS
 
 LENGTHS_MM = {"um": 1e-3, "mm": 1.0, "nm": 1e-6, "m": 1e3, "in": 25.4, "mil": 0.0254, "uin": 25.4e-6}
-ANGLES_DEG = {"deg": 1.0, "rad": math.degrees(1.0), "mrad": math.degrees(1e-3), "gon": 0.9, "turn": 360.0}
+ANGLES_DEG = {"deg": 1.0, "rad": math.degrees(1.0), "mrad": math.degrees(1e-3), "mdeg": 1e-3, "gon": 0.9, "turn": 360.0}
 TIMES_S = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0, "d": 86400.0}
 FEEDS_MM_MIN = {"mm/min": 1.0, "mm/s": 60.0, "m/min": 1e3, "in/min": 25.4}
 TEMPERATURES_C = {"C": 1.0}
@@ -65,7 +65,7 @@ CCW = (
 """Words for counter-clockwise (G03 is the controllers' code), sought before those for clockwise, which some contain."""
 CW = r"\bcw\b|clock|uhrzeiger|\brechts|horai?r|\borari|\bg0?2\b|時計|順時針|顺时针"
 _DEVIATION = (
-    r"reading|deviat|desvia|abweich|radial|error|fehler|messwert|ecart|scostament|ball.?bar|\bdev\b|\bdr\b"
+    r"reading|deviat|desvia|abweich|\babw\b|radial|error|fehler|messwert|ecart|scostament|ball.?bar|\bdev\b|\bdr\b"
     r"|\bdelta|偏差|誤差|误差"
 )
 _UM = {unit: factor * 1e3 for unit, factor in LENGTHS_MM.items()}

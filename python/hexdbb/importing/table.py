@@ -171,6 +171,8 @@ def described(grid: Grid, row: int, column: int) -> str:
     """Return what an error says of a cell that is no number."""
     cell = grid.cell(row, column)
     note = "; a spreadsheet program may have taken a number for a date" if not isinstance(cell, str | float) else ""
+    if cell == "" and grid.unit == "row":
+        note = "; a formula has a value once a spreadsheet program has saved the file"
     return f"{shown(cell)} (expected a number{note})"
 
 

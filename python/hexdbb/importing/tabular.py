@@ -18,7 +18,7 @@ from hexdbb.importing.table import Table, find_table
 from hexdbb.record import SLIDER_COLUMNS
 
 SLIDERS = tuple(name.removesuffix("_mm") for name in SLIDER_COLUMNS)
-PLAIN = ("feed", "circle", "sweep", "lap", "temperature", *SLIDERS)
+PLAIN = ("circle", "sweep", "lap", "temperature", *SLIDERS)
 """Quantities that are taken as they are, but for their unit."""
 
 
@@ -35,6 +35,8 @@ def series_of(grid: Grid, setting: Setting) -> Series:
     angle_deg, angle_unit = v.angle_deg(table, found["angle"])
     lines = np.array([grid.lines[row] for row in table.rows])
     others = {QUANTITIES[name].column: v.values_of(table, found[name]) for name in PLAIN if name in found}
+    if "feed" in found:
+        others["feed_mm_min"] = v.feed_mm_min(table, found["feed"], setting.every_feed_mm_min())
     _require_all_sliders(table, others)
     if table.part[-1] > 0 and "sweep" not in others:
         others["sweep"] = np.array(table.part, dtype=np.float64)

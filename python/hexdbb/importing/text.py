@@ -25,6 +25,8 @@ MOST_BYTES = 500_000_000
 """Largest file that is read, bytes: a day of readings at 250 Hz with all columns in text is 4e8."""
 LOOKED_AT = 2000
 """Lines by which the delimiter is chosen, and bytes by which an encoding is: beyond any preamble."""
+SPREAD = 0.6
+"""Part of the lines that must hold something for empty ones to part tables."""
 LINE_END = re.compile(r"\r\n|\r|\n")
 COMMENT = re.compile(r"^\s*[#%]\s*")
 """What marks a line of names or notes in the files of numerical programs; it is no name itself."""
@@ -44,6 +46,9 @@ def read_text_grid(path: Path, mapping: Mapping) -> Grid:
     lines = [COMMENT.sub("", line) for line in LINE_END.split(text.removesuffix("\n").removesuffix("\r"))]
     delimiter = mapping.delimiter or _delimiter(lines[:LOOKED_AT])
     numbered = list(_split(path, lines, delimiter))
+    filled = [(line, cells) for line, cells in numbered if any(cell.strip() for cell in cells)]
+    if len(filled) < SPREAD * len(numbered):  # as when line ends are written twice
+        numbered = filled
     rows: list[list[Cell]] = [[cell.strip() for cell in cells] for _, cells in numbered]
     texts = (cell for cells in rows for cell in cells if isinstance(cell, str))
     decimal = mapping.decimal or decimal_mark(texts, str(path))

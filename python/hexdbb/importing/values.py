@@ -9,6 +9,7 @@ a unit that the mapping states is taken as it is.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from datetime import timedelta
 
 import numpy as np
@@ -31,6 +32,11 @@ readings."""
 WHOLE_DEG, WHOLE_RAD = 90.0, (6.0, 6.6)
 """Angles that span 90 or more are degrees where nothing is stated: ninety radians are fourteen turns without a wrap.
 Angles stated as degrees that span one turn of radians are doubted."""
+LEAST_ARC_DEG, LARGEST_STEP_DEG = 10.0, 60.0
+"""Shortest arc that is a test, and largest step between readings of one, deg: six readings a turn show no circle.
+Angles in turns span one, thousandths of a degree step by hundreds."""
+FEED_OFF = 0.05
+"""Part by which a feed may differ from the plan's: programs round feeds, while units differ by 25 or more."""
 SIGNS = {"+": 1, "-": -1}
 """Directions of travel as signs without a number."""
 
@@ -100,12 +106,40 @@ def angle_deg(table: Table, column: Column) -> tuple[Floats, str]:
             expected = "--unit angle=deg or rad"
             seen = f"angles from {numbers.min():.6g} to {numbers.max():.6g}{like}"
             raise InputError(f"{table.grid.name}: column {column}: no unit is stated; {seen} (expected {expected})")
+        _require_a_circle(table, column, numbers, "no unit is stated")
         return numbers, "deg"
     if column.unit == "deg" and not column.is_stated and WHOLE_RAD[0] <= span <= WHOLE_RAD[1]:
         expected = "a whole turn; --unit angle=rad, or =deg if it is such an arc"
         seen = f"angles span {span:.4g}°, as radians of a whole turn would"
         raise InputError(f"{table.grid.name}: column {column}, in deg by its name: {seen} (expected {expected})")
-    return numbers * QUANTITIES["angle"].units[column.unit], column.unit
+    values = numbers * QUANTITIES["angle"].units[column.unit]
+    if not column.is_stated:
+        _require_a_circle(table, column, values, f"in {column.unit} by its name")
+    return values, column.unit
+
+
+def _require_a_circle(table: Table, column: Column, angle: Floats, unit: str) -> None:
+    """Check that angles, degrees, span an arc and are dense enough on it; `InputError` where the unit must be wrong."""
+    span, step = float(np.ptp(angle)), float(np.median(np.abs(np.diff(angle))))
+    if span < LEAST_ARC_DEG or step > LARGEST_STEP_DEG:
+        seen = f"angles span {span:.4g}° in steps of {step:.3g}°"
+        expected = f"{LEAST_ARC_DEG:g}° or more in steps of {LARGEST_STEP_DEG:g}° at most; --unit angle=UNIT, one of"
+        units = ", ".join(UNITS_OF["angle"])
+        raise InputError(f"{table.grid.name}: column {column}, {unit}: {seen} (expected {expected} {units})")
+
+
+def feed_mm_min(table: Table, column: Column, planned_mm_min: Sequence[float]) -> Floats:
+    """Return feeds, mm/min; doubt those that are none of the plan's."""
+    values = values_of(table, column)
+    for value in np.unique(values):
+        if column.is_stated or any(abs(value / each - 1.0) <= FEED_OFF for each in planned_mm_min):
+            continue
+        names = ", ".join(f"{each:g}" for each in planned_mm_min)
+        like = "; they look like mm/s: --unit feed=mm/s" if column.unit == "mm/min" and value < 100.0 else ""
+        own = f"--unit feed={column.unit} if it was driven all the same, --column feed= leaves the column out"
+        seen = f"column {column}, in {column.unit} by its name: {value:.6g} mm/min"
+        raise InputError(f"{table.grid.name}: {seen} (expected a feed of the plan, {names} mm/min{like}; {own})")
+    return values
 
 
 def time_s(table: Table, column: Column) -> Floats:

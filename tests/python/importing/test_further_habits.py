@@ -142,3 +142,41 @@ def test_what_to_do_first_with_a_file_is_said(tmp_path: Path, name: str, message
 def test_units_in_cells_are_named(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("\n".join(["Angle;Deviation", *(f"{a:g}°;{r:g} µm" for a, r in UP)]))
     assert 'units belong into the headings, not into cells as "0°")' in refusal(tmp_path / "a.csv")
+
+
+def test_empty_lines_between_all_lines_part_nothing(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n\n".join(table(["Winkel/°;Abw./µm;Richtung"])))
+    np.testing.assert_allclose(imported(tmp_path / "a.csv").columns["reading_um"], READINGS)
+
+
+ROWS = table(["Angle (deg);Deviation (um);Direction"])
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (
+            [f"{ROWS[0]};Feed (mm/min)", *(f"{row};12.57" for row in ROWS[1:])],
+            "12.57 mm/min (expected a feed of the plan, 753.98 mm/min; they look like mm/s: --unit feed=mm/s;",
+        ),
+        ([ROWS[0], *sorted(ROWS[1:])], "runs, with 1 reading (expected 8 or more in a run: rows in order of travel"),
+        (
+            [ROWS[0], *(f"{a / 360.0:.5f};{r};1" for a, r in UP)],
+            'column "Angle (deg)", in deg by its name: angles span 0.9861° in steps of 0.0139° (expected 10° or more',
+        ),
+        (
+            ["Angle;Deviation (um)", *(f"{1000.0 * a:g};{r}" for a, r in UP)],
+            'column "Angle", no unit is stated: angles span 3.55e+05° in steps of 5e+03° (expected 10° or more',
+        ),
+    ],
+)
+def test_values_that_are_none_of_a_circle_are_refused(tmp_path: Path, lines: list[str], message: str) -> None:
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    assert message in refusal(tmp_path / "a.csv")
+
+
+def test_a_feed_whose_unit_is_stated_is_believed(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("\n".join([f"{ROWS[0]};Feed (mm/min)", *(f"{row};12.57" for row in ROWS[1:])]))
+    for unit, feed in (("mm/s", 754.2), ("mm/min", 12.57)):
+        columns = imported(tmp_path / "a.csv", units={"feed": unit}).columns
+        np.testing.assert_allclose(columns["feed_mm_min"], feed)
