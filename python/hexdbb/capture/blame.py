@@ -21,6 +21,7 @@ LOCKSTEP_LATE_S = 0.1
 """Lateness that is named in lockstep, s: a tenth of a second of the quarter that answers have."""
 CONTROLLER_MISSED = {0x8130, 0x8250}
 """EMCY codes of nodes that miss the controller: heartbeat, RPDO (CiA 301)."""
+NODES_HERE = "the nodes are simulated on this computer, which may be too busy for them (in lockstep nothing is late)"
 BEFORE_S = 0.1
 """Time looked back beyond the SYNCs of the fault, s: the time after which drives stop for lack of targets."""
 
@@ -78,8 +79,10 @@ def _judged(watch: Watch, explained_s: float) -> tuple[str, str]:
     worst, noticed_s = watch.computer.worst_within(seconds), half_a_cycle(watch)
     if worst.late_s >= explained_s and not is_own(worst) and not _one_of_many(watch):
         return f"was {shown_ms(worst.late_s)} late", ""
-    late = worst.late_s >= noticed_s
-    return "", said(worst, late) if late or (watch.real_time and explained_s <= noticed_s) else ""
+    late, is_of_time = worst.late_s >= noticed_s, watch.real_time and explained_s <= noticed_s
+    tails = [said(worst, late)] if late or is_of_time else []
+    tails += [NODES_HERE] if watch.nodes_here and is_of_time else []
+    return "", "; ".join(tails)
 
 
 def is_own(worst: WakeUp) -> bool:

@@ -318,11 +318,12 @@ class AxisGroup:
         return [f"{labels[node]} sent {each}" for node, each in told.items()]
 
     def _culprit(self, reached: Callable[[Feedback], bool]) -> str:
-        """Return the message about the first node that did not reach the state."""
+        """Return the message about the first node that did not reach the state, or about all where none answers."""
         feedback = self._loop.feedback
         if feedback.missing:
             slot = feedback.missing[0]
-            return f"{self._labels[slot]}: TPDO1 missing{self._watch.lateness(slot)}"
+            who = "every node" if len(feedback.missing) == len(self._labels) else self._labels[slot]
+            return f"{who}: TPDO1 missing{self._watch.lateness(slot)}"
         for slot, word in enumerate(feedback.statusword):
             alone = Feedback()
             alone.statusword = [word] * 6

@@ -95,6 +95,8 @@ class Request:
         Further metadata of the record.
     targets : Targets or None
         Source of the sliders' targets; None for the nominal machine.
+    nodes_here : bool
+        Whether the nodes are simulated on this computer: where it is busy, they answer late.
     """
 
     plan: Plan
@@ -107,6 +109,7 @@ class Request:
     silent_after: int = SILENT_AFTER
     metadata: dict[str, object] = field(default_factory=dict)
     targets: Targets | None = None
+    nodes_here: bool = False
 
 
 def prepare(request: Request) -> Programme:

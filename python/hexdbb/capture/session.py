@@ -14,6 +14,7 @@ import can
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.capture.blame import NODES_HERE
 from hexdbb.capture.boot import Devices, add_devices, boot, refuse_unfit, release
 from hexdbb.capture.captured_rows import CapturedRows
 from hexdbb.capture.checks import MAX_REPEATED
@@ -156,6 +157,7 @@ class _Run:
             interrupts=interrupts,
             computer=computer,
         )
+        self.watch.nodes_here = request.nodes_here
         self.axes = AxisGroup(self.loop, self.watch, labels, cycle_s)
         progress.watch, progress.times = self.watch, self.loop.times
 
@@ -295,6 +297,7 @@ class _Run:
             causes.append(f"SYNCs not sent because they were late or answers were waited for: {self.loop.missed}")
         if self.loop.clock.real_time:
             causes.append(f"this computer was at most {shown_ms(max(self.watch.computer.worst_s, NOTED_S))} late")
+            causes += [NODES_HERE] if self.watch.nodes_here else []
         why = f"{', '.join(causes)}: " if causes else ""
         return (
             f"{why}{lost} of {planned} planned samples are missing, {samples.dropped} of them not certainly paired "

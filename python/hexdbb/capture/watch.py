@@ -85,6 +85,8 @@ class Watch:
         Time from a SYNC to the last late answer of a slot, s.
     interrupts : Interrupts
         Whether a signal has asked the program to end.
+    nodes_here : bool
+        Whether the nodes are simulated on this computer: where it is busy, they answer late.
     """
 
     feedback: Feedback
@@ -106,6 +108,7 @@ class Watch:
     computer: Lateness = field(default_factory=Lateness)
     late_s: Mapping[int, float] = field(default_factory=dict)
     interrupts: Interrupts = field(default_factory=Interrupts)
+    nodes_here: bool = False
 
     @property
     def cycle_s(self) -> float:

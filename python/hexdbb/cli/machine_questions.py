@@ -227,34 +227,48 @@ def ask(given: Mapping[str, str | None], origin: str, interactive: bool) -> Mach
         text = given[question.option]
         if text is None:
             text = question.default(answers)
-            answers[question.option] = _asked(question, text) if interactive else question.value(text)
+            answers[question.option] = _asked(question, answers, origin) if interactive else question.value(text)
         else:
             answers[question.option] = question.value(text)
     while True:
         try:
             return _machine(answers, origin)
         except InputError as error:
-            wrong = next((each for each in QUESTIONS if f": {'.'.join(each.key)}" in str(error)), None)
+            wrong = next((each for each in QUESTIONS if _names(error, each)), None)
             if not interactive or wrong is None:
                 raise
             say(f"  {error}", err=True)
-            answers[wrong.option] = _asked(wrong, question_text(answers[wrong.option]))
+            answers[wrong.option] = _asked(wrong, answers, origin)
 
 
-def question_text(value: Any) -> str:
-    """Return a value as an answer has it."""
-    if isinstance(value, list):
-        nested = any(isinstance(each, list) for each in value)
-        return ("; " if nested else ",").join(question_text(each) for each in value)
-    return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def _asked(question: Question, default: str) -> Any:
+def _asked(question: Question, answers: Answers, origin: str) -> Any:
+    """Ask until the answer can be one: a wrong one would make the defaults of what is asked next."""
     while True:
         try:
-            return question.value(click.prompt(question.text, default=default, type=str))
+            answer = question.value(click.prompt(question.text, default=question.default(answers), type=str))
+            _check(question, {**answers, question.option: answer}, origin)
+            return answer
         except InputError as error:
             say(f"  {error}", err=True)
+
+
+def _check(question: Question, answers: Answers, origin: str) -> None:
+    """Check an answer, with the defaults of what is not asked yet; `InputError` where its key is wrong."""
+    if question.option == "travel":  # may be too short for the default of a gap that is asked next, not for the gap
+        return
+    known = dict(answers)
+    for each in QUESTIONS:
+        if each.option not in known:
+            known[each.option] = each.value(each.default(known))
+    try:
+        _machine(known, origin)
+    except InputError as error:
+        if _names(error, question):
+            raise
+
+
+def _names(error: InputError, question: Question) -> bool:
+    return f": {'.'.join(question.key)}" in str(error)
 
 
 def _machine(answers: Answers, origin: str) -> MachineFile:

@@ -138,7 +138,7 @@ def warn_of_condition(name: str, assessment: PlanAssessment) -> None:
     say(
         f"{name}: condition {condition:.0f} (expected at most {TRUSTED_CONDITION:.0f} for an identification to be"
         " trusted): the least determined combination of errors takes in what temperature and set-up do; more circles"
-        " (--circles), --criterion minmax or a larger --bar-angle may lower it",
+        " (--circles), or hexdbb plan propose with --criterion minmax or a larger --bar-angle, may lower it",
         err=True,
     )
 

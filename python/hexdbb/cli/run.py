@@ -152,7 +152,7 @@ def command(
         started=datetime.now(UTC).isoformat(timespec="seconds"),
     )
     if simulated:
-        request = request if lockstep else replace(request, silent_after=SIMULATED_SILENT_AFTER)
+        request = request if lockstep else replace(request, silent_after=SIMULATED_SILENT_AFTER, nodes_here=True)
     elif not yes and (sys.stdin is None or not sys.stdin.isatty()):
         progress.notes.append("stdin is not a terminal: no confirmation that the bar is mounted")
     elif not yes:

@@ -19,11 +19,11 @@ from typing import Any
 import numpy as np
 
 from hexdbb.errors import InputError
-from hexdbb.importing.columns import doubt_of
 from hexdbb.importing.numbers import reader
 from hexdbb.importing.quantities import QUANTITIES, UNITS_OF, known_unit
 from hexdbb.importing.series import Floats, Series
 from hexdbb.importing.setting import Setting
+from hexdbb.importing.values import doubt_of
 
 DIRECTIONS = {"CCW": 1, "CW": -1, "ANTICLOCKWISE": 1, "COUNTERCLOCKWISE": 1, "CLOCKWISE": -1}
 UNIT_TYPES = {

@@ -1,35 +1,16 @@
-"""Which column of a table holds which quantity, in which unit; whether its values can be of that unit.
-
-A unit that no heading states is taken from the mapping, or asked for; angles alone are recognised by their range. What
-is stated is doubted by its magnitude: readings that span less than any ball bar shows, or exceed any gauge, and angles
-of a circle that spans 6.28 degrees. Nothing is converted on such a doubt: the error says what the values look like, and
-a unit that the mapping states is taken as it is.
-"""
+"""Which column of a table holds which quantity, in which unit: as the mapping says, else as the headings do."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass
-from datetime import date, datetime, time, timedelta
-
-import numpy as np
-from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.importing.grid import Cell, shown
+from hexdbb.importing.clock import holds_days
 from hexdbb.importing.mapping import Mapping
-from hexdbb.importing.quantities import CCW, CW, NEVER_STATED, QUANTITIES, UNITS_OF, recognised
-from hexdbb.importing.table import Table, described
+from hexdbb.importing.quantities import UNITS_OF, recognised, stated_unit
+from hexdbb.importing.table import Table
 
-Floats = NDArray[np.float64]
-
-LEAST_SPAN_UM = 1.0
-"""Smallest span of the readings of a circle, µm: noise of 0.2 µm, that of the best bars, makes as much of a few hundred
-readings."""
-WHOLE_DEG, WHOLE_RAD = 90.0, (6.0, 6.6)
-"""Angles that span 90 or more are degrees where nothing is stated: ninety radians are fourteen turns without a wrap.
-Angles stated as degrees that span one turn of radians are doubted."""
+READINGS = ("reading", "reading_ccw", "reading_cw")
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +48,9 @@ def assigned(table: Table, mapping: Mapping) -> dict[str, Column]:
     InputError
         A column that the mapping names is not there, a quantity has two columns, or there is no angle or no reading.
     """
-    name, found = table.grid.name, {}
+    name = table.grid.name
+    found: dict[str, Column] = {}
+    twice: dict[str, int] = {}
     wanted = mapping.columns
     given = {quantity: _place(table, quantity, column) for quantity, column in wanted.items() if column != ""}
     for quantity, place in given.items():
@@ -77,11 +60,20 @@ def assigned(table: Table, mapping: Mapping) -> dict[str, Column]:
         quantity = named or ""
         if not quantity or place in given.values() or quantity in wanted:
             continue
+        if quantity == "time" and holds_days(table, place):
+            continue
         if quantity in found:
-            both = f'"{found[quantity].heading}" and "{heading}" (columns {found[quantity].place + 1} and {place + 1})'
-            expected = f"one; --column {quantity}={found[quantity].place + 1} chooses the first"
-            raise InputError(f"{name}: {quantity}: two columns, {both} (expected {expected})")
-        found[quantity] = _column(table, quantity, place, mapping)
+            twice.setdefault(quantity, place)
+        else:
+            found[quantity] = _column(table, quantity, place, mapping)
+    _require_one_table(table, found, twice, mapping)
+    if twice:
+        quantity, place = next(iter(twice.items()))
+        first = found[quantity].place
+        both = f'"{found[quantity].heading}" and "{table.headings[place]}" (columns {first + 1} and {place + 1})'
+        expected = f"one; --column {quantity}={first + 1} chooses the first"
+        raise InputError(f"{name}: {quantity}: two columns, {both} (expected {expected})")
+    _by_unit(table, found, mapping)
     return _checked(table, found)
 
 
@@ -106,9 +98,54 @@ def _column(table: Table, quantity: str, place: int, mapping: Mapping) -> Column
     unit = mapping.units.get(quantity)
     if unit is None and quantity in ("reading_ccw", "reading_cw"):
         unit = mapping.units.get("reading")
-    stated = recognised(heading)[1] if heading else None
+    stated = stated_unit(heading)
     stated = stated if stated in UNITS_OF[quantity] else None
     return Column(quantity, heading or str(place + 1), place, unit or stated, unit is not None)
+
+
+def _require_one_table(table: Table, found: dict[str, Column], twice: dict[str, int], mapping: Mapping) -> None:
+    """Check that there are no two tables side by side, each with angles and readings of its own.
+
+    Raises
+    ------
+    InputError
+        There are; names the options that read either.
+    """
+    named = [recognised(heading)[0] if heading else None for heading in table.headings]
+    angles = [place for place, quantity in enumerate(named) if quantity == "angle"]
+    readings = [place for place, quantity in enumerate(named) if quantity in READINGS]
+    chosen = all(each in mapping.columns for each in ("angle", *({"reading_ccw", "reading_cw"} & set(found))))
+    is_wide = {"reading_ccw", "reading_cw"} <= set(found)
+    if len(angles) < 2 or len(readings) < 2 or not (is_wide or "reading" in twice) or chosen:
+        return
+    ends = [*angles[1:], len(named)]
+    choices = []
+    for first, last in zip(angles, ends, strict=True):
+        own = {
+            ("reading" if named[k] in READINGS else str(named[k])): k
+            for k in range(last - 1, first - 1, -1)
+            if named[k]
+        }
+        words = [f"--column {quantity}={place + 1}" for quantity, place in sorted(own.items())]
+        words += [f"--column {each}=" for each in ("reading_ccw", "reading_cw") if each in found]
+        choices.append(" ".join(words))
+    where = " and ".join(str(place + 1) for place in angles)
+    raise InputError(
+        f"{table.grid.name}: tables side by side: angles in columns {where} (expected one table; {' or '.join(choices)}"
+        " reads one)"
+    )
+
+
+def _by_unit(table: Table, found: dict[str, Column], mapping: Mapping) -> None:
+    """Take the one column in a unit of angles for the angle, where none is called so: nothing else has such a unit."""
+    taken = {column.place for column in found.values()}
+    angular = [
+        place
+        for place, heading in enumerate(table.headings)
+        if place not in taken and stated_unit(heading) in UNITS_OF["angle"]
+    ]
+    if "angle" not in found and "angle" not in mapping.columns and len(angular) == 1:
+        found["angle"] = _column(table, "angle", angular[0], mapping)
 
 
 def _checked(table: Table, found: dict[str, Column]) -> dict[str, Column]:
@@ -117,148 +154,6 @@ def _checked(table: Table, found: dict[str, Column]) -> dict[str, Column]:
     how = "NAME" if named else "NUMBER, from 1"
     if "angle" not in found:
         raise InputError(f"{table.grid.name}: no column of angles among {headings} (expected --column angle={how})")
-    if not {"reading", "reading_ccw", "reading_cw"} & set(found):
+    if not set(READINGS) & set(found):
         raise InputError(f"{table.grid.name}: no column of readings among {headings} (expected --column reading={how})")
     return found
-
-
-def numbers_of(table: Table, column: Column) -> Floats:
-    """Return the numbers of a column, shape (n,), in the file's own unit.
-
-    Raises
-    ------
-    InputError
-        A cell is no number; names line, column, cell and what was expected.
-    """
-    grid, rows = table.grid, table.rows
-    values = [grid.number(grid.cell(row, column.place)) for row in rows]
-    for row, value in zip(rows, values, strict=True):
-        if value is None or not np.isfinite(value):
-            raise InputError(f"{grid.name}: {grid.at(row)}: column {column}: {described(grid, row, column.place)}")
-    return np.array(values, dtype=np.float64)
-
-
-def values_of(table: Table, column: Column, unit: str | None = None) -> Floats:
-    """Return the values of a column in the unit of a record, shape (n,)."""
-    values = numbers_of(table, column)
-    if column.quantity in NEVER_STATED:
-        return values
-    chosen = unit or column.unit
-    if chosen is None:
-        units = ", ".join(UNITS_OF[column.quantity])
-        asked = "reading" if column.quantity.startswith("reading") else column.quantity
-        seen = f"values up to {np.abs(values).max():.6g}"
-        expected = f"--unit {asked}=UNIT, one of {units}"
-        raise InputError(f"{table.grid.name}: column {column}: no unit is stated; {seen} (expected {expected})")
-    return values * QUANTITIES[column.quantity].units[chosen]
-
-
-def reading_um(table: Table, column: Column, range_um: float, bar_mm: float) -> Floats:
-    """Return readings, µm; doubt a unit that gives more than the gauge's range, or less than a circle shows."""
-    values = values_of(table, column)
-    doubt = doubt_of(values, str(column.unit), range_um, bar_mm)
-    if doubt and not column.is_stated:
-        raise InputError(f"{table.grid.name}: column {column}, in {column.unit} by its name: {doubt}")
-    return values
-
-
-def doubt_of(reading_um: Floats, unit: str, range_um: float, bar_mm: float) -> str:
-    """Return why readings cannot be of the unit that a file states, and what to do; empty where they can be."""
-    largest, span = float(np.abs(reading_um).max()), float(np.ptp(reading_um))
-    own = f"--unit reading={unit} if they are {unit} all the same"
-    if np.abs(reading_um - 1e3 * bar_mm).max() <= 10.0 * range_um:
-        return f"values near {bar_mm:g} mm, the bar's own length (expected its deviation from it); {own}"
-    if largest > range_um:
-        like = "they look like µm: --unit reading=um; " if unit == "mm" and largest <= 1e3 * range_um else ""
-        return f"readings up to {largest:.6g} µm (expected ±{range_um:g} µm at most, the gauge's range); {like}{own}"
-    if span < LEAST_SPAN_UM:
-        like = "they look like mm: --unit reading=mm; " if unit == "um" else ""
-        return f"readings span {span:.3g} µm only (expected {LEAST_SPAN_UM:g} at least, of a circle); {like}{own}"
-    return ""
-
-
-def angle_deg(table: Table, column: Column) -> tuple[Floats, str]:
-    """Return angles, degrees, wrapped or not as the file has them, and their unit; doubt one that cannot be."""
-    numbers = numbers_of(table, column)
-    span = float(np.ptp(numbers))
-    if column.unit is None:
-        if span < WHOLE_DEG:
-            like = " as radians of a whole turn would" if WHOLE_RAD[0] <= span <= WHOLE_RAD[1] else ""
-            expected = "--unit angle=deg or rad"
-            seen = f"angles from {numbers.min():.6g} to {numbers.max():.6g}{like}"
-            raise InputError(f"{table.grid.name}: column {column}: no unit is stated; {seen} (expected {expected})")
-        return numbers, "deg"
-    if column.unit == "deg" and not column.is_stated and WHOLE_RAD[0] <= span <= WHOLE_RAD[1]:
-        expected = "a whole turn; --unit angle=rad, or =deg if it is such an arc"
-        seen = f"angles span {span:.4g}°, as radians of a whole turn would"
-        raise InputError(f"{table.grid.name}: column {column}, in deg by its name: {seen} (expected {expected})")
-    return numbers * QUANTITIES["angle"].units[column.unit], column.unit
-
-
-def time_s(table: Table, column: Column) -> Floats:
-    """Return times, s, shape (n,): a column of numbers with a unit, or clock times, counted from the first."""
-    grid, rows = table.grid, table.rows
-    if grid.number(grid.cell(table.rows[0], column.place)) is not None:
-        return values_of(table, column)
-    times = []
-    for row in rows:
-        seconds = _clock_s(grid.cell(row, column.place))
-        if seconds is None:
-            cell = shown(grid.cell(row, column.place))
-            expected = "a number, or a time as 2026-03-01 10:22:03.250"
-            raise InputError(f"{grid.name}: {grid.at(row)}: column {column}: {cell} (expected {expected})")
-        times.append(seconds)
-    values: Floats = np.array(times, dtype=np.float64)
-    since: Floats = values - values[0]
-    return since
-
-
-def _clock_s(cell: Cell) -> float | None:
-    if isinstance(cell, str):
-        parsed = list(_parsed(cell))
-        return parsed[0] if parsed else None
-    if isinstance(cell, datetime):
-        return (cell.replace(tzinfo=None) - datetime(2000, 1, 1)) / timedelta(seconds=1)
-    if isinstance(cell, time):
-        return (datetime.combine(date(2000, 1, 1), cell.replace(tzinfo=None)) - datetime(2000, 1, 1)).total_seconds()
-    return None
-
-
-def _parsed(text: str) -> Iterator[float]:
-    for parse in (datetime.fromisoformat, time.fromisoformat):
-        try:
-            found = parse(text.replace(",", "."))
-        except ValueError:
-            continue
-        seconds = _clock_s(found)
-        if seconds is not None:
-            yield seconds
-
-
-def direction(table: Table, column: Column, mapping: Mapping) -> NDArray[np.int8]:
-    """Return directions, +1 counter-clockwise, -1 clockwise, shape (n,), of words or numbers.
-
-    Raises
-    ------
-    InputError
-        A word that is not known; names it and what was expected.
-    """
-    grid = table.grid
-    known: dict[str, int] = {word.casefold(): value for word, value in mapping.directions.items()}
-    found = []
-    for row in table.rows:
-        cell = grid.cell(row, column.place)
-        word = shown(cell).strip('"').casefold()
-        if word not in known:
-            number = grid.number(cell)
-            if number in (1.0, -1.0):
-                known[word] = int(number or 0)
-            elif isinstance(cell, str) and re.search(CCW, word):
-                known[word] = 1
-            elif isinstance(cell, str) and re.search(CW, word):
-                known[word] = -1
-            else:
-                expected = "1 or CCW, -1 or CW; words of your own in [directions] of a mapping file"
-                raise InputError(f"{grid.name}: {grid.at(row)}: column {column}: {shown(cell)} (expected {expected})")
-        found.append(known[word])
-    return np.array(found, dtype=np.int8)

@@ -14,6 +14,7 @@ from hexdbb.files.workbooks import require_openpyxl
 from hexdbb.importing.grid import Cell, Grid
 from hexdbb.importing.mapping import Mapping
 from hexdbb.importing.numbers import decimal_mark, reader
+from hexdbb.importing.table import LEAST_ROWS
 
 MOST_UNPACKED = 2_000_000_000
 """Largest content of a workbook, bytes unpacked: a million rows of twenty columns are 1e9; more is an attack."""
@@ -22,7 +23,7 @@ ROWS_LOOKED_AT = 50
 
 
 def read_sheet_grid(path: Path, mapping: Mapping) -> Grid:
-    """Read a sheet of a workbook: the one that the mapping names, else the only one that holds numbers.
+    """Read a sheet of a workbook: the one that the mapping names, else the only one that holds a table.
 
     Raises
     ------
@@ -35,8 +36,8 @@ def read_sheet_grid(path: Path, mapping: Mapping) -> Grid:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of parts of a workbook that hold no cells
             book = openpyxl.load_workbook(path, read_only=True, data_only=True)
-    except Exception as error:  # openpyxl raises what its XML reader and zip reader raise
-        raise InputError(f"{path}: not a workbook: {type(error).__name__} (expected an Excel file, .xlsx)") from None
+    except Exception:  # openpyxl raises what its XML reader and zip reader raise
+        raise InputError(f"{path}: no workbook of Excel, or damaged (expected one saved as .xlsx)") from None
     try:
         sheet = _sheet(path, book, mapping.sheet)
         rows = [list(map(_cell, row)) for row in sheet.iter_rows(values_only=True)]
@@ -70,19 +71,23 @@ def _sheet(path: Path, book: Any, name: str | None) -> Any:
             names = ", ".join(f'"{each.title}"' for each in sheets)
             raise InputError(f'{path}: sheet: "{name}" (expected one of {names})')
         return found
-    numeric = [each for each in sheets if _holds_numbers(each)]
+    numeric = [each for each in sheets if _holds_table(each)]
     if len(numeric) > 1:
         names = ", ".join(f'"{each.title}"' for each in numeric)
-        raise InputError(f"{path}: {len(numeric)} sheets hold numbers: {names} (expected --sheet NAME, one of them)")
+        raise InputError(f"{path}: {len(numeric)} sheets hold tables: {names} (expected --sheet NAME, one of them)")
     if not sheets:
         raise InputError(f"{path}: holds no sheet (expected one with readings)")
     return (numeric or sheets)[0]
 
 
-def _holds_numbers(sheet: Any) -> bool:
-    """Return whether there is a table: two rows of two numbers among the first."""
+def _holds_table(sheet: Any) -> bool:
+    """Return whether enough rows among the first hold two numbers each, some perhaps as texts."""
     rows: Iterator[Any] = sheet.iter_rows(max_row=ROWS_LOOKED_AT, values_only=True)
-    return sum(sum(isinstance(cell, (int, float)) for cell in row) >= 2 for row in rows) >= 2
+    return sum(sum(_may_be_number(_cell(cell)) for cell in row) >= 2 for row in rows) >= LEAST_ROWS
+
+
+def _may_be_number(cell: Cell) -> bool:
+    return any(reader(mark)(cell) is not None for mark in ".,")
 
 
 def _cell(value: Any) -> Cell:

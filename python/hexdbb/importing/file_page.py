@@ -16,17 +16,17 @@ PAGE = "import.md"
 BEGIN = "<!-- {}: made by `python -m hexdbb.importing.file_page docs`; do not edit -->"
 END = "<!-- end of {} -->"
 HEADINGS = {
-    "angle": "Angle, Winkel, Theta, azimuth",
-    "reading": "Deviation, Abweichung, Reading, Error, Radial, Messwert, écart, Ball bar",
-    "reading_ccw": "the same with CCW, counter-clockwise, gegen den Uhrzeigersinn, G03",
-    "reading_cw": "the same with CW, clockwise, im Uhrzeigersinn, G02",
-    "direction": "Direction, Richtung, Drehsinn, sens",
-    "time": "Time, Zeit, t, Date, temps",
+    "angle": "Angle, Winkel, Theta, azimuth, ángulo, angolo, 角度",
+    "reading": "Deviation, Abweichung, Reading, Error, Radial, Messwert, écart, desviación, scostamento, 偏差",
+    "reading_ccw": "the same with CCW, counter-clockwise, gegen den Uhrzeigersinn, antihoraire, 反時計回り, G03",
+    "reading_cw": "the same with CW, clockwise, im Uhrzeigersinn, horaire, 時計回り, G02",
+    "direction": "Direction, Richtung, Drehsinn, sens, sentido, 方向",
+    "time": "Time, Zeit, t, Date, temps, tiempo, 時間",
     "feed": "Feed, Vorschub, avance",
     "circle": "Circle, Kreis, cercle",
     "sweep": "Sweep, Run, Lauf",
     "lap": "Lap, Turn, Umlauf, tour",
-    "temperature": "Temperature, Temp",
+    "temperature": "Temperature, Temp, 温度",
     "s1": "s1, Slider 1, Schlitten 1, Axis 1; `s2` to `s6` alike",
 }
 """Headings that name each quantity; tests read every one of them."""

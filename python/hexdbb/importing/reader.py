@@ -16,6 +16,11 @@ from hexdbb.record.formats import FORMATS
 from hexdbb.record.workbook import is_record_workbook
 
 Tell = Callable[[str], None]
+BEFORE = {
+    (".xls", ".xlsb", ".ods", ".numbers"): "the sheet saved as .xlsx or .csv",
+    (".gz", ".zip", ".bz2", ".xz", ".7z"): "the file unpacked",
+}
+"""What to do first with a file that is not read, by its suffix."""
 
 
 def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell = lambda _: None) -> Record:
@@ -49,7 +54,8 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
 
     if path.suffix.lower() not in READERS:
         known = ", ".join(dict.fromkeys((*FORMATS, *READERS)))
-        raise InputError(f"{path}: suffix {path.suffix!r} (expected one of {known})")
+        first = next((f"{do}; " for suffixes, do in BEFORE.items() if path.suffix.lower() in suffixes), "")
+        raise InputError(f"{path}: suffix {path.suffix!r} (expected {first}one of {known})")
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     return imported(path, wanted.over(_beside(path)), tell)

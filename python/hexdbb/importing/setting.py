@@ -64,6 +64,10 @@ class Setting:
         """Return the feeds that the plan has for a circle."""
         return circle.feeds_mm_min or self.plan.feeds_mm_min
 
+    def every_feed_mm_min(self) -> list[float]:
+        """Return all feeds of the plan and its circles."""
+        return sorted({feed for circle in self.plan.circles for feed in self.feeds_mm_min(circle)})
+
     def feed_mm_min(self, circle: Circle) -> float:
         """Return the feed of a file that has no column for it; `InputError` where the plan has several."""
         if self.mapping.feed_mm_min is not None:

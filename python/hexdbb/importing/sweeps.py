@@ -43,6 +43,7 @@ def samples_of(series: Series, setting: Setting) -> tuple[Columns, NotMeasured, 
     feed = _feeds(series, setting, circle)
     direction = series.direction if series.direction is not None else _sense(series, setting.origin)
     sweep = _numbered(series.others.get("sweep", np.zeros(len(series))), circle, direction, feed)
+    _require_runs(series, sweep, setting.origin)
     series = Series(
         series.angle_deg,
         series.reading_um,
@@ -96,6 +97,17 @@ def _numbered(sweep: Floats, *others: NDArray[Any]) -> Ints:
     for values in (sweep, *others):
         changes[1:] |= values[1:] != values[:-1]
     return np.cumsum(changes).astype(np.int64)
+
+
+def _require_runs(series: Series, sweep: Ints, origin: str) -> None:
+    """Check that most runs have readings enough to be some; rows sorted by angle mix the runs of both directions."""
+    counts = np.bincount(sweep)
+    if np.median(counts) < LEAST_STRETCH:
+        short = int(np.argmin(counts))
+        line = series.lines[np.flatnonzero(sweep == short)[0]]
+        seen = f"one of {len(counts)} runs, with {counts[short]} reading{'s' * int(counts[short] != 1)}"
+        expected = f"{LEAST_STRETCH} or more in a run: rows in order of travel, one run after another"
+        raise InputError(f"{origin}: line {line}: {seen} (expected {expected})")
 
 
 def turns_deg(angle_deg: Floats) -> Floats:

@@ -7,13 +7,14 @@ chosen; a run that one bad cell interrupts is a table with a bad cell.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hexdbb.errors import InputError
 from hexdbb.importing.grid import Grid, shown
 from hexdbb.importing.mapping import Mapping
-from hexdbb.importing.quantities import recognised
+from hexdbb.importing.quantities import known_unit, recognised
 
 LEAST_ROWS = 8
 """Rows of a table: fewer readings are no circle, and a preamble or footer seldom has as many rows of two numbers."""
@@ -21,6 +22,8 @@ MOST_HEADINGS = 3
 """Rows of headings: a group's name, the name, the unit."""
 MOSTLY = 0.8
 """Part of a column's cells that are numbers, from which it is a column of numbers with bad cells in it."""
+WITH_UNIT = re.compile(r"[+-]?\d[\d.,']*\s*([^\d\s].*)")
+"""A number and what may be its unit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +98,7 @@ def _found(grid: Grid, counts: Sequence[int]) -> tuple[int, int]:
     runs = _runs(counts)
     tables = [(first, last) for first, last in runs if last - first + 1 >= LEAST_ROWS]
     if not tables:
-        expected = f"{LEAST_ROWS} rows at least of two numbers each: angle and reading"
+        expected = f"{LEAST_ROWS} rows at least of two numbers each: angle and reading{_unit_note(grid)}"
         raise InputError(f"{grid.name}: no table of readings (expected {expected})")
     first, last = tables[0]
     _require_no_bad_cell(grid, counts, first, last)
@@ -106,6 +109,14 @@ def _found(grid: Grid, counts: Sequence[int]) -> tuple[int, int]:
         raise InputError(f"{grid.name}: {len(tables)} tables, {grid.unit}s {which} (expected {expected})")
     _require_no_rest(grid, first, last)
     return first, last
+
+
+def _unit_note(grid: Grid) -> str:
+    """Return what to add where cells are numbers with their units, which belong into the headings."""
+    # Where there are no numbers the delimiter is not known either.
+    cells = (cell for row in grid.rows for text in row if isinstance(text, str) for cell in re.split(r"[;\t|]", text))
+    with_unit = [cell for cell in cells if (found := WITH_UNIT.fullmatch(cell)) and known_unit(found[1])]
+    return f"; units belong into the headings, not into cells as {shown(with_unit[0])}" if with_unit else ""
 
 
 def _runs(counts: Sequence[int]) -> list[tuple[int, int]]:
@@ -160,6 +171,8 @@ def described(grid: Grid, row: int, column: int) -> str:
     """Return what an error says of a cell that is no number."""
     cell = grid.cell(row, column)
     note = "; a spreadsheet program may have taken a number for a date" if not isinstance(cell, str | float) else ""
+    if cell == "" and grid.unit == "row":
+        note = "; a formula has a value once a spreadsheet program has saved the file"
     return f"{shown(cell)} (expected a number{note})"
 
 
@@ -210,18 +223,22 @@ def _is_text(grid: Grid, counts: Sequence[int], row: int) -> bool:
 
 
 def _joined(grid: Grid, rows: range, width: int) -> tuple[str, ...]:
-    """Return the texts of some rows column by column; a group's name holds for the empty cells to its right."""
+    """Return the texts of some rows column by column, a unit last; a group's name holds for empty cells to its right.
+
+    Columns without a name of their own or a value are no part of a group: they part tables that stand side by side.
+    """
     parts: list[list[str]] = [[] for _ in range(width)]
+    named = [any(grid.cell(row, column) != "" for row in (rows[-1], rows[-1] + 1)) for column in range(width)]
     for row in rows:
         before = ""
         for column in range(width):
             cell = grid.cell(row, column)
             text = cell if isinstance(cell, str) else ""
-            if row != rows[-1]:
+            if row != rows[-1] and not known_unit(text):
                 text = before = text or before
-            if text:
+            if text and named[column]:
                 parts[column].append(text)
-    return tuple(" ".join(each) for each in parts)
+    return tuple(" ".join(sorted(each, key=lambda text: known_unit(text) is not None)) for each in parts)
 
 
 def _worth(heads: Sequence[str]) -> tuple[int, int]:

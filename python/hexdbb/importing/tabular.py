@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from hexdbb.errors import InputError
-from hexdbb.importing import columns as c
+from hexdbb.importing import values as v
+from hexdbb.importing.clock import started
+from hexdbb.importing.columns import Column, assigned
 from hexdbb.importing.grid import Grid
 from hexdbb.importing.quantities import QUANTITIES
 from hexdbb.importing.series import Floats, Series
@@ -14,7 +18,7 @@ from hexdbb.importing.table import Table, find_table
 from hexdbb.record import SLIDER_COLUMNS
 
 SLIDERS = tuple(name.removesuffix("_mm") for name in SLIDER_COLUMNS)
-PLAIN = ("feed", "circle", "sweep", "lap", "temperature", *SLIDERS)
+PLAIN = ("circle", "sweep", "lap", "temperature", *SLIDERS)
 """Quantities that are taken as they are, but for their unit."""
 
 
@@ -27,13 +31,17 @@ def series_of(grid: Grid, setting: Setting) -> Series:
         One line naming file, line, column, value and what was expected.
     """
     table = find_table(grid, setting.mapping)
-    found = c.assigned(table, setting.mapping)
-    angle_deg, angle_unit = c.angle_deg(table, found["angle"])
+    found = assigned(table, setting.mapping)
+    angle_deg, angle_unit = v.angle_deg(table, found["angle"])
     lines = np.array([grid.lines[row] for row in table.rows])
-    others = {QUANTITIES[name].column: c.values_of(table, found[name]) for name in PLAIN if name in found}
+    others = {QUANTITIES[name].column: v.values_of(table, found[name]) for name in PLAIN if name in found}
+    if "feed" in found:
+        others["feed_mm_min"] = v.feed_mm_min(table, found["feed"], setting.every_feed_mm_min())
     _require_all_sliders(table, others)
     if table.part[-1] > 0 and "sweep" not in others:
         others["sweep"] = np.array(table.part, dtype=np.float64)
+    began = started(table)
+    metadata: dict[str, Any] = {} if began is None else {"started": began}
     notes = [f"{grid.how}; {table.how}; {_columns_words(found, angle_unit, table)}"]
     wide = [(name, sign) for name, sign in (("reading_ccw", 1), ("reading_cw", -1)) if name in found]
     if wide and "reading" in found:
@@ -43,23 +51,25 @@ def series_of(grid: Grid, setting: Setting) -> Series:
     if wide:
         if "time" in found:
             notes.append(f"{found['time']} left out: one time for two runs")
-        return _by_place(table, found, wide, Series(angle_deg, angle_deg, None, lines, others, notes), setting)
+        return _by_place(
+            table, found, wide, Series(angle_deg, angle_deg, None, lines, others, notes, metadata), setting
+        )
     if "time" in found:
-        others["t_s"] = c.time_s(table, found["time"])
+        others["t_s"] = v.time_s(table, found["time"])
     reading_um = _reading(table, found["reading"], setting)
-    direction = c.direction(table, found["direction"], setting.mapping) if "direction" in found else None
+    direction = v.direction(table, found["direction"], setting.mapping) if "direction" in found else None
     if direction is None and setting.mapping.direction is not None:
         direction = np.full(len(lines), setting.mapping.direction, np.int8)
-    return Series(angle_deg, reading_um, direction, lines, others, notes)
+    return Series(angle_deg, reading_um, direction, lines, others, notes, metadata)
 
 
-def _reading(table: Table, column: c.Column, setting: Setting) -> Floats:
+def _reading(table: Table, column: Column, setting: Setting) -> Floats:
     gauge = setting.plan.gauge
-    return c.reading_um(table, column, gauge.range_um, gauge.bar_length_mm)
+    return v.reading_um(table, column, gauge.range_um, gauge.bar_length_mm)
 
 
 def _by_place(
-    table: Table, found: dict[str, c.Column], wide: list[tuple[str, int]], places: Series, setting: Setting
+    table: Table, found: dict[str, Column], wide: list[tuple[str, int]], places: Series, setting: Setting
 ) -> Series:
     """Return the runs of a table with a row a place: clockwise runs pass its rows from the last to the first."""
     turned = np.diff(places.angle_deg)
@@ -79,6 +89,7 @@ def _by_place(
         whole.lines,
         {**whole.others, "sweep": np.repeat(np.arange(float(len(wide))), len(places))},
         whole.notes,
+        whole.metadata,
     )
 
 
@@ -90,7 +101,7 @@ def _require_all_sliders(table: Table, others: dict[str, Floats]) -> None:
         raise InputError(f"{table.grid.name}: no column of {missing} (expected {expected})")
 
 
-def _columns_words(found: dict[str, c.Column], angle_unit: str, table: Table) -> str:
+def _columns_words(found: dict[str, Column], angle_unit: str, table: Table) -> str:
     """Return which column was read as what, and which were not read."""
     words = []
     for name, column in found.items():

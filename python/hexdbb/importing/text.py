@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import codecs
 import csv
-import io
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -25,7 +24,12 @@ FALLBACK = "cp1252"
 MOST_BYTES = 500_000_000
 """Largest file that is read, bytes: a day of readings at 250 Hz with all columns in text is 4e8."""
 LOOKED_AT = 2000
-"""Lines by which the delimiter is chosen: beyond any preamble."""
+"""Lines by which the delimiter is chosen, and bytes by which an encoding is: beyond any preamble."""
+SPREAD = 0.6
+"""Part of the lines that must hold something for empty ones to part tables."""
+LINE_END = re.compile(r"\r\n|\r|\n")
+COMMENT = re.compile(r"^\s*[#%]\s*")
+"""What marks a line of names or notes in the files of numerical programs; it is no name itself."""
 PRESENT = 0.5
 """Part of the most numeric rows that any delimiter gives, from which an earlier one of the list is taken."""
 
@@ -39,9 +43,12 @@ def read_text_grid(path: Path, mapping: Mapping) -> Grid:
         It cannot be read, is no text, or its decimal mark is not clear.
     """
     text, encoding = _decoded(path, mapping.encoding)
-    lines = text.splitlines()
+    lines = [COMMENT.sub("", line) for line in LINE_END.split(text.removesuffix("\n").removesuffix("\r"))]
     delimiter = mapping.delimiter or _delimiter(lines[:LOOKED_AT])
-    numbered = list(_split(path, text, lines, delimiter))
+    numbered = list(_split(path, lines, delimiter))
+    filled = [(line, cells) for line, cells in numbered if any(cell.strip() for cell in cells)]
+    if len(filled) < SPREAD * len(numbered):  # as when line ends are written twice
+        numbered = filled
     rows: list[list[Cell]] = [[cell.strip() for cell in cells] for _, cells in numbered]
     texts = (cell for cells in rows for cell in cells if isinstance(cell, str))
     decimal = mapping.decimal or decimal_mark(texts, str(path))
@@ -58,7 +65,7 @@ def _decoded(path: Path, encoding: str | None) -> tuple[str, str]:
         content = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    marked = next((name for mark, name in MARKS.items() if content.startswith(mark)), None)
+    marked = next((name for mark, name in MARKS.items() if content.startswith(mark)), None) or _unmarked_utf16(content)
     for name in (encoding,) if encoding else (marked,) if marked else ("utf-8", FALLBACK):
         try:
             text = content.decode(str(name))
@@ -74,11 +81,21 @@ def _decoded(path: Path, encoding: str | None) -> tuple[str, str]:
     raise InputError(f"{path}: {where} (expected text; --encoding names the encoding)")
 
 
-def _split(path: Path, text: str, lines: Sequence[str], delimiter: str) -> list[tuple[int, list[str]]]:
+def _unmarked_utf16(content: bytes) -> str | None:
+    """Return the encoding of a text of two bytes a character without its byte order mark; None where it is none."""
+    looked_at = content[:LOOKED_AT]
+    zeros = looked_at.count(0)
+    for place, name in ((1, "utf-16-le"), (0, "utf-16-be")):
+        if zeros and zeros == looked_at[place::2].count(0) >= PRESENT * (len(looked_at) // 2):
+            return name
+    return None
+
+
+def _split(path: Path, lines: Sequence[str], delimiter: str) -> list[tuple[int, list[str]]]:
     """Return line number (from 1) and cells of every line, empty ones included."""
     if delimiter == "space":
         return [(place, line.split()) for place, line in enumerate(lines, 1)]
-    return list(rows_of(io.StringIO(text, newline=""), str(path), DELIMITERS[delimiter], keep_empty=True))
+    return list(rows_of((f"{line}\n" for line in lines), str(path), DELIMITERS[delimiter], keep_empty=True))
 
 
 def _delimiter(lines: Sequence[str]) -> str:

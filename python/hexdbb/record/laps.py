@@ -17,7 +17,8 @@ NEEDED = ("sweep", "direction", "angle_deg")
 def counted_laps(columns: Mapping[str, Any]) -> NDArray[np.float64] | None:
     """Count the turns completed since the first sample of each sweep.
 
-    Assumes that consecutive samples of a sweep lie less than half a turn apart; angles may be wrapped or not.
+    Assumes that consecutive samples of a sweep lie less than half a turn apart; angles may be wrapped or not. A last
+    sample that closes a turn belongs to it: a lap of one sample is none, and nothing could be predicted from it.
 
     Parameters
     ----------
@@ -38,4 +39,6 @@ def counted_laps(columns: Mapping[str, Any]) -> NDArray[np.float64] | None:
         steps = np.diff(angle_deg[rows], prepend=angle_deg[rows[0]])
         turned = np.cumsum(((steps + 180.0) % 360.0 - 180.0) * direction[rows]) / 360.0
         laps[rows] = np.floor(np.nan_to_num(turned) + ROUNDING_TURNS)
+        if len(rows) > 1 and laps[rows[-1]] > laps[rows[-2]]:
+            laps[rows[-1]] = laps[rows[-2]]
     return np.maximum(laps, 0.0)

@@ -18,8 +18,14 @@ from hexdbb.model import Model, effect_info, effect_names
 from hexdbb.record import Record
 
 COMPUTED = {
-    "sliders": frozenset({"velocity_mm_s", "acceleration_mm_s2", "jerk_mm_s3", "snap_mm_s4", "since_reversal_s"}),
-    "time": frozenset({"time_s", "warming_k"}),
+    "sliders": frozenset(
+        {
+            *("velocity_mm_s", "acceleration_mm_s2", "jerk_mm_s3", "snap_mm_s4", "since_reversal_s"),
+            # A leg turns as fast as its slider moves.
+            *("slider_joint_rate_rad_s", "platform_joint_rate_rad_s", "swing_rate_rad_s"),
+        }
+    ),
+    "time": frozenset({"time_s", "time_in_sweep_s", "warming_k"}),
 }
 """Columns that cannot be judged, by what was computed instead of measured."""
 MEANING = {

@@ -72,7 +72,8 @@ def _changes(found: Trend) -> Iterator[Text]:
         if change.rivals:
             yield Text(f"  {change.changing.label} may as well be {', '.join(change.rivals)}")
     if len(found.dated) > 1:
-        yield Text(f"nothing else changes: {others} other elements keep one value in all records")
+        more = ("else ", "other ") if found.changing else ("", "")
+        yield Text(f"nothing {more[0]}changes: {others} {more[1]}elements keep one value in all records")
 
 
 def _line(found: Trend, segment: Segment, unit: str) -> str:

@@ -153,8 +153,8 @@ def test_the_message_blames_the_computer_or_the_node(
 @pytest.mark.parametrize(
     ("silent", "computer", "begins"),
     [
-        (ALL, FakeComputer(0.060), "this computer: was 60.0 ms late (node 1 (slider 1): TPDO1 missing"),
-        (ALL, FakeComputer(), "node 1 (slider 1): TPDO1 missing"),
+        (ALL, FakeComputer(0.060), "this computer: was 60.0 ms late (every node: TPDO1 missing"),
+        (ALL, FakeComputer(), "every node: TPDO1 missing"),
         ((3,), FakeComputer(0.060), "node 3 (slider 3): TPDO1 missing"),
     ],
 )
@@ -169,6 +169,18 @@ def test_the_message_blames_the_right_one_before_motion_too(
     with pytest.raises(RunError) as caught:
         axes.enable()
     assert str(caught.value).startswith(begins)
+
+
+@pytest.mark.parametrize("computer", [FakeComputer(), FakeComputer(0.060)])
+def test_that_silent_nodes_are_programs_of_this_computer_is_said(computer: FakeComputer) -> None:
+    bus = ScriptedBus()
+    axes = axes_on(bus)
+    axes.read_positions()
+    axes._watch.real_time, axes._watch.computer, axes._watch.nodes_here = True, computer.lateness(), True
+    bus.silent = {3}
+    with pytest.raises(RunError) as caught:
+        axes.enable()
+    assert "late meanwhile; the nodes are simulated on this computer, which may be too busy" in str(caught.value)
 
 
 def test_a_node_whose_answers_a_proxy_drops_is_blamed_in_a_run_in_real_time() -> None:

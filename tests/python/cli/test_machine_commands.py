@@ -61,8 +61,8 @@ def test_options_make_a_machine_and_a_plan_that_pass_the_checks(tmp_path: Path) 
 def test_questions_have_defaults_and_wrong_answers_are_asked_again(tmp_path: Path) -> None:
     answers = ["bench", *[""] * (len(QUESTIONS) - 1)]
     at = [each.option for each in QUESTIONS].index("leg-length")
-    answers[at] = "120"
-    text = "\n".join([*answers, "390", "0,0,280,500", "0,0,250,60,10,5", "0", ""])
+    answers[at : at + 1] = ["120", "390"]
+    text = "\n".join([*answers, "0,0,280,500", "0,0,250,60,10,5", "0", ""])
     done = run("new", "-o", str(tmp_path / "m.toml"), answers=text)
     assert done.exit_code == 0
     assert "legs.length_mm: 120 (expected more than 130" in done.stderr
@@ -95,6 +95,21 @@ def test_bad_input_is_one_line_and_nothing_is_written(
     assert message in str(error.value)
     assert "\n" not in str(error.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_wrong_answer_is_asked_for_again_before_it_makes_defaults(tmp_path: Path) -> None:
+    answers = ["", "-5", "280", "0,130", "0,130,230", *[""] * 4, "43", "430,431,429,433,428,434", *[""] * 10]
+    done = run("new", "-o", str(tmp_path / "m.toml"), "--circles", "0", answers="\n".join([*answers, ""]))
+    assert done.exit_code == 0
+    for refused in (
+        "base.inradius_mm: -5 (expected a number > 0)",
+        '--guideway-angles: "0,130" (expected three numbers with commas)',
+        "legs.length_mm: 43 (expected more than 146, the distance between guideway and joint circle",
+    ):
+        assert done.output.count(refused) == 1
+    machine = load_machine(tmp_path / "m.toml")
+    assert machine.base.guideway_angles_deg == (0.0, 130.0, 230.0)
+    assert (machine.platform.circumradius_mm, machine.legs.lengths_mm[5]) == (134.0, 434.0)
 
 
 def test_check_states_what_is_wrong_by_its_exit_status(tmp_path: Path) -> None:

@@ -184,4 +184,4 @@ def test_a_machine_that_does_not_reach_the_circle_is_named(tmp_path: Path) -> No
 
 def test_every_suffix_that_is_read_has_one_reader() -> None:
     assert set(foreign.READERS) == {".csv", ".txt", ".tsv", ".dat", ".asc", ".xlsx", ".xlsm", ".b5r", ".xml"}
-    assert "suffix '.ods' (expected one of .parquet, .csv, .xlsx" in refusal("none.ods")
+    assert "suffix '.odt' (expected one of .parquet, .csv, .xlsx" in refusal("none.odt")

@@ -74,7 +74,8 @@ def test_no_hypothesis_needs_what_was_not_measured(found: Discovery) -> None:
 def test_functions_of_unmeasured_variables_are_no_hypotheses(samples: Samples) -> None:
     state = State(samples, samples.machine, samples.unmeasured)
     state.space(Learned.parse("learned:slider:3:position"))
-    for name in ("learned:slider:3:velocity", "learned:reading:time", "learned:slider:3:since_reversal_time"):
+    timed = ("learned:reading:time", "learned:slider:3:since_reversal_time")
+    for name in ("learned:slider:3:velocity", "learned:leg:3:turning_rate", "learned:leg:3:swing_rate", *timed):
         with pytest.raises(InputError, match="was not measured"):
             state.space(Learned.parse(name))
 

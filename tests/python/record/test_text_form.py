@@ -225,6 +225,13 @@ def test_laps_are_counted_from_the_angle_where_they_are_left_out(tmp_path: Path,
     assert counted_laps({"sweep": sweep}) is None
 
 
+def test_the_reading_that_closes_a_turn_is_no_lap_of_its_own() -> None:
+    angle_deg = np.arange(0.0, 721.0, 4.0) % 360.0
+    laps = counted_laps({"sweep": np.zeros(181), "direction": np.ones(181), "angle_deg": angle_deg})
+    assert laps is not None
+    assert np.array_equal(laps, np.repeat([0.0, 1.0], [90, 91]))
+
+
 def test_a_record_without_laps_is_that_with_them(place: Path) -> None:
     whole = read_record(place / "a.csv")
     rows = [line.split(",") for line in (HEADER, *ROWS)]
