@@ -130,8 +130,9 @@ class Labels(Artist):
         measured = _Measured.by(renderer, self.font)
         along = np.array([self._along and self._along * measured.length(text) for text in self.texts])
         up = np.full(len(along), self._up * measured.digit_height)
-        begins: NDArray[np.float64] = self.get_transform().transform(self.places)
-        return begins + np.column_stack([up, -along] if self._upright else [-along, -up])
+        begins = np.asarray(self.get_transform().transform(self.places), dtype=np.float64)
+        offsets: NDArray[np.float64] = np.column_stack([up, -along] if self._upright else [-along, -up])
+        return begins + offsets
 
 
 class _Measured:

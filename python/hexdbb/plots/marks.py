@@ -54,7 +54,7 @@ def mark_reversals(
     across, apart_deg = axes.get_xaxis_transform(), 360.0 * LINE_PT / (POINTS_PER_IN * size_in[0])
     for is_meant, angles_deg in _by_meaning(reversals, meant):
         ends = np.column_stack([np.repeat(angles_deg, 2), np.tile([0.0, 1.0], len(angles_deg))])
-        lines = LineCollection(ends.reshape(-1, 2, 2), transform=across, zorder=1.5, **_line_style(is_meant))
+        lines = LineCollection(list(ends.reshape(-1, 2, 2)), transform=across, zorder=1.5, **_line_style(is_meant))
         axes.add_collection(lines, autolim=False)
         inside(lines)
     for is_meant, names in _grouped(reversals, apart_deg, meant):
