@@ -13,6 +13,7 @@ from hexdbb.comparison import UM_PER_MM, CircleComparison, iso230
 from hexdbb.plan import Circle
 from hexdbb.plots.panels import draw_quantities, draw_residual
 from hexdbb.plots.polar import draw_polar, legend_handles
+from hexdbb.plots.rooms import Room, label_at_once, panels, titled
 from hexdbb.plots.style import sheet, styled
 
 FEEDS_OF_A_SHEET = 2
@@ -20,7 +21,11 @@ FEED_IN = 5.2
 """Height of a feed's row, inches: the table has up to 15 lines of text."""
 RESIDUAL_IN = (3.0, 1.4)
 """Width and height of the residual's panel without its labels, inches, about."""
+DIAL_ROOM, BESIDE_ROOM = Room(0.0, 0.1, 0.45, 0.75), Room(top=0.33, bottom=0.38)
+CIRCLE_FOOT_IN = 0.6
+"""Room around the panels, and height of the legend with its two lines of notes, inches."""
 OVERVIEW_COLUMNS = 4
+OVERVIEW_ROOM, OVERVIEW_FOOT_IN = Room(0.06, 0.06, 0.62, 0.02), 0.68
 OVERVIEW_IN = 2.35
 """Height of a row of small circles, inches."""
 OVERVIEW_OF_A_SHEET = 16
@@ -33,13 +38,16 @@ def circle_page(circles: Sequence[CircleComparison], meant: Sequence[str] = (), 
     Reversals of the sliders `meant` (``slider 4``) are marked in bold; the heading stands above all.
     """
     figure = sheet(FEED_IN * len(circles) + 1.1)
-    grid = figure.add_gridspec(2 * len(circles), 2, height_ratios=[1.0, 1.5] * len(circles))
-    for row, circle in enumerate(circles):
-        draw_circle(figure.add_subplot(grid[2 * row : 2 * row + 2, 0]), circle, meant)
-        draw_residual(figure.add_subplot(grid[2 * row, 1]), circle, RESIDUAL_IN, meant)
-        draw_quantities(figure.add_subplot(grid[2 * row + 1, 1]), circle)
     title = f"{circles[0].record_name}, {describe_circle(circles[0].circle)}"
-    figure.suptitle(f"{heading}\n{title}" if heading else title)
+    head_in, rows = titled(figure, f"{heading}\n{title}" if heading else title), len(circles)
+    dials = panels(figure, (rows, 1), DIAL_ROOM, head_in, CIRCLE_FOOT_IN, (0.0, 0.5))
+    beside = panels(figure, (2 * rows, 1), BESIDE_ROOM, head_in, CIRCLE_FOOT_IN, (0.5, 1.0), [1.0, 1.6] * rows)
+    for row, circle in enumerate(circles):
+        draw_circle(figure.add_subplot(dials[row, 0]), circle, meant)
+        residual = figure.add_subplot(beside[2 * row, 0])
+        draw_residual(residual, circle, RESIDUAL_IN, meant)
+        label_at_once(residual)
+        draw_quantities(figure.add_subplot(beside[2 * row + 1, 0]), circle)
     add_legend(
         figure,
         f"quantities of {iso230.EDITION}; F: centre offset removed (least squares), F*: kept\n"
@@ -61,9 +69,11 @@ def overview_page(circles: Sequence[CircleComparison], title: str, meant: Sequen
     """Draw circles small, in the order given, each at its own magnification."""
     rows = -(-len(circles) // OVERVIEW_COLUMNS)
     figure = sheet(OVERVIEW_IN * rows + 1.3)
-    grid = figure.subplots(rows, OVERVIEW_COLUMNS, squeeze=False)
+    head_in = titled(figure, title)
+    grid = panels(figure, (rows, OVERVIEW_COLUMNS), OVERVIEW_ROOM, head_in, OVERVIEW_FOOT_IN)
     several_records = len({circle.record_name for circle in circles}) > 1
-    for axes, circle in zip(grid.flat, circles, strict=False):
+    for place, circle in enumerate(circles):
+        axes = figure.add_subplot(grid[divmod(place, OVERVIEW_COLUMNS)])
         scale = choose_scale(circle.circle.radius_mm, largest_drawn_mm([circle]))
         draw_polar(axes, circle, scale, fine=False, meant=meant)
         record = f"{circle.record_name}\n" if several_records else ""
@@ -72,9 +82,6 @@ def overview_page(circles: Sequence[CircleComparison], title: str, meant: Sequen
             f"residual RMS {UM_PER_MM * circle.rms_mm:.2f} µm\n"
             f"division {scale.division_um:g} µm, × {scale.magnification:g}"
         )
-    for axes in grid.flat[len(circles) :]:
-        axes.set_axis_off()
-    figure.suptitle(title)
     add_legend(figure, f"G(b): bi-directional circular deviation, {iso230.EDITION}, measured / predicted")
     return figure
 

@@ -5,14 +5,16 @@ matplotlib's own polar axes take twenty times as long to make and to draw; of th
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
-from matplotlib.text import Text
 from numpy.typing import ArrayLike, NDArray
+
+from hexdbb.plots.labels import Labels
 
 
 class Dial:
@@ -24,12 +26,14 @@ class Dial:
         Empty; it gets no frame.
     centre, rim : float
         Values in the middle and at the rim.
+    beside : float
+        Half of the panel's width over the radius: more than 1 leaves room for labels at either side.
     """
 
-    def __init__(self, axes: Axes, centre: float, rim: float) -> None:
+    def __init__(self, axes: Axes, centre: float, rim: float, beside: float = 1.0) -> None:
         self.axes, self.centre, self.rim = axes, centre, rim
         axes.set_axis_off()
-        axes.set(xlim=(-1.0, 1.0), ylim=(-1.0, 1.0), aspect="equal")
+        axes.set(xlim=(-beside, beside), ylim=(-1.0, 1.0), aspect="equal")
 
     def places(self, angle_rad: ArrayLike, value: ArrayLike) -> NDArray[np.float64]:
         """Return where angles and values lie in the panel, shape (n, 2): the rim has radius 1."""
@@ -51,10 +55,10 @@ class Dial:
         drawn.set_in_layout(False)
         return drawn
 
-    def text(self, angle_rad: float, value: float, text: str, **style: Any) -> Text:
-        """Write a text at a place."""
-        ((x, y),) = self.places([angle_rad], [value])
-        return self.axes.text(x, y, text, **style)
+    def labels(self, angle_rad: ArrayLike, value: ArrayLike, texts: Sequence[str], **style: Any) -> Labels:
+        """Write short texts at places."""
+        angles, values = np.broadcast_arrays(angle_rad, value)
+        return Labels(self.axes, self.places(angles, values), texts, **style)
 
     def _add(self, line: Line2D) -> None:
         self.axes.add_line(line)

@@ -7,12 +7,15 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 
-from hexdbb.charts.colours import NOMINAL_COLOUR, PAPER_COLOUR, TEXT_COLOUR
+from hexdbb.charts.colours import NOMINAL_COLOUR, TEXT_COLOUR
 from hexdbb.charts.lines import near
+from hexdbb.comparison.iso230 import FloatArray
 from hexdbb.comparison.reversals import Reversal
 from hexdbb.plots.dial import Dial
-from hexdbb.plots.style import TEXT_PT, inside
+from hexdbb.plots.labels import Labels
+from hexdbb.plots.style import inside
 
 ROOM_PT = 24.0
 """Height left free above the lines of a panel for two numbers on end, points."""
@@ -48,35 +51,49 @@ def mark_reversals(
     low, high = axes.get_ylim()
     share = ROOM_PT / (POINTS_PER_IN * size_in[1])
     axes.set_ylim(low, high + share / (1.0 - share) * (high - low))
-    for each in reversals:
-        inside(axes.axvline(each.angle_deg, **_line_style(_is_meant(each, meant)), zorder=1.5))
-    for angle_deg, numbers, is_meant in _names(reversals, 360.0 * LINE_PT / (POINTS_PER_IN * size_in[0]), meant):
-        name = axes.annotate(
-            numbers,
-            (angle_deg, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0.0, -1.0),
-            textcoords="offset points",
-            rotation=90.0,
-            ha="center",
-            va="top",
-            **_text_style(is_meant),
-        )
-        inside(name)
+    across, apart_deg = axes.get_xaxis_transform(), 360.0 * LINE_PT / (POINTS_PER_IN * size_in[0])
+    for is_meant, angles_deg in _by_meaning(reversals, meant):
+        ends = np.column_stack([np.repeat(angles_deg, 2), np.tile([0.0, 1.0], len(angles_deg))])
+        lines = LineCollection(list(ends.reshape(-1, 2, 2)), transform=across, zorder=1.5, **_line_style(is_meant))
+        axes.add_collection(lines, autolim=False)
+        inside(lines)
+    for is_meant, names in _grouped(reversals, apart_deg, meant):
+        places = [(angle_deg, 1.0) for angle_deg, _ in names]
+        said = [numbers for _, numbers in names]
+        Labels(axes, places, said, transform=across, va="top", upright=True, **_text_style(is_meant))
 
 
 def mark_reversals_around(dial: Dial, reversals: Sequence[Reversal], meant: Sequence[str], named: bool) -> None:
     """Mark reversals by spokes; in the middle the numbers, of all sliders where `named`, else of those meant."""
     centre, rim = dial.centre, dial.rim
-    for each in reversals:
-        angle_rad = float(np.radians(each.angle_deg))
-        along = [centre + part * (rim - centre) for part in (SPOKE_BEGINS, 1.0)]
-        dial.line([angle_rad, angle_rad], along, **_line_style(_is_meant(each, meant)), zorder=1.5)
-    for angle_deg, numbers, is_meant in _names(reversals, AROUND_DEG, meant):
+    along = [centre + part * (rim - centre) for part in (SPOKE_BEGINS, 1.0)]
+    for is_meant, angles_deg in _by_meaning(reversals, meant):
+        spokes = [np.column_stack([np.full(2, angle_rad), along]) for angle_rad in np.radians(angles_deg)]
+        dial.lines(spokes, zorder=1.5, **_line_style(is_meant))
+    for is_meant, names in _grouped(reversals, AROUND_DEG, meant):
         if named or is_meant:
-            place = (float(np.radians(angle_deg)), centre + NUMBER_AT * (rim - centre))
-            said = numbers if named else numbers.partition(" ")[0]
-            inside(dial.text(*place, said, ha="center", va="center", **_text_style(is_meant)))
+            angles_rad = np.radians([angle_deg for angle_deg, _ in names])
+            said = [numbers if named else numbers.partition(" ")[0] for _, numbers in names]
+            dial.labels(angles_rad, centre + NUMBER_AT * (rim - centre), said, **_text_style(is_meant))
+
+
+def _by_meaning(reversals: Sequence[Reversal], meant: Sequence[str]) -> Iterator[tuple[bool, FloatArray]]:
+    """Yield the angles (deg) of the reversals of sliders that are not meant, and of those that are."""
+    for is_meant in (False, True):
+        angles_deg = [each.angle_deg for each in reversals if _is_meant(each, meant) == is_meant]
+        if angles_deg:
+            yield is_meant, np.array(angles_deg)
+
+
+def _grouped(
+    reversals: Sequence[Reversal], apart_deg: float, meant: Sequence[str]
+) -> Iterator[tuple[bool, list[tuple[float, str]]]]:
+    """Yield the names of reversals, angle (deg) and numbers, in which no slider is meant, and in which one is."""
+    names = list(_names(reversals, apart_deg, meant))
+    for is_meant in (False, True):
+        some = [(angle_deg, numbers) for angle_deg, numbers, each in names if each == is_meant]
+        if some:
+            yield is_meant, some
 
 
 def _names(reversals: Sequence[Reversal], apart_deg: float, meant: Sequence[str]) -> Iterator[tuple[float, str, bool]]:
@@ -104,9 +121,7 @@ def _line_style(is_meant: bool) -> dict[str, Any]:
 
 def _text_style(is_meant: bool) -> dict[str, Any]:
     return {
-        "fontsize": TEXT_PT,
         "color": TEXT_COLOUR if is_meant else NOMINAL_COLOUR,
         "fontweight": "bold" if is_meant else "normal",
-        "bbox": {"facecolor": PAPER_COLOUR, "edgecolor": "none", "pad": 0.3},
-        "zorder": 6,
+        "backing": 1.0,
     }

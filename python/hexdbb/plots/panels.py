@@ -8,10 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from hexdbb.charts.colours import MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS, RULE_COLOUR
+from hexdbb.charts.colours import MEASURED_COLOURS, NOMINAL_COLOUR, PREDICTED_COLOURS, RULE_COLOUR, TEXT_COLOUR
 from hexdbb.charts.lines import curve, quantity_rows, residual_path, smoothed
 from hexdbb.comparison import UM_PER_MM, CircleComparison
 from hexdbb.comparison.circles import SHORT_DIRECTION_NAMES
+from hexdbb.plots.labels import Labels
 from hexdbb.plots.marks import mark_reversals
 from hexdbb.plots.style import all_inside, inside
 
@@ -66,8 +67,8 @@ def draw_quantities(axes: Axes, circle: CircleComparison) -> None:
     )
     axes.set(xlim=(0.0, 1.0), ylim=(lines, 0.0))
     for name, values, right, side in columns:
-        for line, value in enumerate([name, *values]):
-            inside(axes.text(right, line + 0.5, value, ha=side, va="center_baseline"))
+        places = [(right, line + 0.5) for line in range(lines)]
+        Labels(axes, places, [name, *values], ha=side, color=TEXT_COLOUR)
     rules = [[(0.0, line), (1.0, line)] for line in range(1, lines + 1)]
     drawn = LineCollection(rules, colors=RULE_COLOUR, linewidths=[0.8, *[0.4] * len(rows)])
     axes.add_collection(drawn, autolim=False)

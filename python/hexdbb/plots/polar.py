@@ -16,8 +16,16 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import Normal, Stroke
+from numpy.typing import NDArray
 
-from hexdbb.charts.colours import GRID_COLOUR, MEASURED_COLOURS, NOMINAL_COLOUR, PAPER_COLOUR, PREDICTED_COLOURS
+from hexdbb.charts.colours import (
+    GRID_COLOUR,
+    MEASURED_COLOURS,
+    NOMINAL_COLOUR,
+    PAPER_COLOUR,
+    PREDICTED_COLOURS,
+    TEXT_COLOUR,
+)
 from hexdbb.charts.lines import curve, drawn_paths
 from hexdbb.charts.magnification import Scale
 from hexdbb.comparison import CircleComparison
@@ -25,11 +33,12 @@ from hexdbb.comparison.circles import DIRECTION_NAMES
 from hexdbb.comparison.iso230 import FULL_TURN_RAD
 from hexdbb.plots.dial import Dial
 from hexdbb.plots.marks import mark_reversals_around
-from hexdbb.plots.style import inside
 
 GRID_LABEL_ANGLE_DEG = 67.5
 DRAWN_TURN_RAD = np.linspace(0.0, FULL_TURN_RAD, 181)
 """Angles of the grid's circles: steps of 2 deg, straight between them within 0.02 % of the radius."""
+BESIDE = 1.16
+"""Half of a large plot's width over its radius: "180°" is read beside it."""
 DASH_PT = 3.5
 MOST_LABELS = 7
 """Divisions, nominal circle and both sides, of which each is labelled."""
@@ -51,7 +60,7 @@ def draw_polar(axes: Axes, circle: CircleComparison, scale: Scale, fine: bool, m
     meant : sequence of str
         Sliders (``slider 4``) whose reversals are marked in bold.
     """
-    dial = Dial(axes, scale.centre_um, (scale.divisions + 0.25) * scale.division_um)
+    dial = Dial(axes, scale.centre_um, (scale.divisions + 0.25) * scale.division_um, beside=BESIDE if fine else 1.0)
     _draw_grid(dial, scale, fine)
     mark_reversals_around(dial, circle.reversals, meant, named=fine)
     for direction, measured, predicted in drawn_paths(circle):
@@ -98,21 +107,27 @@ def _draw_grid(dial: Dial, scale: Scale, fine: bool) -> None:
     spokes = [np.array([[angle, dial.centre], [angle, dial.rim]]) for angle in np.radians(angles_deg)]
     dial.lines([*rings, *spokes], colors=GRID_COLOUR, linewidths=0.6, zorder=1.0)
     dial.line(DRAWN_TURN_RAD, 0.0 * DRAWN_TURN_RAD, color=NOMINAL_COLOUR, linewidth=0.9, zorder=2)
-    for angle_deg in angles_deg if fine else angles_deg[:1]:
-        angle_rad = float(np.radians(angle_deg))
-        across, up = round(np.cos(angle_rad), 6), round(np.sin(angle_rad), 6)
-        side = "left" if across > 0.0 else "right" if across < 0.0 else "center"
-        level = "bottom" if up > 0.0 else "top" if up < 0.0 else "center"
-        dial.text(angle_rad, dial.rim, f"{angle_deg}°", ha=side, va=level)
+    _label_angles(dial, angles_deg if fine else angles_deg[:1])
     if fine:
         _label_grid(dial, ticks_um)
 
 
+def _label_angles(dial: Dial, angles_deg: NDArray[np.integer]) -> None:
+    """Label angles outside the rim, those of one side together."""
+    sides: dict[tuple[str, str], list[int]] = {}
+    for angle_deg in angles_deg.tolist():
+        across, up = round(np.cos(np.radians(angle_deg)), 6), round(np.sin(np.radians(angle_deg)), 6)
+        side = "left" if across > 0.0 else "right" if across < 0.0 else "center"
+        level = "bottom" if up > 0.0 else "top" if up < 0.0 else "center"
+        sides.setdefault((side, level), []).append(angle_deg)
+    for (side, level), some in sides.items():
+        said = [f"{angle_deg}°" for angle_deg in some]
+        dial.labels(np.radians(some), dial.rim, said, ha=side, va=level, color=TEXT_COLOUR)
+
+
 def _label_grid(dial: Dial, ticks_um: list[float]) -> None:
     """Label the divisions on top of the paths, which would hide them."""
-    backing = {"facecolor": PAPER_COLOUR, "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
     # Divisions of a fine grid are labelled in turn: the labels would cover one another.
-    for tick_um in ticks_um[len(ticks_um) // 2 % 2 :: 2] if len(ticks_um) > MOST_LABELS else ticks_um:
-        label = f"{tick_um:+g}" if tick_um else "0 µm"
-        angle_rad = float(np.radians(GRID_LABEL_ANGLE_DEG))
-        inside(dial.text(angle_rad, tick_um, label, ha="center", va="center", bbox=backing, zorder=6))
+    shown = ticks_um[len(ticks_um) // 2 % 2 :: 2] if len(ticks_um) > MOST_LABELS else ticks_um
+    said = [f"{tick_um:+g}" if tick_um else "0 µm" for tick_um in shown]
+    dial.labels(np.radians(GRID_LABEL_ANGLE_DEG), shown, said, color=TEXT_COLOUR, backing=0.75)

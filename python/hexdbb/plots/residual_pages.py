@@ -25,8 +25,10 @@ from hexdbb.comparison import UM_PER_MM, Comparison
 from hexdbb.comparison.circles import CircleComparison
 from hexdbb.comparison.harmonics import Harmonic
 from hexdbb.comparison.iso230 import FloatArray
+from hexdbb.plots.labels import Labels
 from hexdbb.plots.marks import KEY, mark_reversals
 from hexdbb.plots.panels import against_angle
+from hexdbb.plots.rooms import Room, label_at_once, panels, titled
 from hexdbb.plots.style import all_inside, inside, sheet, styled
 from hexdbb.predictors import LEAST_SHARE, Predictor
 
@@ -34,13 +36,14 @@ PREDICTOR_COLUMNS = 3
 MOST_PREDICTORS = 15
 """Number of panels drawn: what a sheet has room for."""
 PREDICTOR_IN = 2.05
+PREDICTOR_ROOM = Room(0.6, 0.1, 0.46, 0.42)
 TITLE_WIDTH = 36
 """Characters in a line above a panel."""
 DIRECTION_COLUMNS = 2
 DIRECTIONS_OF_A_SHEET = 14
 DIRECTION_IN = (3.4, 1.0)
 """Width and height of a panel without its labels, inches, about."""
-DIRECTION_ROW_IN = 1.5
+DIRECTION_ROW_IN, DIRECTION_FOOT_IN = 1.5, 0.5
 HARMONICS_OF_A_SHEET = 40
 HARMONIC_IN = 0.24
 GAP = 10.0
@@ -60,18 +63,19 @@ def predictors_page(comparison: Comparison) -> Figure:
     found = ranked_predictors(comparison)
     rows = max(-(-len(found) // PREDICTOR_COLUMNS), 1)
     figure = sheet(PREDICTOR_IN * rows + 1.0)
-    grid = figure.subplots(rows, PREDICTOR_COLUMNS, squeeze=False)
-    for axes, predictor in zip(grid.flat, found, strict=False):
-        draw_predictor(axes, predictor)
-    for axes in grid.flat[len(found) :]:
-        axes.set_axis_off()
-    for row in grid:
-        row[0].set_ylabel("in the reading, µm")
-    figure.suptitle(
+    head_in = titled(
+        figure,
         "Predictors of the residual (measured - predicted): response in the reading\n"
         "(RMS of each bin, signed as the push), and explained variance, cross-validated:\n"
-        "fitted to one half of the laps, tested on the other"
+        "fitted to one half of the laps, tested on the other",
     )
+    grid = panels(figure, (rows, PREDICTOR_COLUMNS), PREDICTOR_ROOM, head_in, 0.0)
+    for place, predictor in enumerate(found):
+        axes = figure.add_subplot(grid[divmod(place, PREDICTOR_COLUMNS)])
+        draw_predictor(axes, predictor)
+        label_at_once(axes)
+        if place % PREDICTOR_COLUMNS == 0:
+            axes.set_ylabel("in the reading, µm")
     return figure
 
 
@@ -83,15 +87,15 @@ def directions_page(circles: Sequence[CircleComparison], meant: Sequence[str]) -
     """
     rows = max(-(-len(circles) // DIRECTION_COLUMNS), 1)
     figure = sheet(DIRECTION_ROW_IN * rows + 1.2)
-    grid = figure.subplots(rows, DIRECTION_COLUMNS, squeeze=False)
-    for axes, circle in zip(grid.flat, circles, strict=False):
+    head_in = titled(figure, "Residuals of both directions combined, against the commanded polar angle, deg")
+    grid = panels(figure, (rows, DIRECTION_COLUMNS), Room(top=0.22), head_in, DIRECTION_FOOT_IN)
+    for place, circle in enumerate(circles):
+        axes = figure.add_subplot(grid[divmod(place, DIRECTION_COLUMNS)])
         draw_both_directions(axes, circle, DIRECTION_IN, meant)
-    for axes in grid.flat[len(circles) :]:
-        axes.set_axis_off()
-    for row in grid:
-        row[0].set_ylabel("residual, µm")
-    figure.suptitle("Residuals of both directions combined, against the commanded polar angle, deg")
-    handles, labels = grid[0, 0].get_legend_handles_labels()
+        label_at_once(axes)
+        if place % DIRECTION_COLUMNS == 0:
+            axes.set_ylabel("residual, µm")
+    handles, labels = figure.axes[0].get_legend_handles_labels()
     labels = [
         f"{formula}: {label}" for formula, label in zip(("(ccw + cw) / 2", "(ccw - cw) / 2"), labels, strict=True)
     ]
@@ -115,12 +119,15 @@ def harmonics_page(rows: Sequence[tuple[str, Sequence[Harmonic]]]) -> Figure:
     axes.set_xlabel("order (periods per turn)")
     axes.set_title("Amplitude of the residual's harmonics, µm (circle, feed in mm/min, direction)", fontsize=10)
     largest = float(np.nanmax(amplitude_um))
-    for row, column in np.argwhere(amplitude_um > 0.0):
-        value = amplitude_um[row, column]
-        colour = "white" if value > 0.6 * largest else TEXT_COLOUR
-        said = f"{value:.0f}" if value >= 10.0 else f"{value:.1f}" if value >= 1.0 else f"{value:.2f}"
-        inside(axes.text(column, row, said, ha="center", va="center", color=colour))
+    for colour, chosen in (("white", amplitude_um > 0.6 * largest), (TEXT_COLOUR, amplitude_um <= 0.6 * largest)):
+        cells = np.argwhere(chosen & (amplitude_um > 0.0))
+        said = [_three_digits(value) for value in amplitude_um[tuple(cells.T)].tolist()]
+        Labels(axes, cells[:, ::-1], said, color=colour)
     return figure
+
+
+def _three_digits(value: float) -> str:
+    return f"{value:.0f}" if value >= 10.0 else f"{value:.1f}" if value >= 1.0 else f"{value:.2f}"
 
 
 def draw_predictor(axes: Axes, predictor: Predictor, width: int = TITLE_WIDTH) -> None:

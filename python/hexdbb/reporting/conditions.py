@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import datetime
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ def condition_rows(record: Record) -> list[tuple[str, str]]:
         ("machine", record.machine.name),
         ("serial number of the machine", record.machine.serial_number),
         ("operator", said.operator),
-        ("date", _text(record.metadata.get("started"))),
+        ("date", _date(record.metadata.get("started"))),
         ("plan", _text(record.metadata.get("plan"))),
         ("circles and feeds", _driven(record)),
         ("driven with compensation", compensation_of(record) or "none"),
@@ -33,10 +34,7 @@ def condition_rows(record: Record) -> list[tuple[str, str]]:
         ("calibrated", None if record.gauge.calibrated is None else record.gauge.calibrated.isoformat()),
         ("temperature", _temperature(record)),
         ("notes", said.notes),
-        (
-            "software",
-            f"measured by {_text(record.metadata.get('software')) or 'another program'}, hexdbb {__version__}",
-        ),
+        ("software", _software(record)),
         ("hash of the record", record.content_hash()),
     ]
     return [(name, value or NOT_RECORDED) for name, value in rows]
@@ -46,14 +44,27 @@ def _text(value: Any) -> str | None:
     return str(value) if value not in (None, "") else None
 
 
+def _date(value: Any) -> str | None:
+    """Return a time as ISO 8601 has it for readers; what is no time as it is."""
+    try:
+        return datetime.fromisoformat(str(value)).strftime("%Y-%m-%d %H:%M %Z").strip()
+    except ValueError:
+        return _text(value)
+
+
 def _software(record: Record) -> str:
     return f"measured by {_text(record.metadata.get('software')) or 'another program'}; report by hexdbb {__version__}"
 
 
 def _driven(record: Record) -> str:
     feeds = ", ".join(f"{feed:g}" for feed in np.unique(record.columns["feed_mm_min"]))
-    circles, sweeps = len(np.unique(record.columns["circle"])), len(record.sweeps())
-    return f"{circles} circles at {feeds} mm/min, {sweeps} sweeps, {len(record):,} readings"
+    circles = _counted(len(np.unique(record.columns["circle"])), "circle")
+    sweeps = _counted(len(record.sweeps()), "sweep")
+    return f"{circles} at {feeds} mm/min, {sweeps}, {_counted(len(record), 'reading')}"
+
+
+def _counted(number: int, word: str) -> str:
+    return f"{number:,} {word}{'' if number == 1 else 's'}"
 
 
 def _bar(record: Record) -> str:

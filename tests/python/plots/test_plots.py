@@ -26,6 +26,7 @@ from hexdbb.comparison import Comparison
 from hexdbb.comparison.iso230 import even_angles, make_path
 from hexdbb.errors import RunError
 from hexdbb.plots import comparison_pages, save_figure, save_pdf
+from hexdbb.plots.labels import Labels
 from hexdbb.plots.polar import draw_polar
 from hexdbb.plots.style import PAGE_IN, TEXT_PT
 
@@ -166,12 +167,34 @@ def require_all_is_seen(figure: Figure) -> None:
     hidden = not_drawn(figure)
     texts = [text for text in figure.findobj(Text) if text.get_visible() and text.get_text().strip()]
     texts = [text for text in texts if id(text) not in hidden]
-    assert len(texts) > 30  # of fourteen circles each its title and 0°
+    every = figure.findobj(Labels)
+    labels = [(box, said) for each in every for box, said in zip(each.boxes(), each.texts, strict=True)]
+    assert len(texts) + len(labels) > 30  # of fourteen circles each its title and 0°
     for text in texts:
         box = text.get_window_extent()
         assert box.x0 >= 0.0 and box.y0 >= 0.0 and box.x1 <= width and box.y1 <= height, text.get_text()
         assert text.get_fontsize() >= TEXT_PT, text.get_text()
+    for box, said in labels:
+        assert box.x0 >= 0.0 and box.y0 >= 0.0 and box.x1 <= width and box.y1 <= height, said
+    assert all(each.font.get_size() >= TEXT_PT for each in every)
     assert all(has <= most for has, most in zip(figure.get_size_inches(), PAGE_IN, strict=True))
+
+
+@pytest.mark.parametrize("upright", [False, True])
+@pytest.mark.parametrize("ha", ["left", "center", "right"])
+@pytest.mark.parametrize("va", ["bottom", "center", "top"])
+def test_labels_stand_where_texts_of_matplotlib_would(ha: str, va: str, upright: bool) -> None:
+    figure = Figure(dpi=150)
+    axes, said = figure.add_subplot(), "-206.41"
+    labels = Labels(axes, [(0.4, 0.6)], [said], color="black", ha=ha, va=va, upright=upright)
+    text = axes.text(0.4, 0.6, said, ha=ha, va=va, rotation=90.0 if upright else 0.0, size=labels.font.get_size())
+    FigureCanvasAgg(figure).draw()
+    (box,), other = labels.boxes(), text.get_window_extent()
+    # Across the line matplotlib counts the height of its highest and lowest letters, which a number has not.
+    along = "y" if upright else "x"
+    for end in (f"{along}0", f"{along}1"):
+        assert getattr(box, end) == pytest.approx(getattr(other, end), abs=2.0)
+    assert other.padded(2.0).contains(*box.min) and other.padded(2.0).contains(*box.max)
 
 
 def test_files_are_whole_stated_and_repeatable(comparison: Comparison, tmp_path: Path) -> None:
@@ -202,7 +225,7 @@ def test_all_pages_make_one_pdf_the_same_each_time(comparison: Comparison, tmp_p
 
 
 def test_a_figure_is_laid_out_and_drawn_once(
-    comparison: Comparison, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    seven_circles: Comparison, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Count what takes the time: layouts and drawings of whole figures."""
     counted = {"draw": 0, "layout": 0}
@@ -216,7 +239,7 @@ def test_a_figure_is_laid_out_and_drawn_once(
 
     monkeypatch.setattr(Figure, "draw", counting("draw", Figure.draw))
     monkeypatch.setattr(ConstrainedLayoutEngine, "execute", counting("layout", ConstrainedLayoutEngine.execute))
-    figure = comparison_pages(comparison)[0].draw()
+    figure = comparison_pages(seven_circles)[0].draw()
     save_figure(figure, tmp_path / "a", [".png"])
     save_pdf([figure], tmp_path / "a.pdf")
     assert counted == {"draw": 2, "layout": 1}

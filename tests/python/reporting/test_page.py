@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page
+from tests.python.reporting.conftest import HOSTILE
+
+from hexdbb.model import Model
+from hexdbb.record import Record
+from hexdbb.reporting import make_report, write_page
+from hexdbb.samples import Samples
 
 WIDTHS = (1440, 390)
 
@@ -90,3 +97,23 @@ def test_everything_stands_on_the_page_without_script(browser: Browser, page_fil
     assert still.locator("svg.polar").count() == 8
     assert still.locator("svg.polar path.measured").first.is_visible()
     still.close()
+
+
+def test_before_and_after_serve_everybody_too(browser: Browser, record: Record, model: Model, tmp_path: Path) -> None:
+    later = replace(
+        record,
+        columns={**record.columns, "reading_um": 0.5 * record.columns["reading_um"]},
+        metadata={"started": "2026-03-02T09:05:00+00:00"},
+        path=Path("after.parquet"),
+    )
+    path = tmp_path / "change.html"
+    write_page(make_report(Samples.of([record, later]), model, find_cause=False), path)
+    page = browser.new_page(viewport={"width": WIDTHS[-1], "height": 900})
+    page.goto(path.as_uri())
+    assert [each["id"] for each in Axe().run(page).response["violations"]] == []
+    page.get_by_role("link", name="Before and after").click()
+    assert page.locator("#change h2").is_visible()
+    conditions = page.locator("#conditions")
+    assert HOSTILE in conditions.inner_text()
+    assert "2026-03-02 09:05 UTC" in conditions.inner_text()
+    page.close()

@@ -33,7 +33,8 @@ def refused(action: Callable[[], Any]) -> bool:
 def off_loop(action: Callable[[], Any], done: str = "") -> Callable[[], Awaitable[bool]]:
     """Return a handler that runs a long action in a thread, so that the page stays live, and says what it returns.
 
-    The handler returns whether the action was done; where it was refused it says why.
+    The handler returns whether the action was done and its tab is still there, for what follows on the page; where it
+    was refused it says why.
 
     What it has to say it says to the tab that is being built now: the button that was pressed may be gone by then.
     """
@@ -46,6 +47,8 @@ def off_loop(action: Callable[[], Any], done: str = "") -> Callable[[], Awaitabl
             said = done or (returned if isinstance(returned, str) else "")
         except (HexdbbError, OSError) as error:
             said, kind = str(error), "negative"
+        if tab.is_deleted:  # closed meanwhile: other tabs show what was done
+            return False
         with tab:
             if said:
                 say(said, kind)
