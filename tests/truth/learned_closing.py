@@ -19,6 +19,7 @@ from tests.truth.closing import circle_errors, drive_of
 from tests.truth.held_out import held_out_plans
 from tests.truth.spread_plan import PACE, spread_plan
 
+from hexdbb.compensation import make_compensation
 from hexdbb.diagnosis import diagnose
 from hexdbb.discovery import discover
 from hexdbb.discovery.auto import without_needless
@@ -27,7 +28,7 @@ from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.record import Record
 from hexdbb.rig.truth import Setup
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, predict
 from hexdbb_truth.forms import cases as forms
 from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.measure import Measured, Sized
@@ -64,8 +65,13 @@ class Closed:
         The last one.
     before_um, after_um : float
         Not compensated, and compensated by the model; nan where the controller refuses.
+    model_um : float
+        What the model misses of the same circles where they are not compensated: what a controller would leave that
+        corrects all that is in the model.
     known_um : float
         After, with the faults known exactly: what the noise leaves of geometry.
+    left_out : tuple of str
+        Those of `added` that the controller does not correct.
     """
 
     case: str
@@ -73,7 +79,9 @@ class Closed:
     verdict: str
     before_um: float
     after_um: float
+    model_um: float
     known_um: float
+    left_out: tuple[str, ...] = ()
 
     @property
     def ratio(self) -> float:
@@ -111,17 +119,29 @@ def close(case: forms.Case) -> Closed:
         verdict = f"{verdict}; {error}"
     known = diagnose(Samples.of([_without(case, record)]), new_model(record.machine), check_held_out=False).model
     known_um = _rms_um(held_out_records(case, [], drive_of(known, machine, MAX_CORRECTION_MM)))
-    return Closed(case.name, added, verdict, before_um, after_um, known_um)
+    model_um = _rms_um(missed_records(case, faults, model))
+    left_out = tuple(name for name, _ in make_compensation(model).left_out if name in added)
+    return Closed(case.name, added, verdict, before_um, after_um, model_um, known_um, left_out)
 
 
-def held_out_records(case: forms.Case, faults: Sequence[Sized], drive: Drive | None) -> Iterator[Record]:
-    """Yield the records of the held-out circles, without errors of gauge and set-up; each bar is a record."""
-    truth = case.truth.model_copy(update={"setup": Setup()})
+def held_out_records(
+    case: forms.Case, faults: Sequence[Sized], drive: Drive | None, setup: Setup | None = None
+) -> Iterator[Record]:
+    """Yield the records of the held-out circles without gauge noise, in a perfect set-up or another; one each bar."""
+    truth = case.truth.model_copy(update={"setup": setup or Setup()})
     for plan in held_out_plans():
         history = History(plan, HELD_OUT_PACE, drive)
         reading_mm = Measured(truth, history, case.history).readings_mm(faults)
         driven = forms.Case((), 0.0, 0.0, case.half, case.seed, driven=history, temperature=False)
         yield _with_readings(driven.record(), reading_mm)
+
+
+def missed_records(case: forms.Case, faults: Sequence[Sized], model: Model) -> Iterator[Record]:
+    """Yield what a model misses of the held-out circles, not compensated, with the ball and bar that were fitted."""
+    setup = case.truth.setup.model_copy(update={"cup_error_um": ()})
+    for record in held_out_records(case, faults, None, setup):
+        samples = Samples.of([record])
+        yield _with_readings(record, predict(samples, model.with_mounts(samples.mounts)).residual_mm)
 
 
 def _found(samples: Samples, model: Model) -> tuple[Model, tuple[str, ...], str]:

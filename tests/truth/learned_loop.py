@@ -54,15 +54,20 @@ which predicts circles left out better, as `add` prints it.
 **The machine's own error on held-out circles falls {median:.0f} times in the median of {count} machines,
 {worst:.0f} times in the worst case; {reached} of {count} reach {target:g} times.**
 
-| machine | added | last verdict | before, µm | after, µm | times smaller | faults known, µm |
-|---|---|---|---|---|---|---|
+| machine | added | last verdict | before, µm | after, µm | times smaller | model, µm | faults known, µm |
+|---|---|---|---|---|---|---|---|
 {rows}
 
 *Before*, *after*: radial error of the held-out circles in a perfect set-up with a gauge without noise, RMS, as
-[The loop closed](closed-loop.md) measures the machine alone. *Faults known*: after, if the faults were known exactly
-and only geometry were fitted to the same noisy readings. That is what noise, plan and controller leave,
-{known_ratio:.0f} times less than before in the median; what lies between it and *after* is the difference between
-the effects found, known and learned, and the faults.
+[The loop closed](closed-loop.md) measures the machine alone. *Model*: what the model misses of the same circles, not
+compensated: what a controller would leave that corrects all of it. *Faults known*: after, if the faults were known
+exactly and only geometry were fitted to the same noisy readings.
+
+Noise, plan and geometry set a limit of {known_ratio:.0f} times in the median. The models found would reach
+{model_ratio:.0f} times in the median: what they miss is the forms of the faults, where functions describe them
+incompletely. A controller loses the rest: effects in brackets are in the model and
+[not corrected](compensation.md), because they depend on what a controller does not know (travel since a reversal,
+acceleration) or push the ball; that is so on {uncorrected} of the machines.
 {skipped}
 Made by `{command}`.
 """
@@ -88,6 +93,8 @@ def page(closed: Sequence[Closed], skipped: Sequence[int], command: str) -> str:
         target=TARGET,
         rows="\n".join(map(row, closed)),
         known_ratio=float(np.median([each.before_um / each.known_um for each in closed])),
+        model_ratio=float(np.median([each.before_um / each.model_um for each in closed])),
+        uncorrected=sum(bool(each.left_out) for each in closed),
         skipped=_skipped(skipped),
         command=command,
     )
@@ -97,11 +104,12 @@ def row(one: Closed) -> str:
     """Return the row of one machine."""
     cells = (
         one.case,
-        ", ".join(one.added) or "nothing",
+        ", ".join(f"({each})" if each in one.left_out else each for each in one.added) or "nothing",
         one.verdict,
         f"{one.before_um:.2f}",
         f"{one.after_um:.3f}",
         f"{one.ratio:.0f}" if np.isfinite(one.ratio) else "refused",
+        f"{one.model_um:.3f}",
         f"{one.known_um:.3f}",
     )
     return f"| {' | '.join(cells)} |"
@@ -123,7 +131,7 @@ def closed_or_kept(results: Path, half: str, seed: int) -> Closed | None:
             found = None
         path.write_text(json.dumps(found), encoding="utf-8")
     kept = json.loads(path.read_text(encoding="utf-8"))
-    return None if kept is None else Closed(**{**kept, "added": tuple(kept["added"])})
+    return None if kept is None else Closed(**{**kept, **{key: tuple(kept[key]) for key in ("added", "left_out")}})
 
 
 def all_closed(results: Path, half: str, seeds: Sequence[int], workers: int) -> Iterator[tuple[int, Closed | None]]:

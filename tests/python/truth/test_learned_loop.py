@@ -38,11 +38,13 @@ def test_held_out_circles_show_the_machine_without_the_errors_of_its_set_up():
 
 def test_a_machine_that_the_controller_refuses_counts_as_not_reached():
     closed = [
-        Closed("one", ("backlash:1",), "none", 10.0, 0.1, 0.01),
-        Closed("two", (), "none", 10.0, 1.0, 0.01),
-        Closed("three", (), "none; refused", 10.0, float("nan"), 0.01),
+        Closed("one", ("backlash:1",), "none", 10.0, 0.1, 0.05, 0.01),
+        Closed("two", ("servo_lag", "learned:leg:2:time"), "none", 10.0, 1.0, 0.5, 0.01, ("learned:leg:2:time",)),
+        Closed("three", (), "none; refused", 10.0, float("nan"), 0.2, 0.01),
     ]
     text = page(closed, [7], "make it")
     assert "falls 10 times in the median of 3 machines,\n0 times in the worst case; 1 of 3 reach 50 times" in text
-    assert "| three | nothing | none; refused | 10.00 | nan | refused | 0.010 |" in text
+    assert "| three | nothing | none; refused | 10.00 | nan | refused | 0.200 | 0.010 |" in text
+    assert "| two | servo_lag, (learned:leg:2:time) | none |" in text
+    assert "that is so on 1 of the machines" in text
     assert "seed 7" in text
