@@ -60,7 +60,8 @@ which predicts circles left out better, as `add` prints it.
 
 *Before*, *after*: radial error of the held-out circles in a perfect set-up with a gauge without noise, RMS, as
 [The loop closed](closed-loop.md) measures the machine alone. *Model*: what the model misses of the same circles, not
-compensated: what a controller would leave that corrects all of it. *Faults known*: after, if the faults were known
+compensated: what a controller would leave that corrects all of it; more where a fault of the machine is put at the
+ball, which no controller moves. *Faults known*: after, if the faults were known
 exactly and only geometry were fitted to the same noisy readings.
 
 Noise, plan and geometry set a limit of {known_ratio:.0f} times in the median. The models found would reach
