@@ -106,8 +106,9 @@ bench: setup  ## benchmarks of the engine beside SciPy; rewrites docs/benchmarks
 	@$(BIN)/python cpp/bench/compensation_report.py build/bench/cpp/bench/hexdbb_compensation_bench --output docs/real-time.md
 
 .PHONY: closed-loop
-closed-loop: setup  ## compensation judged on unseen circles of machines of known truth; rewrites docs/closed-loop.md
+closed-loop: setup  ## compensation judged on unseen circles of machines of known truth; rewrites docs/closed-loop*.md
 	@$(BIN)/python -m tests.truth.closed_loop -o docs/closed-loop.md
+	@$(BIN)/python -m tests.truth.learned_loop -o docs/closed-loop-learned.md
 
 .PHONY: calibration
 calibration: setup  ## verdicts judged on machines with forms: hours, resumable; rewrites docs/discovery-calibration.md

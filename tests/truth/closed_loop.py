@@ -123,6 +123,9 @@ attributed to combinations of errors that the plan hardly determines, and appear
 Diagnosed with geometry alone, machine 1 needed corrections of more than a millimetre there, and was refused
 (`--max-correction-um`). Therefore: `discover` until nothing is missing, then compensate.
 
+Where the catalogue does not have the fault:
+[The loop closed where an effect had to be learned](closed-loop-learned.md).
+
 Made by `{command}` in {minutes:.0f} minutes.
 """
 

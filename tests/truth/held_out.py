@@ -6,11 +6,13 @@ angle, condition of the machine), so that it could be measured. Each bar length 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 
 from hexdbb.errors import InputError
+from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Mount, Plan, load_plan
 from hexdbb.planning.clearances import RequiredClearances, circle_clearances
 
@@ -35,20 +37,32 @@ def held_out_plans() -> tuple[Plan, ...]:
 
 def _plan(bar_mm: float) -> Plan:
     known = load_plan("standard")
-    machine, draw, required = known.machine_file(), np.random.default_rng([SEED, int(bar_mm)]), RequiredClearances()
-    circles: list[Circle] = []
-    mounts: list[Mount] = []
+    draw = np.random.default_rng([SEED, int(bar_mm)])
+    kept = with_clearances(known.machine_file(), lambda number: _drawn(draw, bar_mm, number), CIRCLES_PER_BAR)
+    gauge = known.gauge.model_copy(update={"bar_length_mm": bar_mm, "range_um": RANGE_UM})
+    changed = {"mounts": tuple(mount for mount, _ in kept), "circles": tuple(circle for _, circle in kept)}
+    return known.model_copy(update={**changed, "gauge": gauge, "feeds_mm_min": (FEED_MM_MIN,), "laps": 1})
+
+
+def with_clearances(
+    machine: MachineFile, drawn: Callable[[int], tuple[Mount, Circle]], count: int
+) -> list[tuple[Mount, Circle]]:
+    """Return the first so many circles that keep the clearances, each drawn by its number.
+
+    Raises
+    ------
+    InputError
+        Fewer were found in `MAX_DRAWS` draws.
+    """
+    kept: list[tuple[Mount, Circle]] = []
     for _ in range(MAX_DRAWS):
-        mount, circle = _drawn(draw, bar_mm, len(circles))
+        mount, circle = drawn(len(kept))
         found = circle_clearances(machine, circle, mount.cup_mm)
-        if found is not None and required.met_by(found):
-            circles.append(circle)
-            mounts.append(mount)
-        if len(circles) == CIRCLES_PER_BAR:
-            gauge = known.gauge.model_copy(update={"bar_length_mm": bar_mm, "range_um": RANGE_UM})
-            changed = {"mounts": tuple(mounts), "circles": tuple(circles), "gauge": gauge}
-            return known.model_copy(update={**changed, "feeds_mm_min": (FEED_MM_MIN,), "laps": 1})
-    raise InputError(f"held-out circles: {len(circles)} of radius {bar_mm:g} mm found (expected {CIRCLES_PER_BAR})")
+        if found is not None and RequiredClearances().met_by(found):
+            kept.append((mount, circle))
+        if len(kept) == count:
+            return kept
+    raise InputError(f"{len(kept)} circles of radius {circle.radius_mm:g} mm found (expected {count})")
 
 
 def _drawn(draw: np.random.Generator, bar_mm: float, number: int) -> tuple[Mount, Circle]:

@@ -67,13 +67,14 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
         Whether other hypotheses are held out too, for the table.
     """
     if judged.grade == "none":
-        return _told_forms(search) if search.root.trial.present else _told_nothing(search, judged.sufficiency)
+        refining = () if judged.refined is None else judged.refined.hypotheses
+        return _told_forms(search, refining) if search.root.trial.present else _told_nothing(search, judged.sufficiency)
     candidates = shown_candidates(search, judged.node, MAX_CHECKED if with_table else 0)
     if not judged.found or judged.checked is None:
         sentence = "something is missing that nothing tried explains"
         return Told("unknown", sentence, (), candidates, search.engine.base, None)
     shares = {each.hypothesis: _share(search, judged.node, each.hypothesis) for each in judged.found}
-    refining = [each.hypothesis for each in judged.found if search.refined(each.hypothesis)]
+    refining = tuple(each.hypothesis for each in judged.found if search.refined(each.hypothesis))
     found = [each for each in judged.found if each.hypothesis not in refining]
     found.sort(key=lambda each: -shares[each.hypothesis])
     found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]

@@ -20,6 +20,8 @@ from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import retunings, with_other_splines
 from hexdbb.learned import ALL, Learned, part_of
 
+Places = set[tuple[str, int]]
+"""Parts of the machine and their elements."""
 TRIED = 2
 """Tunings of a function that get a full fit: what has the most evidence to first order may not predict."""
 
@@ -40,6 +42,12 @@ def refined(search: Search, node: Node) -> Node:
         if node is before:
             break
     return node
+
+
+def refined_forms(search: Search) -> Node:
+    """Return the functions that describe the forms of the effects of the model, where no other cause is missing."""
+    homes = [each for homes in search.present.values() for each in homes]
+    return _widened(search, search.root, {(part_of(each), each.element) for each in homes})
 
 
 def _is_fine(search: Search, node: Node) -> bool:
@@ -67,21 +75,26 @@ def _retuned(search: Search, node: Node) -> Node:
     return node
 
 
-def _widened(search: Search, node: Node) -> Node:
-    """Return a set with further functions at the places of its causes, added one by one, each fitted in full."""
+def _widened(search: Search, node: Node, places: Places | None = None) -> Node:
+    """Return a set with further functions at some places, added one by one, each fitted in full.
+
+    The places are those of its causes where none are given.
+    """
     for _ in range(search.criteria.most_refinements):
-        wider = None if _is_fine(search, node) else _with_one_more(search, node)
+        wider = None if _is_fine(search, node) else _with_one_more(search, node, places)
         if wider is None:
             break
         node = wider
     return node
 
 
-def _with_one_more(search: Search, node: Node) -> Node | None:
+def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | None:
     """Return a set with the function that explains most of what is left, if that is much; None where none does."""
     linear = search.trials.linear(node.trial)
     screen = Screen(Sums(linear, search.engine.readings, ("circle",)), search.criteria, search.thinned)
-    worth = [each for each in screen.learned(_at_the_places(search, node, linear)) if _is_asked_for(search, each)]
+    worth = [
+        each for each in screen.learned(_at_the_places(search, node, linear, places)) if _is_asked_for(search, each)
+    ]
     variables = {each.variable.name for each in node.hypotheses if isinstance(each, Learned)}
     most = 1.0 + (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0)
     by_evidence = sorted(worth, key=lambda each: -each.log_evidence)
@@ -127,12 +140,12 @@ def _is_asked_for(search: Search, scored: Scored) -> bool:
     return gain > search.criteria.detect_nats and (scored.heldout_share > 0.0 or scored.hypothesis.is_of_time)
 
 
-def _at_the_places(search: Search, node: Node, linear: Linear) -> list[Learned]:
-    """Return the functions at the places of the causes, those of single elements where a cause has all.
+def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | None) -> list[Learned]:
+    """Return the functions at some places, or at those of the causes, those of single elements where a cause has all.
 
     What changes with time is no form of what does not.
     """
-    places = {(part_of(each), each.element) for cause in node.hypotheses for each in _homes(search, cause)}
+    places = places or {(part_of(each), each.element) for cause in node.hypotheses for each in _homes(search, cause)}
     known = {each.name for each in node.hypotheses}
     readings, criteria = search.engine.readings, search.criteria
     with_time = node.trial.is_free_in_time

@@ -10,7 +10,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
-from hexdbb.evidence.refine import refined
+from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sufficiency import left_over
@@ -70,7 +70,8 @@ class Verdict:
     sufficiency : Sufficiency
         How much was missing.
     refined : Node or None
-        The set with its learned functions refined (`refine.py`).
+        The set with its learned functions refined (`refine.py`); where only forms of the model's effects are left,
+        functions that describe them.
     """
 
     grade: Grade
@@ -92,10 +93,12 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     """
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
-        return Verdict("none", (), search.root, None, before)
+        return Verdict("none", (), search.root, None, before, refined_forms(search))
     node = in_known_words(search, _predicting(search, search.run()))
     if node is search.root:
-        return Verdict("none" if _is_form(search) else "unknown", (), node, None, before)
+        if not _is_form(search):
+            return Verdict("unknown", (), node, None, before)
+        return Verdict("none", (), node, None, before, refined_forms(search))
     node = with_tuned_periods(search, of_better_form(search, settled(search, node)))
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)

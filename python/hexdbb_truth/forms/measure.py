@@ -36,14 +36,20 @@ class Measured:
     truth : TruthFile
         Geometry, set-up and gauge; its own mechanisms are not used.
     history : History
+    drawn_on : History, optional
+        For which the faults were drawn, where this is another one (`Scene.drawn_on`).
     """
 
     truth: TruthFile
     history: History
+    drawn_on: History | None = None
 
     def scene(self, rows: Rows) -> Scene:
         """Return what mechanisms see at some instants."""
-        return Scene(self.history, rows, lambda some: self._at(some, ()))
+        drawn_on = None
+        if self.drawn_on is not None:
+            drawn_on = Measured(self.truth, self.drawn_on).scene(self.drawn_on.samples)
+        return Scene(self.history, rows, lambda some: self._at(some, ()), drawn_on)
 
     def readings_mm(self, actions: Sequence[Sized], rows: Rows | None = None) -> Array:
         """Return the readings at samples (all where none are named) before noise and rounding.

@@ -42,7 +42,7 @@ def _drift_touched(draw: Draw, exact: Exact) -> Values:
 
     def values(scene: Scene, size: float) -> Array:
         circle = scene.history.circle(scene.rows).astype(int)
-        every = scene.history.circle(scene.history.samples)
+        every = scene.sampled.history.circle(scene.sampled.rows)
         begin = np.array([scene.sampled.time_s[every == k].min() for k in range(int(every.max()) + 1)])
         since = scene.time_s - begin[circle]
         return column(1e-3 * size * heights[circle % 64] * np.exp(-np.maximum(since, 0.0) / tau))

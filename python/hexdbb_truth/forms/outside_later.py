@@ -32,7 +32,8 @@ def _torque_turns_over(draw: Draw) -> Fault:
 
     def values(scene: Scene, size: float) -> Array:
         acceleration = scene.history.acceleration_mm_s2[:, k]
-        soft = float(np.std(acceleration[scene.history.samples])) * 0.1
+        sampled = scene.sampled
+        soft = float(np.std(sampled.history.acceleration_mm_s2[sampled.rows, k])) * 0.1
         return column(sign * 1e-3 * size * np.tanh(acceleration[scene.rows] / soft))
 
     return Fault(Action("slider", (k,), values), (_leg_too(k, "acceleration"), _slider_too(k, "position")))
@@ -43,8 +44,8 @@ def _neighbour_disturbs(draw: Draw) -> Fault:
     k, sign = slider(draw), signed(draw)
 
     def values(scene: Scene, size: float) -> Array:
-        other = scene.history.velocity_mm_s[:, k ^ 1]
-        largest = float(np.abs(other[scene.history.samples]).max())
+        sampled, other = scene.sampled, scene.history.velocity_mm_s[:, k ^ 1]
+        largest = float(np.abs(sampled.history.velocity_mm_s[sampled.rows, k ^ 1]).max())
         return column(sign * 1e-3 * size * (other[scene.rows] / largest) ** 2)
 
     return Fault(Action("slider", (k,), values), (_slider_too(k, "velocity"), _leg_too(k, "velocity")))
@@ -67,7 +68,7 @@ def _carriage_gives(draw: Draw) -> Fault:
     k, power = slider(draw), int(draw.choice([2, 3]))
 
     def values(scene: Scene, size: float) -> Array:
-        whole = scene.history.leg_force_n(scene.sampled.rows)[:, k]
+        whole = scene.sampled.history.leg_force_n(scene.sampled.rows)[:, k]
         force = (scene.history.leg_force_n(scene.rows)[:, k] - whole.mean()) / np.ptp(whole)
         return column(1e-3 * size * force**power)
 
@@ -80,7 +81,7 @@ def _rail_joint(draw: Draw) -> Fault:
     guideway, place, length = int(draw.integers(0, 3)), float(draw.uniform(-0.4, 0.4)), float(draw.uniform(8.0, 30.0))
 
     def values(scene: Scene, size: float) -> Array:
-        drive = scene.history.drive_mm[scene.history.samples, 2 * guideway]
+        drive = scene.sampled.drive_mm(2 * guideway)
         at_mm = 0.5 * (drive.max() + drive.min()) + 0.5 * place * (drive.max() - drive.min())
         both = np.zeros((len(scene.rows), 4))
         for j in range(2):
@@ -101,8 +102,8 @@ def _leg_whips(draw: Draw) -> Fault:
     k = slider(draw)
 
     def values(scene: Scene, size: float) -> Array:
-        acceleration = scene.history.acceleration_mm_s2[:, k]
-        largest = float(np.abs(acceleration[scene.history.samples]).max())
+        sampled, acceleration = scene.sampled, scene.history.acceleration_mm_s2[:, k]
+        largest = float(np.abs(sampled.history.acceleration_mm_s2[sampled.rows, k]).max())
         return column(-1e-3 * size * (acceleration[scene.rows] / largest) ** 2)
 
     return Fault(Action("leg", (k,), values), (_slider_too(k, "acceleration"), _leg_too(k, "velocity")))

@@ -22,7 +22,7 @@ def _dent(draw: Draw) -> Fault:
     guideway = k // 2
 
     def values(scene: Scene, size: float) -> Array:
-        drive = scene.history.drive_mm[scene.history.samples, k]
+        drive = scene.sampled.drive_mm(k)
         at_mm = 0.5 * (drive.max() + drive.min()) + 0.5 * place * (drive.max() - drive.min())
         both = np.zeros((len(scene.rows), 4))
         for j in range(2):
@@ -105,8 +105,8 @@ def _joint_sticks(draw: Draw) -> Fault:
 
     def values(scene: Scene, size: float) -> Array:
         history = scene.history
-        angle = history.slider_joint_angle_rad[:, k]
-        at = unit_range(angle[scene.rows], angle[history.samples])
+        sampled, angle = scene.sampled, history.slider_joint_angle_rad[scene.rows, k]
+        at = unit_range(angle, sampled.history.slider_joint_angle_rad[sampled.rows, k])
         way = np.tanh(history.slider_joint_rate_rad_s[scene.rows, k] / 0.005)
         return column(1e-3 * size * way * np.exp(-0.5 * ((at - place) / width) ** 2))
 
@@ -135,7 +135,7 @@ def _joint_unloads(draw: Draw) -> Fault:
     k, threshold = slider(draw), float(draw.uniform(0.2, 0.6))
 
     def values(scene: Scene, size: float) -> Array:
-        whole = scene.history.leg_force_n(scene.sampled.rows)[:, k]
+        whole = scene.sampled.history.leg_force_n(scene.sampled.rows)[:, k]
         over = scene.history.leg_force_n(scene.rows)[:, k] - np.quantile(whole, threshold)
         return column(-1e-3 * size * np.maximum(over, 0.0) / np.ptp(whole))
 

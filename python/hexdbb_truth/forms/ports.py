@@ -38,11 +38,15 @@ class Scene:
         The instants asked for.
     deflect : callable
         Instants -> deflection (mm) that an ideal gauge would show on this machine without its faults.
+    drawn_on : Scene, optional
+        All samples of the history for which the faults were drawn, where another one is driven now: ranges and shares
+        of a form are those there. A machine that is driven otherwise keeps its faults.
     """
 
     history: History
     rows: Rows
     deflect: Callable[[Rows], Array]
+    drawn_on: Scene | None = None
 
     @cached_property
     def deflection_mm(self) -> Array:
@@ -51,7 +55,9 @@ class Scene:
 
     @cached_property
     def sampled(self) -> Scene:
-        """The same at all samples of the record, over which forms are measured."""
+        """All samples of the record for which the faults were drawn, over which forms are measured."""
+        if self.drawn_on is not None:
+            return self.drawn_on
         whole = self.history.samples
         return self if self.rows is whole else Scene(self.history, whole, self.deflect)
 
@@ -66,11 +72,11 @@ class Scene:
 
     def place(self, slider: int) -> Array:
         """Position of a slider over the range driven in the samples, -1 to 1."""
-        return unit_range(self.drive_mm(slider), self.history.drive_mm[self.history.samples, slider])
+        return unit_range(self.drive_mm(slider), self.sampled.drive_mm(slider))
 
     def duration_s(self) -> float:
         """Time of the last sample."""
-        return float(self.history.time_s[self.history.samples[-1]])
+        return float(self.sampled.time_s[-1])
 
 
 Values = Callable[[Scene, float], Array]

@@ -8,6 +8,7 @@ import numpy as np
 
 from hexdbb.rig.geometry import Array
 from hexdbb_truth.forms.family import Draw, Exact, Family, bumpless, column, signed, slider, waves
+from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.operators import Release, lost_motion, lowpass, presliding, windup
 from hexdbb_truth.forms.ports import Scene, Values, unit_range
 
@@ -32,7 +33,7 @@ def _play(scene: Scene, k: int, size: float, shape: Array | None) -> Array:
 
 def _whole_place(scene: Scene, k: int) -> Array:
     drive = scene.history.drive_mm[:, k]
-    return unit_range(drive, drive[scene.history.samples])
+    return unit_range(drive, scene.sampled.drive_mm(k))
 
 
 def _play_by_place(draw: Draw, exact: Exact) -> Values:
@@ -135,14 +136,19 @@ def _spike_two_decays(draw: Draw, exact: Exact) -> Values:
     )
 
 
+def _turning(history: History, k: int) -> Array:
+    """Return the acceleration of a drive at each of its reversals."""
+    return np.abs(history.acceleration_mm_s2[history.pieces(k).begin, k])
+
+
 def _spike_by_speed(draw: Draw, exact: Exact) -> Values:
     """The faster the drive turns over, the sooner the slider breaks away; released by a power law."""
     (k,), tau, power = exact.elements, _tau(exact), float(draw.uniform(1.0, 2.0))
 
     def values(scene: Scene, size: float) -> Array:
         history = scene.history
-        turning = np.abs(history.acceleration_mm_s2[history.pieces(k).begin, k])
-        shape = -0.5 * turning / (turning + float(np.median(turning)))
+        turning, usual = _turning(history, k), _turning(scene.sampled.history, k)
+        shape = -0.5 * turning / (turning + float(np.median(usual)))
         return _stuck(scene, k, size, lambda since: (1.0 + since / tau) ** -power, shape)
 
     return values

@@ -39,7 +39,7 @@ def _carried(scene: Scene, guideway: int, height: object, across: Array) -> Arra
 
 
 def _whole_range(scene: Scene, guideway: int, at: Array) -> Array:
-    return unit_range(at, scene.history.drive_mm[scene.history.samples][:, [2 * guideway, 2 * guideway + 1]])
+    return unit_range(at, np.stack([scene.sampled.drive_mm(2 * guideway + j) for j in range(2)]))
 
 
 def _bow_shaped(draw: Draw, exact: Exact, shape: object) -> Values:
@@ -190,7 +190,7 @@ def _offset(draw: Draw) -> Exact:
 
 def _turned(scene: Scene, leg: int) -> Array:
     """How the leg leans in the platform frame, each component over its range."""
-    whole = scene.history.platform_leg_direction(scene.sampled.rows)[:, leg]
+    whole = scene.sampled.history.platform_leg_direction(scene.sampled.rows)[:, leg]
     some = scene.history.platform_leg_direction(scene.rows)[:, leg]
     return np.stack([unit_range(some[:, axis], whole[:, axis]) for axis in range(3)], axis=1)
 
@@ -282,8 +282,8 @@ def _friction_by_angle(draw: Draw, exact: Exact) -> Values:
     (leg,), shape = exact.elements, bumpless(draw, (1, 2))
 
     def values(scene: Scene, size: float) -> Array:
-        angle = scene.history.slider_joint_angle_rad[:, leg]
-        place = unit_range(angle[scene.rows], angle[scene.history.samples])
+        sampled, angle = scene.sampled, scene.history.slider_joint_angle_rad[scene.rows, leg]
+        place = unit_range(angle, sampled.history.slider_joint_angle_rad[sampled.rows, leg])
         return exact.formula(scene, size) * column(shape(place))
 
     return values

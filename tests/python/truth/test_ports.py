@@ -7,6 +7,7 @@ import itertools
 import numpy as np
 import pytest
 
+from hexdbb.plan import load_plan
 from hexdbb.rig.mechanisms import Push
 from hexdbb.rig.truth import TruthFile, random_truth
 from hexdbb_truth.forms import plans
@@ -15,8 +16,10 @@ from hexdbb_truth.forms.cases import (
     OUTSIDE,
     case,
 )
+from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.measure import Measured
 from hexdbb_truth.forms.ports import Action, add
+from hexdbb_truth.simulate import Pace
 
 PORTS = {"slider", "leg", "guideway", "platform_joint", "ball", "cup", "reading"}
 
@@ -90,6 +93,27 @@ def test_a_fault_outside_the_catalogue_says_where_it_is_and_what_else_explains_i
     some = measured.scene(measured.history.samples[::11])
     np.testing.assert_array_equal(first.values(some, 10.0), again.values(some, 10.0))
     assert np.ptp(first.values(some, 10.0)) > 0.0
+
+
+def test_a_fault_stays_where_it_is_on_a_machine_that_is_driven_otherwise(short):
+    """A bump of the tape is a function of the drive's position, whatever range of it another plan drives."""
+    plan = load_plan("standard")
+    other = History(plan.model_copy(update={"circles": plan.circles[3:4], "laps": 1}), Pace(6.0, 12, 2.0))
+    action, _ = drawn_action(case("tape_bump-d0-x3-judge-s4"), "tape_bump")
+    (k,) = action.elements
+
+    def bump(measured):
+        scene = measured.scene(np.arange(len(measured.history)))
+        order = np.argsort(scene.drive_mm(k))
+        return scene.drive_mm(k)[order], action.values(scene, 100.0)[order, 0]
+
+    at_mm, drawn_mm = bump(short)
+    kept_at_mm, kept_mm = bump(Measured(short.truth, other, short.history))
+    inside = (kept_at_mm > at_mm[0]) & (kept_at_mm < at_mm[-1])
+    there = np.interp(kept_at_mm[inside], at_mm, drawn_mm)
+    np.testing.assert_allclose(kept_mm[inside], there, atol=1e-4)
+    _, moved_mm = bump(Measured(short.truth, other))
+    assert np.abs(moved_mm[inside] - there).max() > 0.01
 
 
 def test_there_are_enough_faults_outside_the_catalogue_at_many_ports():
