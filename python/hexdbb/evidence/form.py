@@ -28,11 +28,15 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Form:
-    """How far an effect's form differs from the machine's: the relative size of the functions beside it."""
+    """How far an effect's form differs from the machine's: the relative size of the functions beside it.
+
+    `columns` is how many directions of them stand in the linearisation.
+    """
 
     fraction: float
     deviation: float
     functions: tuple[str, ...]
+    columns: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,8 +84,8 @@ class Forms:
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
-        form = Form(found.size, deviation, functions)
         columns = np.hstack([each.table for each in spaces]) @ (factor * found.size)
+        form = Form(found.size, deviation, functions, columns.shape[1])
         wider = replace(
             linear,
             own=np.hstack([linear.own, columns]),

@@ -10,7 +10,7 @@ for what else is missing all have them.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -74,6 +74,14 @@ class Trial:
     def is_free_in_time(self) -> bool:
         """Whether a free function of time is among the members."""
         return any(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in self.members)
+
+    def columns_of_forms(self) -> Iterator[tuple[Form, slice]]:
+        """Yield the forms that have functions beside them, with their columns of the linearisation."""
+        first = int(np.count_nonzero(self.model.free))
+        for form in (*(form for _, form in self.present), *self.forms):
+            if form is not None and form.columns:
+                yield form, slice(first, first + form.columns)
+                first += form.columns
 
     @property
     def names(self) -> tuple[str, ...]:
