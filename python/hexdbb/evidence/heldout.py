@@ -36,7 +36,7 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
     """
     readings = trials.engine.readings
     groupings = (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
-    before, after = (Sums(trials.linear(each), readings, groupings) for each in (base, trial))
+    before, after = trials.sums(base, groupings), trials.sums(trial, groupings)
     found = {}
     for grouping in groupings:
         numbers = readings.groups[grouping]
