@@ -154,6 +154,9 @@ class Search:
         found = [best]
         alone = {h for each in self.nodes if self._explains_all_alone(each) for h in each.hypotheses}
         for together in self._known_sets(2 if alone else self.criteria.max_effects):
+            # Nothing is left for one more where fewer explain all.
+            if any(len(each.members) < len(together.members) and self._is_complete(each) for each in found[1:]):
+                break
             if together.effects & alone:
                 continue
             members = tuple(Member(each.known) for each in together.members)
