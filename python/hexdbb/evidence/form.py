@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,15 +25,21 @@ from hexdbb.learned import Learned
 from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
+KEPT = 48
+"""Signatures kept in memory, of a megabyte or two each: those of an effect's homes are asked for in every trial."""
 
 
 @dataclass(frozen=True)
 class Form:
-    """How far an effect's form differs from the machine's: the relative size of the functions beside it."""
+    """How far an effect's form differs from the machine's: the relative size of the functions beside it.
+
+    `columns` is how many directions of them stand in the linearisation.
+    """
 
     fraction: float
     deviation: float
     functions: tuple[str, ...]
+    columns: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +66,7 @@ class Forms:
     def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, str, str], list[Home]] = {}
+        self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
@@ -80,8 +88,8 @@ class Forms:
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
-        form = Form(found.size, deviation, functions)
         columns = np.hstack([each.table for each in spaces]) @ (factor * found.size)
+        form = Form(found.size, deviation, functions, columns.shape[1])
         wider = replace(
             linear,
             own=np.hstack([linear.own, columns]),
@@ -110,7 +118,7 @@ class Forms:
 
     def _beside(self, sums: Sums, functions: Sequence[Learned], size_mm: float) -> Beside | None:
         """Weigh the evidence for some functions beside an effect; None where nothing of them can be seen."""
-        spaces = [signature_of(each, self.engine.readings) for each in functions]
+        spaces = [self._signature(each) for each in functions]
         roughness = self.criteria.roughness[1]
         parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
         factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.evidence.covered import is_covered
 from hexdbb.evidence.readings import ARC, GROUPINGS
-from hexdbb.evidence.sums import Sums, squared_error
+from hexdbb.evidence.sums import Sums, Training, squared_error
 from hexdbb.evidence.trial import Trial, Trials
+from hexdbb.learned import Learned
 
 
 @dataclass(frozen=True)
@@ -34,28 +36,50 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
     """
     readings = trials.engine.readings
     groupings = (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
-    before, after = (Sums(trials.linear(each), readings, groupings) for each in (base, trial))
+    before, after = trials.sums(base, groupings), trials.sums(trial, groupings)
     found = {}
     for grouping in groupings:
-        groups = before.groups(grouping)
+        numbers = readings.groups[grouping]
+        groups = list(zip(np.unique(numbers), before.groups(grouping), strict=True))
         if len(groups) < 2:
             continue
-        numbers = readings.groups[grouping]
         hypotheses = [each.hypothesis for each in trial.members]
         # Arcs are what free functions of time claim, whatever lies between.
-        inside = [grouping == ARC or is_covered(hypotheses, readings, numbers == each) for each in np.unique(numbers)]
-        groups = [each for each, is_inside in zip(groups, inside, strict=True) if is_inside]
-        rows = sum(float(before.rows[cells].sum()) for cells in groups)
+        groups = [
+            (number, cells)
+            for number, cells in groups
+            if grouping == ARC or is_covered(hypotheses, readings, numbers == number)
+        ]
+        rows = sum(float(before.rows[cells].sum()) for _, cells in groups)
         if not groups:
             continue
-        without = sum(squared_error(before, c, before.without(c).own_values(), None, None) for c in groups)
-        error = expected = 0.0
-        for cells in groups:
+        without = error = expected = 0.0
+        for number, cells in groups:
+            in_group = numbers == number
+            without += _error(base, before, before.without(cells), cells, in_group)
             training = after.without(cells)
-            error += squared_error(after, cells, training.own_values(), None, None)
+            error += _error(trial, after, training, cells, in_group)
             expected += training.expected_error(after, cells)
         share = (without - error) / max(without - rows, 1e-9)
         found[grouping] = HeldOut(
             float(np.sqrt(without / rows)), float(np.sqrt(error / rows)), share, float(np.sqrt(expected / rows))
         )
     return found
+
+
+def _error(trial: Trial, sums: Sums, training: Training, cells: NDArray[np.intp], in_group: NDArray[np.bool_]) -> float:
+    """Return the sum of squared errors of a fit to a training set in the cells of a group.
+
+    A formula extrapolates, the functions of its form do not: where they lead away from a group in whose range of their
+    variable hardly any other reading lies, the formula alone predicts it.
+    """
+    own = training.own_values()
+    error = squared_error(sums, cells, own, None, None)
+    for form, columns in trial.columns_of_forms():
+        formula = own.copy()
+        formula[columns] = 0.0
+        alone = squared_error(sums, cells, formula, None, None)
+        functions = (Learned.parse(name) for name in form.functions)
+        if alone < error and not is_covered(functions, sums.readings, in_group):
+            own, error = formula, alone
+    return error

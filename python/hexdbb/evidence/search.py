@@ -21,14 +21,13 @@ from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.needed import needs, needs_all
 from hexdbb.evidence.period import best_period
-from hexdbb.evidence.proposals import Proposal, proposals
-from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.shortlist import better_shaped, shortlist
+from hexdbb.evidence.screened import in_other_words, known_sets, screened
+from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
-from hexdbb.evidence.together import KnownSets, Together
 from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned
 
@@ -97,7 +96,7 @@ class Search:
         signatures, whose = self.engine.signatures(self.engine.base, self.known)
         found: dict[str, set[str]] = {}
         for (effect, element, _, _), homes in zip(whose, self.homes.of_each(signatures), strict=True):
-            name = Known(effect, (element,), self._is_whole(effect)).name
+            name = Known(effect, (element,), self.is_whole(effect)).name
             found.setdefault(name, set()).update(each.hypothesis.name for each in homes)
         return found
 
@@ -109,7 +108,7 @@ class Search:
         found: dict[str, list[Learned]] = {}
         for place in np.flatnonzero(~geometry):
             each = parameters[fitted.free[place]]
-            name = Known(each.effect, (each.element,), self._is_whole(each.effect)).name
+            name = Known(each.effect, (each.element,), self.is_whole(each.effect)).name
             homes = self.homes.of(fitted.linear.own[:, place])
             found.setdefault(name, []).extend(home.hypothesis for home in homes)
         return found
@@ -153,7 +152,10 @@ class Search:
         """
         found = [best]
         alone = {h for each in self.nodes if self._explains_all_alone(each) for h in each.hypotheses}
-        for together in self._known_sets(2 if alone else self.criteria.max_effects):
+        for together in known_sets(self, 2 if alone else self.criteria.max_effects):
+            # Nothing is left for one more where fewer explain all.
+            if any(len(each.members) < len(together.members) and self._is_complete(each) for each in found[1:]):
+                break
             if together.effects & alone:
                 continue
             members = tuple(Member(each.known) for each in together.members)
@@ -169,18 +171,6 @@ class Search:
             if node.score > best.score and not trial.refused and needs_all(self, node) and self._predicts(node):
                 found.append(node)
         return max(found, key=lambda each: each.score)
-
-    def _known_sets(self, most: int) -> list[Together]:
-        """Return the sets of two to so many known effects that are worth a full fit."""
-        model = self.root.trial.model
-        tables = [self.engine.signatures(model, self.known)]
-        if shaped := [name for name in self.known if self.engine.has_shape(name)]:
-            tables += [self.engine.signatures(model, shaped, each) for each in filter(None, self.criteria.shape_starts)]
-        sums = Sums(self.trials.linear(self.root.trial), self.engine.readings, ())
-        screen = Screen(sums, self.criteria, self.thinned)
-        kinds = {name for name in self.known if self._is_whole(name)}
-        sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, self.criteria)
-        return sets.best(most, self.criteria.most_of_one_effect)
 
     def expand(self, node: Node) -> list[Node]:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
@@ -225,11 +215,11 @@ class Search:
     def _children(self, node: Node) -> list[Node]:
         sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
         screen = Screen(sums, self.criteria, self.thinned)
-        known, learned = self._screened(node.trial, screen)
+        known, learned = screened(self, node.trial, screen)
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         most = self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
-        for scored in (*chosen, *self._in_other_words(known, learned, chosen)):
+        for scored in (*chosen, *in_other_words(self, known, learned, chosen)):
             try:
                 trial = self.trials.of((*node.members, self.member(scored)))
             except RunError:
@@ -240,53 +230,11 @@ class Search:
             found.append(Node(trial, score))
         return sorted(found, key=lambda each: -each.score)
 
-    def _screened(self, base: Trial, screen: Screen) -> tuple[list[Scored], list[Scored]]:
-        present = {each.hypothesis for each in base.members}
-        signatures, whose = self.engine.signatures(base.model, self.known)
-        kinds = {name for name in self.known if self._is_whole(name)}
-        scored = screen.known(signatures, whose, kinds)
-        shaped = [name for name in self.known if self.engine.has_shape(name)]
-        for shape in filter(None, self.criteria.shape_starts if shaped else ()):
-            scored = better_shaped(scored, screen.known(*self.engine.signatures(base.model, shaped, shape), kinds))
-        known = [each for each in scored if each.hypothesis not in present]
-        if not self.learns:
-            return known, []
-        proposed = proposals(screen.sums.linear, self.engine.readings, self.thinned, self.criteria)
-        self.propose(proposed)
-        self._add_kin(screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
-        every = [*self.hypotheses, *(each.hypothesis for each in proposed)]
-        return known, screen.learned([each for each in every if each not in present])
-
-    def _in_other_words(self, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:
-        """Return known effects whose own functions explain much although their exact form does not."""
-        there = {each.hypothesis for each in chosen}
-        found: dict[Scored, float] = {}
-        for each in known:
-            homes = self.kin.get(each.hypothesis.name, set())
-            most = max((one.log_evidence for one in learned if one.hypothesis.name in homes), default=-np.inf)
-            if each.hypothesis not in there and most > max(each.log_evidence, 0.0):
-                found[each] = most
-        return sorted(found, key=lambda each: -found[each])[: self.criteria.in_other_words]
-
     @property
     def by_name(self) -> dict[str, Learned]:
         """Learned hypotheses, those that the readings propose among them."""
         proposed = [each for each in self._chosen if isinstance(each, Learned)]
         return {each.name: each for each in (*self.hypotheses, *proposed)}
-
-    def _add_kin(
-        self,
-        linear: Linear,
-        proposed: Sequence[Learned],
-        signatures: Floats,
-        whose: Sequence[tuple[str, str, str, float]],
-    ) -> None:
-        """Count what is proposed among the kin of known effects whose form it contains: a pitch error is periodic."""
-        homes = Homes(linear, self.thinned, proposed, self.criteria).of_each(signatures)
-        for (effect, element, _, _), found in zip(whose, homes, strict=True):
-            name = Known(effect, (element,), self._is_whole(effect)).name
-            same = {each.hypothesis.name for each in found if each.explained >= self.criteria.same_form}
-            self.kin.setdefault(name, set()).update(same)
 
     def log_prior(self, hypothesis: Hypothesis) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
@@ -342,7 +290,8 @@ class Search:
     def _explains_all_alone(self, node: Node) -> bool:
         return len(node.members) == 1 and _is_known(node) and self._is_complete(node) and not node.trial.refused
 
-    def _is_whole(self, effect: str) -> bool:
+    def is_whole(self, effect: str) -> bool:
+        """Check whether an effect has one element only, so that its name needs none."""
         return len(self.engine.base.info(effect).elements) == 1
 
     def member(self, scored: Scored) -> Member:

@@ -10,7 +10,7 @@ for what else is missing all have them.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -75,6 +75,14 @@ class Trial:
         """Whether a free function of time is among the members."""
         return any(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in self.members)
 
+    def columns_of_forms(self) -> Iterator[tuple[Form, slice]]:
+        """Yield the forms that have functions beside them, with their columns of the linearisation."""
+        first = int(np.count_nonzero(self.model.free))
+        for form in (*(form for _, form in self.present), *self.forms):
+            if form is not None and form.columns:
+                yield form, slice(first, first + form.columns)
+                first += form.columns
+
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the members."""
@@ -97,6 +105,7 @@ class Trials:
         self._known: dict[frozenset[str], Trial] = {}
         self._present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
+        self._base: dict[tuple[str, ...], Sums] = {}
 
     def of(self, members: Sequence[Member]) -> Trial:
         """Fit a model with hypotheses.
@@ -108,16 +117,24 @@ class Trials:
         """
         key = _key(members)
         if key not in self._known:
-            self._known[key] = self._tried(tuple(members))
+            self._known[key] = self._about(tuple(members), self._fitted(members))
         return self._known[key]
 
     def linear(self, trial: Trial) -> Linear:
         """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
         key = _key(trial.members)
         if key not in self._linear:
-            self._tried(trial.members)
+            self._about(trial.members, self.engine.linearised(trial.model))
         self._linear.move_to_end(key)
         return self._linear[key]
+
+    def sums(self, trial: Trial, groupings: tuple[str, ...]) -> Sums:
+        """Return the sums of a trial's linearisation; those of the model without hypotheses are kept."""
+        if trial.members:
+            return Sums(self.linear(trial), self.engine.readings, groupings)
+        if groupings not in self._base:
+            self._base[groupings] = Sums(self.linear(trial), self.engine.readings, groupings)
+        return self._base[groupings]
 
     @cached_property
     def explained_before(self) -> float:
@@ -141,8 +158,8 @@ class Trials:
         geometry[: len(free)] = self.engine.geometry_of(model)
         return _beyond(linear.own, linear.standing, own, geometry)
 
-    def _tried(self, members: tuple[Member, ...]) -> Trial:
-        fitted = self._fitted(members)
+    def _about(self, members: tuple[Member, ...], fitted: Fitted) -> Trial:
+        """Weigh members about their fit, and keep its linearisation."""
         linear = fitted.linear
         present: list[tuple[str, Form]] = []
         forms: list[Form | None] = []
@@ -176,16 +193,18 @@ class Trials:
         )
 
     def _fitted(self, members: Sequence[Member]) -> Fitted:
-        model = self.engine.base
-        for member in members:
+        """Fit the model of some members, from where it was fitted with all but the last if it was."""
+        before = self._known.get(_key(members[:-1])) if len(members) > 1 else None
+        model, added = (self.engine.base, members) if before is None else (before.model, members[-1:])
+        for member in added:
             if isinstance(member.hypothesis, Known):
                 model = self.engine.with_effect(model, member.hypothesis.effect, member.hypothesis.elements)
             else:
                 assert member.factor is not None
                 model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
-        free, added = model.free, {m.hypothesis.effect for m in members if isinstance(m.hypothesis, Known)}
+        free, effects = model.free, {m.hypothesis.effect for m in added if isinstance(m.hypothesis, Known)}
         shapes = (
-            np.array([each.is_shape and each.shape is None and each.effect in added for each in model.parameters()])
+            np.array([each.is_shape and each.shape is None and each.effect in effects for each in model.parameters()])
             & free
         )
         if not shapes.any():

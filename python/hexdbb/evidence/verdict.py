@@ -141,10 +141,17 @@ def _predicting(search: Search, node: Node) -> Node:
         if len(each.members) <= len(node.members)
         and not each.trial.refused
         and not any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses)
-        and search.checked(each).share > search.criteria.form_explains
-        and not (search.checked(each).reasons or search.checked(each).excused)
     ]
-    return max(others, key=lambda each: each.score, default=node)
+    # The best first: what lies behind it need not be held out.
+    others.sort(key=lambda each: -each.score)
+    return next((each for each in others if _explains_and_predicts(search, each)), node)
+
+
+def _explains_and_predicts(search: Search, node: Node) -> bool:
+    excess = search.root.trial.left - 1.0
+    if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
+        return False
+    return not (search.checked(node).reasons or search.checked(node).excused)
 
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:

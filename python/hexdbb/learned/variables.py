@@ -214,7 +214,8 @@ ANGLE_DIRECTION = Variable(
     "angle_direction", "angle_rad", "rad", "polar angle, by direction of the circle", 24, times="direction", period=TURN
 )
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
-READ = Variable("reading", "nominal_reading_mm", "mm", "nominal reading", 8)
+READ = Variable("reading", "nominal_reading_mm", "mm", "nominal reading", 8, of_forms=True)
+DEFLECTION = Variable("deflection", "deflection_mm", "mm", "predicted deflection of the gauge", 12)
 CIRCLE_DIRECTION = Variable("circle_direction", "", "", "direction of the circle", times="direction")
 SPEED = Variable("speed", "speed_mm_s", "mm/s", "speed of the platform", 8)
 FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
@@ -254,8 +255,8 @@ OF_PLATFORM_JOINT = (
     Variable("time", "time_s", "s", "time", 10, from_start=True),
 )
 OF_READING = (
-    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION, FEED, SPEED),
-    *(ROLL, PITCH, YAW),
+    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
+    *(FEED, SPEED, ROLL, PITCH, YAW),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""

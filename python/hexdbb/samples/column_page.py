@@ -23,6 +23,7 @@ OWN = {
     "swing_rate_rad_s": ("leg", "rad/s", "rate of the leg's swing about its guideway"),
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
+    "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}

@@ -17,6 +17,7 @@ from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
+from hexdbb.samples.deflection import DEFLECTION, deflection_mm
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
@@ -59,8 +60,8 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        given = (name for name in self.columns if name not in STATE and name not in DERIVED)
-        return (*given, *STATE, *DERIVED)
+        given = (name for name in self.columns if name not in (*STATE, *DERIVED, DEFLECTION))
+        return (*given, *STATE, *DERIVED, DEFLECTION)
 
     def column(self, name: str) -> NDArray[Any] | None:
         """Return a column, None where there is no such."""
@@ -72,6 +73,8 @@ class Whole:
             elif name in DERIVED:
                 given = {each: column for each in DERIVED_FROM if (column := self.column(each)) is not None}
                 self.columns |= derived_columns(self.machine, given, self.set_ups)
+            elif name == DEFLECTION:
+                self.columns[name] = self._deflection_mm()
         return self.columns.get(name)
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
@@ -96,6 +99,12 @@ class Whole:
             set_ups=list(self.set_ups),
             state={name: column for name in names if (column := self.column(name)) is not None},
         )
+
+    def _deflection_mm(self) -> Floats:
+        nominal_mm = self.column("nominal_reading_mm")
+        assert nominal_mm is not None  # the engine derives it for every table
+        _, block = self.block(self.mounts, frozenset())
+        return deflection_mm(self.machine, self.mounts, block, self.columns["reading_mm"], nominal_mm)
 
     def _derived_state(self, name: str) -> Columns:
         """Return a column of the engine's state that follows from the given ones, and what is found on the way."""

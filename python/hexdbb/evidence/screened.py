@@ -1,0 +1,101 @@
+"""What a search screens beside a set: known effects, sets of them, learned functions, and what readings propose."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.proposals import proposals
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.screen import Known, Scored, Screen
+from hexdbb.evidence.shortlist import better_shaped
+from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.together import KnownSets, Together
+from hexdbb.evidence.trial import Trial
+from hexdbb.learned import Learned
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
+
+Floats = NDArray[np.float64]
+
+
+def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored], list[Scored]]:
+    """Screen all hypotheses beside those of a trial: known effects, and learned functions where they are looked at.
+
+    Parameters
+    ----------
+    search : Search
+    base : Trial
+    screen : Screen
+        Of its linearisation.
+    """
+    engine, criteria = search.engine, search.criteria
+    present = {each.hypothesis for each in base.members}
+    signatures, whose = engine.signatures(base.model, search.known)
+    kinds = {name for name in search.known if search.is_whole(name)}
+    scored = screen.known(signatures, whose, kinds)
+    shaped = [name for name in search.known if engine.has_shape(name)]
+    for shape in filter(None, criteria.shape_starts if shaped else ()):
+        scored = better_shaped(scored, screen.known(*engine.signatures(base.model, shaped, shape), kinds))
+    known = [each for each in scored if each.hypothesis not in present]
+    if not search.learns:
+        return known, []
+    proposed = proposals(screen.sums.linear, engine.readings, search.thinned, criteria)
+    search.propose(proposed)
+    _add_kin(search, screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
+    every = [*search.hypotheses, *(each.hypothesis for each in proposed)]
+    return known, screen.learned([each for each in every if each not in present])
+
+
+def in_other_words(search: Search, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:
+    """Return known effects whose own functions explain much although their exact form does not.
+
+    Parameters
+    ----------
+    search : Search
+    known, learned : list of Scored
+        Screened.
+    chosen : list of Scored
+        Those that get a full fit anyway.
+    """
+    there = {each.hypothesis for each in chosen}
+    found: dict[Scored, float] = {}
+    for each in known:
+        homes = search.kin.get(each.hypothesis.name, set())
+        most = max((one.log_evidence for one in learned if one.hypothesis.name in homes), default=-np.inf)
+        if each.hypothesis not in there and most > max(each.log_evidence, 0.0):
+            found[each] = most
+    return sorted(found, key=lambda each: -found[each])[: search.criteria.in_other_words]
+
+
+def known_sets(search: Search, most: int) -> list[Together]:
+    """Return the sets of two to so many known effects that are worth a full fit, small ones first."""
+    model, engine, criteria = search.root.trial.model, search.engine, search.criteria
+    tables = [engine.signatures(model, search.known)]
+    if shaped := [name for name in search.known if engine.has_shape(name)]:
+        tables += [engine.signatures(model, shaped, each) for each in filter(None, criteria.shape_starts)]
+    sums = Sums(search.trials.linear(search.root.trial), engine.readings, ())
+    screen = Screen(sums, criteria, search.thinned)
+    kinds = {name for name in search.known if search.is_whole(name)}
+    sets = KnownSets(screen, [each for each, _ in tables], [each for _, each in tables], kinds, criteria)
+    return sets.best(most, criteria.most_of_one_effect)
+
+
+def _add_kin(
+    search: Search,
+    linear: Linear,
+    proposed: Sequence[Learned],
+    signatures: Floats,
+    whose: Sequence[tuple[str, str, str, float]],
+) -> None:
+    """Count what is proposed among the kin of known effects whose form it contains: a pitch error is periodic."""
+    homes = Homes(linear, search.thinned, proposed, search.criteria).of_each(signatures)
+    for (effect, element, _, _), found in zip(whose, homes, strict=True):
+        name = Known(effect, (element,), search.is_whole(effect)).name
+        same = {each.hypothesis.name for each in found if each.explained >= search.criteria.same_form}
+        search.kin.setdefault(name, set()).update(same)

@@ -1,0 +1,40 @@
+"""The gauge's deflection as geometry and set-up predict it: near the true one, whatever the gauge adds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from tests.python.samples.test_state import COUNT, MACHINE, record_of
+
+from hexdbb.model import new_model
+from hexdbb.plan import load_plan
+from hexdbb.record import Record
+from hexdbb.samples import Samples, predict
+
+
+def _with_reading(record: Record, reading_mm: np.ndarray) -> Samples:
+    return Samples.of([replace(record, columns={**record.columns, "reading_um": 1e3 * reading_mm})])
+
+
+def test_it_is_what_the_machine_deflects_and_not_what_the_gauge_adds() -> None:
+    record = record_of(7)
+    samples = Samples.of([record])
+    model = new_model(MACHINE).with_mounts(samples.mounts)
+    draw = np.random.default_rng(2)
+    true = model.with_values(np.where(model.free, model.prior_sigma * draw.normal(size=len(model.values)), 0.0))
+    deflection_mm = predict(samples, true).reading_mm
+    assert np.ptp(deflection_mm) > 0.1
+    found = _with_reading(record, deflection_mm)["deflection_mm"]
+    assert np.std(found - deflection_mm) < 0.02 * np.std(deflection_mm)
+    hum_mm = 0.02 * np.sin(50.0 * samples["time_s"])
+    disturbed = _with_reading(record, deflection_mm + hum_mm)["deflection_mm"]
+    assert np.std(disturbed - found) < 0.3 * np.std(hum_mm)
+
+
+def test_planned_samples_deflect_the_gauge_as_the_nominal_machine_does() -> None:
+    plan = load_plan("standard")
+    runs = [run for run in plan.runs() if run.circle.id < 2]
+    angle = np.linspace(0.0, 2.0 * np.pi, COUNT, endpoint=False)
+    planned = Samples.planned(MACHINE, runs, angle, plan.gauge.bar_length_mm)
+    np.testing.assert_array_equal(planned["deflection_mm"], planned["nominal_reading_mm"])
