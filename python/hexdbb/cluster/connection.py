@@ -95,6 +95,10 @@ def _local_client(distributed: Any, workers: int | None) -> Iterator[Any]:
         # Nothing is spilled to disk: a task's data are small, and one that is not is to be seen.
         "distributed.worker.memory.spill": False,
         "distributed.worker.memory.target": False,
+        # Dask's own measurements: samples of every task's stack, each 10 ms, nobody looks at; the load of the computer
+        # shows as well every 2 s as every 0.5 s.
+        "distributed.worker.profile.enabled": False,
+        "distributed.admin.system-monitor.interval": "2s",
     }
     with ExitStack() as stack:
         stack.enter_context(require("dask").config.set(settings))
@@ -137,7 +141,8 @@ def _client_of(distributed: Any, options: ClusterOptions) -> Iterator[Any]:
 
 
 def _unanswered(options: ClusterOptions, error: BaseException) -> InputError | RunError:
-    reasons = " ".join(_reasons(error)).lower()
+    # The address stands in the text of a scheduler that is not there as well.
+    reasons = " ".join(_reasons(error)).lower().replace("tls://", "")
     if options.tls_ca is not None and ("certificate" in reasons or "ssl" in reasons or "tls" in reasons):
         return InputError(
             f"--scheduler {options.scheduler}: a certificate is refused (expected certificates of scheduler and command"

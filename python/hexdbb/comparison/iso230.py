@@ -72,12 +72,22 @@ class Path:
     @cached_property
     def is_full_circle(self) -> bool:
         """Whether no arc longer than `MAX_GAP_RAD` is without a sample."""
-        gaps = np.diff(self.angle_rad, append=self.angle_rad[0] + FULL_TURN_RAD)
-        return bool(gaps.max() <= MAX_GAP_RAD)
+        angle = self.angle_rad
+        closing = angle[0] + FULL_TURN_RAD - angle[-1]
+        return bool(np.max(angle[1:] - angle[:-1], initial=closing) <= MAX_GAP_RAD)
 
     def deviation_at(self, angle_rad: FloatArray) -> FloatArray:
         """Return the deviation (mm) at other angles, by periodic linear interpolation."""
-        return np.interp(angle_rad, self.angle_rad, self.deviation_mm, period=FULL_TURN_RAD)
+        return np.interp(np.mod(angle_rad, FULL_TURN_RAD), *self._around)
+
+    @cached_property
+    def _around(self) -> tuple[FloatArray, FloatArray]:
+        """Angles and deviations with the last sample before the first and the first after the last, a turn away."""
+        angle, deviation = self.angle_rad, self.deviation_mm
+        return (
+            np.concatenate([angle[-1:] - FULL_TURN_RAD, angle, angle[:1] + FULL_TURN_RAD]),
+            np.concatenate([deviation[-1:], deviation, deviation[:1]]),
+        )
 
     def about(self, centre_mm: FloatArray) -> Path:
         """Return the path with its radii from another centre (2,), in mm; the commanded angles stay."""

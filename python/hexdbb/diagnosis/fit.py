@@ -16,7 +16,7 @@ from hexdbb.diagnosis.mirror import settle_signs
 from hexdbb.diagnosis.noise import Noise, noise_of
 from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
-from hexdbb.diagnosis.shaping import fit_shapes, shaped
+from hexdbb.diagnosis.shaping import fit_shapes
 from hexdbb.diagnosis.smoothing import with_bands
 from hexdbb.diagnosis.sufficiency import assess_sufficiency
 from hexdbb.errors import InputError, RunError
@@ -85,10 +85,10 @@ def evaluate_fit(
             raise RunError(f"{samples.name}: the fit did not succeed: {result.termination}")
         return result
 
-    if (free & shaped(model)).any():
+    if (free & model.shaped).any():
         return _with_spread(*fit_shapes(samples, model, free, noise, fit))
     result = fit(model)
-    return _with_spread(model.with_values(np.where(shaped(model), model.values, result.values)), result)
+    return _with_spread(model.with_values(np.where(model.shaped, model.values, result.values)), result)
 
 
 @dataclass(frozen=True, eq=False)

@@ -38,11 +38,6 @@ MOST_STARTS = 800
 """Combinations of starts that are tried at most; with more shapes every second one of the grid is left out."""
 
 
-def shaped(model: Model) -> Bools:
-    """Return which values are shape parameters of users' effects, shape (size,)."""
-    return np.array([each.shape is not None for each in model.parameters()], dtype=bool)
-
-
 def fit_shapes(samples: Samples, model: Model, free: Bools, noise: Noise, fit: Fit) -> tuple[Model, _core.FitResult]:
     """Fit a model in which shape parameters are free.
 
@@ -63,7 +58,7 @@ def fit_shapes(samples: Samples, model: Model, free: Bools, noise: Noise, fit: F
     result : FitResult
         Of the last fit; its shapes are differences from the model's.
     """
-    is_shape, parameters = shaped(model), model.parameters()
+    is_shape, parameters = model.shaped, model.parameters()
     lower = np.array([each.shape.lower if each.shape else -np.inf for each in parameters])
     upper = np.array([each.shape.upper if each.shape else np.inf for each in parameters])
     present, first = started(samples, model, free, noise), None
@@ -96,7 +91,7 @@ def started(samples: Samples, model: Model, free: Bools, noise: Noise) -> Model:
         own = model.own(effect)
         if values[sizes].any() or not free[shapes].any() or not is_shaped(own):
             continue
-        around = around or Projection(samples, model, free & ~shaped(model), noise)
+        around = around or Projection(samples, model, free & ~model.shaped, noise)
         values[shapes] = _sought(around, model, effect, element, sizes, shapes, free)
     return model.with_values(values)
 
@@ -166,9 +161,9 @@ def _corrected(
     scale = prior[columns] / noise.sigma_mm
     information = normal_equations(samples, model).information[np.ix_(columns, columns)] * np.outer(scale, scale)
     covariance = np.linalg.inv(information + np.eye(len(columns)))
-    away = np.where(shaped(model), (model.values - model.start) / prior, 0.0)[columns]
+    away = np.where(model.shaped, (model.values - model.start) / prior, 0.0)[columns]
     moved = np.zeros(len(prior))
-    moved[columns] = (result.values - np.where(shaped(model), 0.0, model.values))[columns]
+    moved[columns] = (result.values - np.where(model.shaped, 0.0, model.values))[columns]
     moved[columns] -= prior[columns] * (covariance @ away)
     spread = np.ones(len(prior))
     spread[columns] = prior[columns] * np.sqrt(np.diag(covariance))

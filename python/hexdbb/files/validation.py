@@ -13,7 +13,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, TypeVar, get_args
 
-import tomlkit
 from pydantic import (
     AfterValidator,
     BaseModel,
@@ -27,6 +26,7 @@ from pydantic import (
 from pydantic_core import ErrorDetails
 
 from hexdbb.errors import InputError
+from hexdbb.files.toml_text import toml_text
 
 Location = tuple[int | str, ...]
 ModelT = TypeVar("ModelT", bound=BaseModel)
@@ -218,7 +218,7 @@ def parse_toml(text: str, model: type[ModelT], origin: str) -> ModelT:
 def dump_toml(instance: BaseModel) -> str:
     """Return a model as TOML text under the file's own keys, unset and empty ones left out; floats read back alike."""
     content = instance.model_dump(by_alias=True, exclude_none=True)
-    return tomlkit.dumps({key: value for key, value in content.items() if value != {}})
+    return toml_text({key: value for key, value in content.items() if value != {}})
 
 
 def format_value(value: object) -> str:

@@ -6,6 +6,8 @@ nothing: its row has a status other than 0, which `status_name` names.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,8 +18,12 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
 
+@lru_cache(maxsize=64)
 def engine_machine(machine: MachineFile) -> _core.Machine:
-    """Return the engine's machine with the dimensions of a machine file, mm and kg."""
+    """Return the engine's machine with the dimensions of a machine file, mm and kg.
+
+    Kept for the next call: judging a record asks for it some sixty times. Neither of the two can be changed.
+    """
     return _core.Machine(
         base_inradius_mm=machine.base.inradius_mm,
         platform_circumradius_mm=machine.platform.circumradius_mm,

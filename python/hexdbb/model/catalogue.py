@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cache, lru_cache
+from types import MappingProxyType
+
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine
@@ -14,6 +18,12 @@ def effect_names(group: str = "") -> list[str]:
     return _core.effect_names(group)
 
 
+@cache
+def engine_effects() -> frozenset[str]:
+    """Return the names of all effects of the engine."""
+    return frozenset(effect_names())
+
+
 def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects | None = None) -> _core.EffectInfo:
     """Return the description of an effect; `own` are the user's.
 
@@ -24,8 +34,21 @@ def effect_info(machine: MachineFile, mounts: int, effect: str, own: OwnEffects 
     """
     if own and effect in own:
         return own[effect].info()
+    return effect_infos(machine, mounts, (effect,))[effect]
+
+
+@lru_cache(maxsize=256)
+def effect_infos(machine: MachineFile, mounts: int, effects: tuple[str, ...]) -> Mapping[str, _core.EffectInfo]:
+    """Return the descriptions of some effects of the engine by name; asked for once, since nothing can change them.
+
+    Raises
+    ------
+    InputError
+        As `effect_info`.
+    """
+    engine = engine_machine(machine)
     try:
-        return _core.effect_info(engine_machine(machine), mounts, effect)
+        return MappingProxyType({effect: _core.effect_info(engine, mounts, effect) for effect in effects})
     except ValueError as error:
         raise InputError(str(error)) from None
 

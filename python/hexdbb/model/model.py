@@ -7,7 +7,7 @@ stands beside.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -23,12 +23,15 @@ from hexdbb.kinematics import engine_machine
 from hexdbb.learned import Learned
 from hexdbb.learned.places import is_learned
 from hexdbb.machine import MachineFile
-from hexdbb.model.catalogue import default_effects, effect_info
+from hexdbb.model.catalogue import default_effects, effect_info, effect_infos, engine_effects
 from hexdbb.model.choice import Choice
 from hexdbb.model.ledger import LedgerStep, Snapshot
 from hexdbb.model.own import OwnEffect, OwnEffects, Tabulate
 from hexdbb.model.tables import value_columns, values_html
 from hexdbb.model.terms import Bools, Floats, MountKey, Parameter, Term, extended, new_term, parameters_of, started_term
+
+OF_EFFECTS = ("_infos", "needs", "_parameters", "prior_sigma", "start", "shaped")
+"""What follows from machine, effects and number of mounts alone: models that differ in their values have it alike."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,13 +54,25 @@ class Model:
 
     def info(self, effect: str) -> _core.EffectInfo:
         """Return the description of one effect as it stands in this model."""
+        if effect in self._infos:
+            return self._infos[effect]
         own = self.own(effect)
         return effect_info(self.machine, max(len(self.mounts), 1), effect) if own is None else own.info()
+
+    @cached_property
+    def _infos(self) -> Mapping[str, _core.EffectInfo]:
+        """Descriptions of those of its effects that are the engine's."""
+        known = engine_effects()
+        effects = tuple(term.effect for term in self.terms if term.effect in known and self._own(term) is None)
+        return effect_infos(self.machine, max(len(self.mounts), 1), effects)
 
     def own(self, effect: str) -> OwnEffect | None:
         """Return an effect that is not the engine's, learned or the user's own; None for one of the engine's."""
         term = self.term(effect)
-        return self.own_effects.get(effect) if term is None or term.learned is None else term.learned
+        return self.own_effects.get(effect) if term is None else self._own(term)
+
+    def _own(self, term: Term) -> OwnEffect | None:
+        return self.own_effects.get(term.effect) if term.learned is None else term.learned
 
     def needs_of(self, effect: str) -> frozenset[str]:
         """Return the columns of the samples' state on which an effect depends, in the model or not, learned or not.
@@ -85,7 +100,7 @@ class Model:
     @cached_property
     def _parameters(self) -> list[Parameter]:
         terms = self.terms
-        return [each for term in terms for each in parameters_of(self.info(term.effect), self.own(term.effect))]
+        return [each for term in terms for each in parameters_of(self.info(term.effect), self._own(term))]
 
     @property
     def snapshot(self) -> Snapshot:
@@ -102,15 +117,20 @@ class Model:
         """Standard deviations of the values, engine units, nan where not known."""
         return np.concatenate([np.zeros(0), *(term.sigma for term in self.terms)])
 
-    @property
+    @cached_property
     def prior_sigma(self) -> Floats:
         """Prior standard deviations (expected sizes) of the values, engine units, shape (size,)."""
-        return np.array([parameter.prior_sigma for parameter in self.parameters()])
+        return _fixed([parameter.prior_sigma for parameter in self._parameters], np.float64)
 
-    @property
+    @cached_property
     def start(self) -> Floats:
         """Values before any fit, engine units, shape (size,): zero but for shape parameters of the user's effects."""
-        return np.array([parameter.start for parameter in self.parameters()])
+        return _fixed([parameter.start for parameter in self._parameters], np.float64)
+
+    @cached_property
+    def shaped(self) -> Bools:
+        """Which values are shape parameters of the user's effects, shape (size,)."""
+        return _fixed([parameter.shape is not None for parameter in self._parameters], np.bool_)
 
     @property
     def free(self) -> Bools:
@@ -230,7 +250,8 @@ class Model:
         if not new:
             return self
         wider = replace(self, mounts=(*self.mounts, *new))
-        return replace(wider, terms=tuple(extended(term, wider.info(term.effect).size) for term in self.terms))
+        terms = tuple(extended(term, wider.info(term.effect).size) for term in self.terms)
+        return wider._known_to(replace(wider, terms=terms))
 
     def knowing_effects(self, effects: Iterable[OwnEffect]) -> Model:
         """Return the same model, in which effects of the user's own may stand too."""
@@ -252,7 +273,7 @@ class Model:
         """
         engine = _core.Model(engine_machine(self.machine))
         for term in self.terms:
-            own = self.own(term.effect)
+            own = self._own(term)
             if own is None:
                 engine.add(term.effect, max(len(self.mounts), 1))
             elif tabulate is None:
@@ -261,7 +282,7 @@ class Model:
             else:
                 tabulate(own, term.values).add_to(engine)
         # A user's effect is tabulated at its shapes: to the engine they are differences from there.
-        engine.values = np.where([each.shape is not None for each in self.parameters()], 0.0, self.values)
+        engine.values = np.where(self.shaped, 0.0, self.values)
         return engine
 
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -285,12 +306,13 @@ class Model:
         terms, at = [], 0
         for term in self.terms:
             span = slice(at, at + len(term.values))
-            parts: dict[str, Any] = {name: column[span] for name, column in columns.items()}
-            terms.append(replace(term, **parts))
+            terms.append(Term(**vars(term) | {name: column[span] for name, column in columns.items()}))
             at = span.stop
-        other = replace(self, terms=tuple(terms))
-        # Names and kinds of the values stay the same, and a fit changes values often.
-        vars(other).update({name: found for name, found in vars(self).items() if name in ("_parameters", "needs")})
+        return self._known_to(replace(self, terms=tuple(terms)))
+
+    def _known_to(self, other: Model) -> Model:
+        """Return another model of the same effects, to which what follows from them is handed over."""
+        vars(other).update({name: found for name in OF_EFFECTS if (found := vars(self).get(name)) is not None})
         return other
 
     def _with_term(self, term: Term) -> Model:
@@ -319,3 +341,10 @@ def new_model(machine: MachineFile, effects: Sequence[str] | None = None) -> Mod
         machine,
         tuple(new_term(name, effect_info(machine, 1, name).size, free=free) for name, free in chosen.items()),
     )
+
+
+def _fixed(values: list[Any], kind: type[np.generic]) -> NDArray[Any]:
+    """Return values as an array that several models can share."""
+    array = np.array(values, dtype=kind)
+    array.setflags(write=False)
+    return array

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,13 +99,9 @@ def parameters_of(info: _core.EffectInfo, own: OwnEffect | None = None) -> list[
     """Return name and nature of every value of an effect, element by element; `own` where it is not the engine's."""
     shapes = shapes_of(own)
     is_coefficient = isinstance(own, LearnedEffect)
-    found = [
-        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)
-        for element in info.elements
-        for each in info.parameters
-    ]
+    found = _described(info)
     if not shapes and not is_coefficient:
-        return found
+        return list(found)
     return [
         replace(
             each,
@@ -114,3 +111,13 @@ def parameters_of(info: _core.EffectInfo, own: OwnEffect | None = None) -> list[
         )
         for each in found
     ]
+
+
+@lru_cache(maxsize=256)
+def _described(info: _core.EffectInfo) -> tuple[Parameter, ...]:
+    """Return the values that a description names; every model of a machine asks for those of the same descriptions."""
+    return tuple(
+        Parameter(info.name, element, each.name, each.unit, each.prior_sigma, each.limit, info.is_set_up, each.is_shape)
+        for element in info.elements
+        for each in info.parameters
+    )

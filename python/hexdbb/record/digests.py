@@ -29,11 +29,11 @@ PLAIN_KINDS = "biuf"
 because a file may store them with another width or time unit."""
 
 
-def digest(*parts: bytes) -> str:
-    """Return the digest of parts of bytes; the length of each part counts."""
+def digest(*parts: bytes | memoryview) -> str:
+    """Return the digest of parts of bytes; the length of each part in bytes counts."""
     sha256 = hashlib.sha256()
     for part in parts:
-        sha256.update(len(part).to_bytes(8, "little"))
+        sha256.update(memoryview(part).nbytes.to_bytes(8, "little"))
         sha256.update(part)
     return sha256.hexdigest()[:DIGITS]
 
@@ -42,7 +42,7 @@ def column_digest(name: str, values: NDArray[Any]) -> str:
     """Return the digest of a column's name, type and values, shape (n,)."""
     plain = values.dtype.kind in PLAIN_KINDS
     kind = values.dtype.newbyteorder("<")
-    content = np.ascontiguousarray(values, kind).tobytes() if plain else repr(values.tolist()).encode(errors="replace")
+    content = np.ascontiguousarray(values, kind).data if plain else repr(values.tolist()).encode(errors="replace")
     return digest(name.encode(errors="replace"), (kind.str if plain else "other").encode(), content)
 
 

@@ -161,7 +161,7 @@ class Record:
         digest = hashlib.sha256()
         for name, kind in REQUIRED_COLUMNS.items():
             digest.update(name.encode())
-            digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).tobytes())
+            digest.update(np.ascontiguousarray(self.columns[name], dtype=np.dtype(kind).newbyteorder("<")).data)
         nameless = self.gauge.model_copy(update={"serial_number": None, "calibrated": None})
         # Which records share a fixing is stated about a record, and may be stated later.
         mounts = tuple(mount.model_copy(update={"fixing": None}) for mount in self.mounts)
@@ -209,6 +209,8 @@ def require_dimensions(machine: MachineFile, named: str, other: MachineFile, ori
         Naming the first dimension that differs, with both values.
     """
     for section in DIMENSIONS:
+        if getattr(machine, section) == getattr(other, section):
+            continue
         own, found = getattr(machine, section).model_dump(), getattr(other, section).model_dump()
         for key, value in own.items():
             if found[key] != value:

@@ -6,15 +6,16 @@ Metadata keys: `hexdbb` (JSON: format, software version, completeness, further m
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
-from typing import Any, Final, Literal
+from typing import Any, Final, Literal, TypeVar
 
 import pyarrow as pa
 from pydantic import BaseModel, ValidationError
 
 from hexdbb import __version__
 from hexdbb.errors import InputError
-from hexdbb.files.validation import dump_toml, format_location, format_value, parse_toml
+from hexdbb.files.validation import FileModel, dump_toml, format_location, format_value, parse_toml
 from hexdbb.machine import MachineFile
 from hexdbb.record.arrow import array_of, values_of
 from hexdbb.record.columns import Columns
@@ -24,6 +25,7 @@ from hexdbb.record.record import Record
 
 KEY, MEASUREMENT_KEY, MACHINE_KEY = "hexdbb", "hexdbb.measurement", "hexdbb.machine"
 FORMAT: Final = "hexdbb.record/1"
+FileT = TypeVar("FileT", bound=FileModel)
 
 
 class RecordHeader(BaseModel):
@@ -82,17 +84,33 @@ def from_columns(columns: Columns, metadata: dict[str, bytes], path: Path) -> Re
     if not {KEY, MEASUREMENT_KEY, MACHINE_KEY} <= metadata.keys():
         raise InputError(f'{path}: not a record (expected metadata "{KEY}"; bring data of other programs as .csv)')
     header = read_header(metadata[KEY], path)
-    measurement = parse_toml(metadata[MEASUREMENT_KEY].decode(errors="replace"), Measurement, f"{path}: measurement")
+    measurement = _file(metadata[MEASUREMENT_KEY], Measurement, f"{path}: measurement")
     return Record(
         columns=columns,
         gauge=measurement.gauge,
         mounts=measurement.mounts,
         circles=measurement.circles,
-        machine=parse_toml(metadata[MACHINE_KEY].decode(errors="replace"), MachineFile, f"{path}: machine"),
+        machine=_file(metadata[MACHINE_KEY], MachineFile, f"{path}: machine"),
         metadata={"software": header.software, **header.metadata},
         path=path,
         complete=header.complete,
     )
+
+
+def _file(content: bytes, model: type[FileT], origin: str) -> FileT:
+    """Return the file that a metadata entry holds; `InputError` names `origin`."""
+    text = content.decode(errors="replace")
+    try:
+        found: FileT = _parsed(text, model)
+    except InputError:
+        return parse_toml(text, model, origin)  # raises it again, with the name of this record
+    return found
+
+
+@lru_cache(maxsize=64)
+def _parsed(text: str, model: type[FileT]) -> FileT:
+    """Parse a text once: the records of a machine, and of a plan, hold the same. What is returned cannot be changed."""
+    return parse_toml(text, model, "")
 
 
 def read_header(content: bytes, path: Path) -> RecordHeader:

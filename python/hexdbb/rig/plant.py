@@ -20,6 +20,7 @@ from hexdbb.errors import RunError
 from hexdbb.rig.geometry import Array, TrueGeometry
 from hexdbb.rig.mechanisms import Mechanism, Motion, Push
 from hexdbb.rig.pose_solver import Hexapod, NoPoseError, Poses, leg_forces_n, solve_poses
+from hexdbb.rig.single_pose import bar_mm
 
 Point = tuple[float, float, float]
 _ONES = np.ones(3)
@@ -160,10 +161,13 @@ class Machine:
         """
         errors = self.setup_errors
         ball, cup = mounted.ball + errors.ball, mounted.cup + errors.cups.get(mounted.mount, 0.0)
+        nominal_mm = mounted.bar_length_mm + errors.bar_length_mm
+        if push is None and len(poses.position_mm) == 1:
+            return np.array([bar_mm(poses.position_mm[0], poses.rotation[0], ball, cup) - nominal_mm])
         if push is not None:
             ball, cup = ball + push.ball_mm, cup + push.cup_mm
         bar = poses.position_mm + (poses.rotation @ ball[..., None])[:, :, 0] - cup
-        change: Array = np.sqrt((bar * bar) @ _ONES) - (mounted.bar_length_mm + errors.bar_length_mm)
+        change: Array = np.sqrt((bar * bar) @ _ONES) - nominal_mm
         return change if push is None else (1.0 + push.gain) * change + push.reading_mm
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.rig.geometry import Array
+from hexdbb.rig.single_pose import Legs, orthonormal, turned
 
 STEP_TOLERANCE = 1e-6
 """Largest last step, mm and rad. The remaining error is this step times the one before it, over the leg length."""
@@ -94,6 +95,8 @@ def solve_poses(hexapod: Hexapod, guess: Poses) -> Poses:
     NoPoseError
         No convergence within `MAX_ITERATIONS`: the slider positions are incompatible with the leg lengths.
     """
+    if len(guess.position_mm) == 1:
+        return _solve_single(hexapod, guess)
     if len(guess.position_mm) <= BLOCK:
         return Poses(*_solve_block(hexapod, guess, 0))
     position, rotation = np.empty_like(guess.position_mm), np.empty_like(guess.rotation)
@@ -161,6 +164,29 @@ def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Arr
     wrong = ~(np.abs(hexapod.lengths_mm - reach).max(axis=1) < STEP_TOLERANCE)
     row = int(np.argmax(wrong))
     raise NoPoseError(first + row)
+
+
+def _solve_single(hexapod: Hexapod, guess: Poses) -> Poses:
+    """Do what `_solve_block` does for one instant, in plain numbers."""
+    legs = Legs(hexapod.slider_joints_mm[0], hexapod.platform_joints_mm[0], hexapod.lengths_mm[0])
+    (x, y, z), (first, second, third) = guess.position_mm[0].tolist(), guess.rotation[0].tolist()
+    rotation = tuple(first), tuple(second), tuple(third)
+    inverse: NDArray[np.float64] | None = None
+    for _ in range(MAX_ITERATIONS):
+        try:
+            inverse = legs.inverse((x, y, z), rotation) if inverse is None else inverse
+        except np.linalg.LinAlgError:
+            break
+        u, v, w, *turn = (inverse @ legs.missing_mm((x, y, z), rotation)).tolist()
+        x, y, z, rotation = x + u, y + v, z + w, turned(rotation, turn)
+        largest = max(map(abs, (u, v, w, *turn)))
+        if largest < STEP_TOLERANCE:
+            return Poses(np.array([[x, y, z]]), np.array([orthonormal(rotation)]))
+        if not math.isfinite(largest):
+            break
+        if largest > REUSE_STEP:
+            inverse = None
+    raise NoPoseError(0)
 
 
 def _legs(hexapod: Hexapod, position: Array, rotation: Array) -> tuple[Array, Array, Array]:

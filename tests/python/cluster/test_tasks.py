@@ -9,6 +9,7 @@ import pytest
 from tests import cluster_work as work
 
 from hexdbb.cluster import Cluster, ClusterOptions, connected, content_key, run_tasks, seed_of
+from hexdbb.cluster.connection import _unanswered
 from hexdbb.errors import InputError, RunError
 
 
@@ -135,3 +136,13 @@ def test_where_no_scheduler_answers_one_line_says_so() -> None:
     options = ClusterOptions(scheduler=f"tcp://127.0.0.1:{work.free_port()}")
     with pytest.raises(RunError, match=r"no scheduler answered within 6 s"), connected(options):
         pass
+
+
+def test_a_scheduler_that_is_not_there_is_no_matter_of_certificates(tmp_path: Path) -> None:
+    files = {name: tmp_path / name for name in ("tls_ca", "tls_cert", "tls_key")}
+    for path in files.values():
+        path.touch()
+    options = ClusterOptions(scheduler="tls://127.0.0.1:1", **files)
+    timeout = OSError("Timed out trying to connect to tls://127.0.0.1:1 after 6 s")
+    assert isinstance(_unanswered(options, timeout), RunError)
+    assert isinstance(_unanswered(options, OSError("in <TLS (closed) Scheduler>: Stream is closed")), InputError)

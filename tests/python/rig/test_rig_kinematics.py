@@ -71,6 +71,20 @@ def random_errors(seed: int) -> GeometryErrors:
 
 @settings(max_examples=30, deadline=None)
 @given(p=position, rpy=angles, seed=st.integers(0, 1000))
+def test_one_instant_has_the_pose_and_the_reading_that_it_has_among_others(p, rpy, seed):
+    geometry, sliders = true_geometry(MACHINE, random_errors(seed)), inverse(p, rotation_rpy(*rpy))
+    machine = Machine(geometry, PERFECT, ())
+    alone = machine.poses(sliders[None], None, Poses(HOME[None], np.eye(3)[None]))
+    guess = Poses(np.tile(HOME, (2, 1)), np.tile(np.eye(3), (2, 1, 1)))
+    both = machine.poses(np.tile(sliders, (2, 1)), None, guess)
+    np.testing.assert_allclose(alone.position_mm[0], both.position_mm[1], rtol=0.0, atol=1e-11)
+    np.testing.assert_allclose(alone.rotation[0], both.rotation[1], rtol=0.0, atol=1e-13)
+    readings = [machine.reading_mm(SETUP, None, poses)[-1] for poses in (alone, both)]
+    assert readings[0] == pytest.approx(readings[1], rel=0.0, abs=1e-11)
+
+
+@settings(max_examples=30, deadline=None)
+@given(p=position, rpy=angles, seed=st.integers(0, 1000))
 def test_with_errors_every_leg_has_its_length(p, rpy, seed):
     geometry, sliders = true_geometry(MACHINE, random_errors(seed)), inverse(p, rotation_rpy(*rpy))
     found_p, found_r = solved(random_errors(seed), sliders)
