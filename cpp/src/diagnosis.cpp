@@ -31,8 +31,8 @@ Eigen::VectorXd of_each_value(const Model& model, Number number) {
 }
 
 // Readings of the part on which a diagnosis is fitted coarse to fine: 73 per sweep of a plan of seven circles, two
-// directions, two feeds, so that those inside the play of a slider after its reversals count too. With half of them, the
-// last steps are a third more.
+// directions, two feeds, so that those inside the play of a slider after its reversals count too. Half of them save as much
+// as the further steps cost that some records then take over all readings.
 constexpr Eigen::Index kFewRows = 2048;
 // Readings per reading of the part from which the part is worth while: below, the steps that it saves cost little more.
 constexpr Eigen::Index kLeastStride = 4;
@@ -183,8 +183,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
   };
-  const LastSteps end =
-      take_last_steps([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kGradient); }, few, near, bound);
+  const LastSteps end = take_last_steps(of_all, few, near, bound);
   Eigen::VectorXd z = end.z;
   double cost = end.cost;
   out.iterations = end.steps;
