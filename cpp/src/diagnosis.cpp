@@ -37,6 +37,10 @@ constexpr Eigen::Index kFewRows = 2048;
 // Readings per reading of the part from which the part is worth while: below, the steps that it saves cost little more.
 constexpr Eigen::Index kLeastStride = 4;
 
+// Readings per reading of the part at most: its minimum is sqrt(values x stride) standard deviations away from that of all
+// readings, and from afar the last steps do not come to rest. 24 standard deviations at 37 values.
+constexpr Eigen::Index kMostStride = 16;
+
 double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
 
 /// Residuals and prior, compressed. With r the whitened readings' residuals and J their Jacobian, Ceres sees the n + p
@@ -247,7 +251,8 @@ void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd&
     out.machine = machine_identifiability(model, accumulator, 1, unknowns, options);
     return;
   }
-  FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm, kFewRows);
+  FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm,
+                  std::max(kFewRows, samples.size() / kMostStride));
   few.accumulator().start_from(accumulator, few.stride());
   out.machine = machine_identifiability(model, few.accumulator(), few.stride(), unknowns, options);
   const double prior = unknowns.scaled_start().squaredNorm();
