@@ -45,28 +45,34 @@ inline rssr::Loops<Lanes> solve_loops(const rssr::Joints<Lanes>& joints, const r
     }
     const rssr::LoopJacobian<Lanes> jacobian = rssr::loop_jacobian(circle, c, s, loops);
     determinant = jacobian.determinant;
-    Lanes step[3];
+    Lanes step[3], stretch[3], most = {};  // stretch: of cosine and sine by the turn, squared, beyond one
     rssr::cramer_step(loops, jacobian, step);
     for (int i = 0; i < 3; ++i) {
-      const Lanes t = step[i];
-      longest = magnitude(t) > longest ? magnitude(t) : longest;
-      rssr::turn_by(t, 1.0 / root((t * t + 1.0) * (c[i] * c[i] + s[i] * s[i])), c[i], s[i]);
+      longest = magnitude(step[i]) > longest ? magnitude(step[i]) : longest;
+      stretch[i] = (step[i] * step[i] + 1.0) * (c[i] * c[i] + s[i] * s[i]) - 1.0;
+      most = magnitude(stretch[i]) > most ? magnitude(stretch[i]) : most;
+    }
+    const bool is_near = !any_above(most, rssr::kNearOne);  // as from the angles of a fit's last pass
+    for (int i = 0; i < 3; ++i) {
+      const Lanes scale = is_near ? rssr::inverse_root_near_one(stretch[i]) : 1.0 / root(1.0 + stretch[i]);
+      rssr::turn_by(step[i], scale, c[i], s[i]);
     }
   }
 }
 
-inline void solve_lanes(const NominalGeometry& nominal, Block& block, Eigen::Index row, bool want_sensitivity) {
+inline void solve_lanes(const NominalGeometry& nominal, Block& block, Block::Angles& angles, Eigen::Index row,
+                        bool want_sensitivity) {
   const rssr::Joints<Lanes> joints = load_joints(nominal, block, row);
   const rssr::TriangleFrame<Lanes> frame = rssr::triangle_frame(joints.platform);
   Lanes c[3], s[3], residual_mm;
   for (int i = 0; i < 3; ++i) {
-    c[i] = load(&block.angles(row, i));
-    s[i] = load(&block.angles(row, 3 + i));
+    c[i] = load(&angles(row, i));
+    s[i] = load(&angles(row, 3 + i));
   }
   const rssr::Loops<Lanes> loops = solve_loops(joints, frame, c, s, residual_mm);
   for (int i = 0; i < 3; ++i) {
-    store(c[i], &block.angles(row, i));
-    store(s[i], &block.angles(row, 3 + i));
+    store(c[i], &angles(row, i));
+    store(s[i], &angles(row, 3 + i));
   }
   const rssr::PlacedPlatform<Lanes> platform = rssr::align(loops.q, frame, joints.platform[0]);
   store_pose(platform, block, row);
@@ -81,6 +87,18 @@ inline void solve_lanes(const NominalGeometry& nominal, Block& block, Eigen::Ind
     residual_mm += 0.0 * (forces.share[0] + n.x);
   }
   store(residual_mm, &block.residual_mm(row));
+}
+
+/// Let eight rows start where the two eights before them lead in a straight line; after a jump, from the last row.
+inline void start_from_before(Block::Angles& angles, Eigen::Index row) {
+  Lanes next[6], furthest = {};
+  for (int i = 0; i < 6 && row >= 2 * kLanes; ++i) {
+    const Lanes last = load(&angles(row - kLanes, i)), moved = last - load(&angles(row - 2 * kLanes, i));
+    next[i] = last + moved;
+    furthest = magnitude(moved) > furthest ? magnitude(moved) : furthest;
+  }
+  const bool is_smooth = row >= 2 * kLanes && !any_above(furthest, kLargestTurn);
+  for (int i = 0; i < 6; ++i) store(is_smooth ? next[i] : lanes_of(angles(row - 1, i)), &angles(row, i));
 }
 
 /// Interleave numbers of two rows of lanes as the masks say, and add.
@@ -124,13 +142,13 @@ inline void add_tile(const JacobianRows& a, Eigen::Index i, Eigen::Index j, doub
 }  // namespace
 
 HEXDBB_MULTIVERSION_WIDE
-void solve_block(const NominalGeometry& nominal, Block& block, Eigen::Index rows, Start start,
+void solve_block(const NominalGeometry& nominal, Block& block, Block::Angles& angles, Eigen::Index rows, Start start,
                  bool want_sensitivity) noexcept {
   for (Eigen::Index row = 0; row < rows; row += kLanes) {
     if (start == Start::kNeighbour && row > 0 && block.residual_mm(row - 1) <= kResidualTolerance_mm) {
-      for (int i = 0; i < 6; ++i) store(lanes_of(block.angles(row - 1, i)), &block.angles(row, i));
+      start_from_before(angles, row);
     }
-    solve_lanes(nominal, block, row, want_sensitivity);
+    solve_lanes(nominal, block, angles, row, want_sensitivity);
   }
 }
 

@@ -16,13 +16,13 @@ struct Block {
 
   template <int Columns>
   using Table = Eigen::Matrix<double, kRows, Columns>;
+  using Angles = Table<6>;  // cosines and sines of theta, delta, phi
 
   Table<kLegs> sliders_mm;
   Table<3> cup_mm;
   Table<3> ball_mm;
   Table<1> bar_length_mm;
   Table<port::kCount> ports;
-  Table<6> angles;  // cosines and sines of theta, delta, phi: start, then solution
 
   Table<12> pose;  // x, y, z, then the rotation row by row
   Table<1> reading_mm;
@@ -30,13 +30,13 @@ struct Block {
   Table<port::kCount> sensitivity;
 };
 
-/// The start of each eight rows: the angles in the block, or the last row of the eight before them.
+/// The start of each eight rows: the angles given, or the rows before them; of the first eight the angles given.
 enum class Start { kAngles, kNeighbour };
 
 /// Solve rows [0, rows) of a block, eight at a time; rows are rounded up to whole lanes, so the caller repeats its last
-/// row. The platform's joints are assumed shared: those of the first leg of each pair count. Rows whose residual is not
+/// row. `angles` are the start, then the solution. The platform's joints are assumed shared: those of the first leg of each pair count. Rows whose residual is not
 /// below the tolerance have no solution from their start.
-void solve_block(const NominalGeometry& nominal, Block& block, Eigen::Index rows, Start start,
+void solve_block(const NominalGeometry& nominal, Block& block, Block::Angles& angles, Eigen::Index rows, Start start,
                  bool want_sensitivity) noexcept;
 
 /// Solve the same where the legs of a pair have separate joints. Rows [0, rows) hold the solution of solve_block for

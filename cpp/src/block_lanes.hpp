@@ -43,10 +43,14 @@ inline Vec<Lanes> load_platform_joint(const NominalGeometry& nominal, const Bloc
 }
 
 inline Lanes magnitude(const Lanes& v) { return v < 0.0 ? -v : v; }
+
+/// Return whether a lane is above a limit; NaN is not.
 inline bool any_above(const Lanes& v, double limit) {
-  bool above = false;
-  for (int lane = 0; lane < kLanes; ++lane) above |= v[lane] > limit;
-  return above;
+  typedef long long Order __attribute__((vector_size(sizeof(Lanes))));
+  Lanes above = v > limit ? lanes_of(1.0) : Lanes{};  // numbers: GCC 12 takes masks of lanes apart
+  above += __builtin_shuffle(above, Order{4, 5, 6, 7, 0, 1, 2, 3});
+  above += __builtin_shuffle(above, Order{2, 3, 0, 1, 6, 7, 4, 5});
+  return above[0] + above[1] > 0.0;
 }
 
 /// Store the sensitivities; `share[k]` times `leg[k]` is the force in leg k, `n` the unit vector from cup to ball.

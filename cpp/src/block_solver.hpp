@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "affine_part.hpp"
 #include "block.hpp"
 #include "hexdbb/prediction.hpp"
 
@@ -12,7 +13,7 @@ namespace hexdbb {
 
 /// Angles of every sample, one block after another, as last solved.
 struct AngleMemory {
-  std::vector<Block::Table<6>> blocks;
+  std::vector<Block::Angles> blocks;
 };
 
 /// Throw std::invalid_argument where samples lack what an effect of a model needs.
@@ -43,22 +44,32 @@ class BlockSolver {
   /// which the first rows are written.
   void chain(const SampleBlock& rows, JacobianBlock jacobian) const;
 
+  /// The same for the terms that are not affine; those columns of `jacobian` alone are written.
+  void chain_others(const SampleBlock& rows, JacobianBlock jacobian) const;
+
+  const AffinePart& affine() const { return affine_; }
+
+  /// Return the first row without a solution of the block visited, or -1.
+  Eigen::Index first_failure() const { return first_failure_; }
+
  private:
-  const Effect& effect_of(std::size_t term) const {
-    return settled_[term] ? *settled_[term] : *model_.terms[term].effect;
-  }
   void solve(const SampleBlock& rows, bool want_sensitivity, bool fresh);
   void load(const SampleBlock& rows);
   void load_set_ups(const SampleBlock& rows);
-  Start start(const SampleBlock& rows, bool fresh);
-  void solve_row(const SampleBlock& rows, Eigen::Index row, bool want_sensitivity);
+  Block::Angles& angles_of(const SampleBlock& rows);
+  Start start(Block::Angles& angles, bool fresh);
+  void solve_row(const SampleBlock& rows, Eigen::Index row, Block::Angles& kept, bool want_sensitivity);
 
   const Model& model_;
   const Samples& samples_;
-  std::vector<EffectPtr> settled_;  // of each term; null where it is as in the model
+  AffinePart affine_;
+  bool has_fixed_joints_;   // the platform's joints are the same in all rows
+  int loaded_set_up_ = -1;  // that of all rows of the block; -1: unknown, or several
   AngleMemory* memory_;
   std::unique_ptr<Block> block_;
-  RssrAngles last_;  // of the sample before the block
+  Block::Angles own_angles_;         // of the block, where there is no memory
+  RssrAngles last_;                  // of the sample before the block
+  Eigen::Index first_failure_ = -1;  // of the block
 };
 
 /// Return the status of a row after solve: a residual below the tolerance is a solution, otherwise it holds the number

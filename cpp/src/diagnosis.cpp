@@ -31,11 +31,15 @@ Eigen::VectorXd of_each_value(const Model& model, Number number) {
 }
 
 // Readings of the part on which a diagnosis is fitted coarse to fine: 73 per sweep of a plan of seven circles, two
-// directions, two feeds, so that those inside the play of a slider after its reversals count too. With half of them, the
-// last steps are a third more.
+// directions, two feeds, so that those inside the play of a slider after its reversals count too. Half of them save as much
+// as the further steps cost that some records then take over all readings.
 constexpr Eigen::Index kFewRows = 2048;
 // Readings per reading of the part from which the part is worth while: below, the steps that it saves cost little more.
 constexpr Eigen::Index kLeastStride = 4;
+
+// Readings per reading of the part at most: its minimum is sqrt(values x stride) standard deviations away from that of all
+// readings, and from afar the last steps do not come to rest. 24 standard deviations at 37 values.
+constexpr Eigen::Index kMostStride = 16;
 
 double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
 
@@ -183,8 +187,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
   };
-  const LastSteps end =
-      take_last_steps([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kGradient); }, few, near, bound);
+  const LastSteps end = take_last_steps(of_all, few, near, bound);
   Eigen::VectorXd z = end.z;
   double cost = end.cost;
   out.iterations = end.steps;
@@ -248,7 +251,8 @@ void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd&
     out.machine = machine_identifiability(model, accumulator, 1, unknowns, options);
     return;
   }
-  FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm, kFewRows);
+  FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm,
+                  std::max(kFewRows, samples.size() / kMostStride));
   few.accumulator().start_from(accumulator, few.stride());
   out.machine = machine_identifiability(model, few.accumulator(), few.stride(), unknowns, options);
   const double prior = unknowns.scaled_start().squaredNorm();

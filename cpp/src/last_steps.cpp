@@ -6,9 +6,9 @@ namespace hexdbb {
 
 namespace {
 
-// Of chi-square: a step that is predicted to lower it by less is the last. It is then 3e-4 standard deviations long over
-// all values together, and what remains after it a third of that at most.
-constexpr double kLastFall = 1e-7;
+// Of chi-square: where a step is predicted to lower it by less, none is taken. The minimum is then 1e-4 standard
+// deviations away over all values together.
+constexpr double kLastFall = 1e-8;
 // Of chi-square: below, a step is a tenth of a standard deviation long, and convergence is linear.
 constexpr double kLinearFall = 1e-2;
 constexpr double kMostMixing = 1.0;  // |g|: a distance that halves with each step has 1, a slower one is not linear
@@ -32,25 +32,42 @@ Eigen::VectorXd mixed(const BoundedStep& step, const Point& last, const Point& n
   return ((now.z + out).cwiseAbs().array() > bound.array()).any() ? step.step() : out;
 }
 
+/// Bend the first step along the geodesic (valley.hpp): it leads over several standard deviations, the others over small
+/// parts of one.
+Eigen::VectorXd bent(const BoundedStep& step, FewReadings& few, const Eigen::VectorXd& z,
+                     const Eigen::VectorXd& bound) {
+  const Eigen::VectorXd acceleration = -step.solve(few.curvature(z, step.step()));
+  const Eigen::VectorXd out = step.step() + 0.5 * acceleration;
+  const bool is_valid = acceleration.norm() < step.step().norm();
+  return is_valid && ((z + out).cwiseAbs().array() <= bound.array()).all() ? out : step.step();
+}
+
+/// Return whether the next point's step will bring less than the last fall, where falls go on as between the last two.
+bool is_end_near(const Point& last, const Point& now) {
+  return std::isfinite(last.fall) && now.fall * now.fall < kLastFall * last.fall;
+}
+
 }  // namespace
 
-LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&)>& downhill_at, FewReadings& few,
+LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& all_at, FewReadings& few,
                           Eigen::VectorXd z, const Eigen::VectorXd& bound) {
   LastSteps out;
   Point last;
+  Posterior part;
+  bool is_near_end = false;
   for (; out.steps < kMost; ++out.steps) {
-    const Posterior all = downhill_at(z), part = few.at(z);
+    // J'J of all readings is only wanted at the end, where it is that of the covariance.
+    const Posterior all = all_at(z, is_near_end ? Sums::kAll : Sums::kGradient);
+    if (!(last.fall < kLinearFall)) part = few.at(z);
     if (!all.is_reachable || !part.is_reachable || all.cost > out.cost * (1.0 + kRounding)) break;
     const BoundedStep step(part.information, all.downhill, z, bound);
     Point now{z, all.downhill, step.predicted_fall()};
     out.cost = all.cost;
     out.z = z;
     out.is_at_rest = now.fall < kLastFall;
-    z += out.is_at_rest ? step.step() : mixed(step, last, now, bound);
-    if (out.is_at_rest) {
-      out.z = z;
-      break;
-    }
+    if (out.is_at_rest) break;
+    is_near_end = is_end_near(last, now);
+    z += std::isinf(last.fall) ? bent(step, few, z, bound) : mixed(step, last, now, bound);
     last = std::move(now);
   }
   return out;

@@ -4,6 +4,8 @@
 // products that are smooth along a circle, so that evenly spaced readings yield it to some per cent. A step therefore
 // takes the gradient from one pass over all readings and J'J from one over the part:
 //   z += (J'J of the part / noise^2 + 1)^-1 downhill.
+// The first step leads over some fifteen standard deviations and is bent along the geodesic (valley.hpp), by readings of
+// the part: what it leaves is then ten times shorter. The others are small parts of one.
 // Measured on six records of 20,000 readings with 45 values: each step divides the distance by three to eight, the same
 // with J'J of all. What limits both is what J'J leaves out of the second derivative of the cost, residuals times the
 // readings' second derivatives, along one or two directions that the readings determine weakly. Convergence is linear
@@ -20,13 +22,14 @@ namespace hexdbb {
 
 struct LastSteps {
   Eigen::VectorXd z;
-  double cost = std::numeric_limits<double>::infinity();  // where the last step began
+  double cost = std::numeric_limits<double>::infinity();
   int steps = 0;
   bool is_at_rest = false;  // false also where a step made all readings' cost worse
 };
 
-/// Step to the minimum of all readings. `downhill_at` returns the posterior of all readings without information.
-LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&)>& downhill_at, FewReadings& few,
+/// Step to the minimum of all readings. `all_at` returns their posterior; the last one is mostly asked with its
+/// information, so that an accumulator has it.
+LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& all_at, FewReadings& few,
                           Eigen::VectorXd z, const Eigen::VectorXd& bound);
 
 }  // namespace hexdbb

@@ -24,9 +24,9 @@ Eigen::Index threads_for(Eigen::Index blocks) {
 
 Eigen::Index blocks_of(const Samples& samples) { return (samples.size() + Block::kRows - 1) / Block::kRows; }
 
-NormalEquations zero(Eigen::Index columns) {
+NormalEquations zero(Eigen::Index of_information, Eigen::Index columns) {
   NormalEquations out;
-  out.information.setZero(columns, columns);
+  out.information.setZero(of_information, of_information);
   out.gradient.setZero(columns);
   return out;
 }
@@ -58,11 +58,12 @@ void limit_threads(int most) {
 Accumulator::Accumulator(const Samples& samples, const Eigen::VectorXd& measured_mm, const std::vector<int>& columns,
                          double robust_mm)
     : samples_(samples), measured_mm_(measured_mm), columns_(columns), robust_mm_(robust_mm) {
-  memory_.blocks.assign(blocks_of(samples), Block::Table<6>::Zero());
+  memory_.blocks.assign(blocks_of(samples), Block::Angles::Zero());
   residual_mm_.setZero(samples.size());
 }
 
 const NormalEquations& Accumulator::at(const Model& model, Sums sums) {
+  if (jacobian_.rows() > 0) sums = Sums::kAll;  // a gradient alone needs no Jacobian
   const Eigen::VectorXd values = model.values();
   if (values.size() != last_values_.size() || values != last_values_ || sums > last_sums_) {
     last_ = sum(model, sums);
@@ -107,7 +108,9 @@ NormalEquations Accumulator::sum(const Model& model, Sums sums) {
   check(model);
   const Eigen::Index blocks = blocks_of(samples_);
   const Eigen::Index parts = threads_for(blocks);
-  std::vector<NormalEquations> of_parts(parts, zero(width(model)));
+  const bool has_all = sums != Sums::kAll || takes_all(model);  // a gradient is summed for all values
+  const Eigen::Index width = padded(has_all ? model.size() : static_cast<Eigen::Index>(columns_.size()));
+  std::vector<NormalEquations> of_parts(parts, zero(sums == Sums::kAll ? width : 0, width));
   const auto run = [&](Eigen::Index part) {
     const Eigen::Index first = blocks * part / parts * Block::kRows;
     const Eigen::Index last = std::min(blocks * (part + 1) / parts * Block::kRows, samples_.size());
@@ -118,7 +121,7 @@ NormalEquations Accumulator::sum(const Model& model, Sums sums) {
   run(0);
   for (std::thread& each : threads) each.join();
 
-  NormalEquations out = zero(width(model));
+  NormalEquations out = zero(sums == Sums::kAll ? width : 0, width);
   for (const NormalEquations& part : of_parts) {
     out.information += part.information;
     out.gradient += part.gradient;
@@ -129,10 +132,11 @@ NormalEquations Accumulator::sum(const Model& model, Sums sums) {
     }
   }
   std::vector<int> places = columns_;  // of what counts, among the sums
-  if (!takes_all(model)) std::iota(places.begin(), places.end(), 0);
-  const Eigen::MatrixXd whole = out.information.selfadjointView<Eigen::Lower>();
-  out.information.resize(0, 0);
-  if (sums == Sums::kAll) out.information = whole(places, places);
+  if (!has_all) std::iota(places.begin(), places.end(), 0);
+  if (sums == Sums::kAll) {
+    const Eigen::MatrixXd whole = out.information.selfadjointView<Eigen::Lower>();
+    out.information = whole(places, places);
+  }
   out.gradient = sums == Sums::kResidual ? Eigen::VectorXd() : out.gradient(places).eval();
   return out;
 }
@@ -141,8 +145,8 @@ NormalEquations Accumulator::sum(const Model& model, Sums sums) {
 /// rows before its lanes are, which takes as long as 64 rows.
 class Accumulator::Gathered {
  public:
-  Gathered(Eigen::Index columns, Sums sums, NormalEquations& out)
-      : sums_(sums), out_(out), jacobian_(Eigen::MatrixXd::Zero(kRows, columns)), residual_(kRows) {}
+  Gathered(Eigen::Index columns, NormalEquations& out)
+      : out_(out), jacobian_(Eigen::MatrixXd::Zero(kRows, columns)), residual_(kRows) {}
 
   auto jacobian() { return jacobian_.middleRows(filled_, Block::kRows); }
   auto residual() { return residual_.segment(filled_, Block::kRows); }
@@ -155,7 +159,7 @@ class Accumulator::Gathered {
 
   void flush() {
     const JacobianRows rows{jacobian_.data(), filled_, kRows, jacobian_.cols()};
-    if (sums_ == Sums::kAll) add_information(rows, out_.information.data());
+    add_information(rows, out_.information.data());
     add_gradient(rows, residual_.data(), out_.gradient.data());
     filled_ = 0;
   }
@@ -163,11 +167,47 @@ class Accumulator::Gathered {
  private:
   static constexpr Eigen::Index kRows = 4 * Block::kRows;  // with 48 columns 100 kB, which a core's second cache holds
 
-  Sums sums_;
   NormalEquations& out_;
   Eigen::MatrixXd jacobian_;
   Eigen::VectorXd residual_;
   Eigen::Index filled_ = 0;
+};
+
+/// J'r alone, for all values of a model: that of affine effects from sums at the ports, without any row of the Jacobian.
+class Accumulator::GradientSums {
+ public:
+  GradientSums(const Model& model, const BlockSolver& solver, NormalEquations& out)
+      : model_(model), solver_(solver), out_(out) {
+    for (std::size_t term = 0; term < model.terms.size(); ++term) has_others_ |= !solver.affine().has(term);
+    if (has_others_) others_.setZero(Block::kRows, padded(model.size()));
+  }
+
+  /// `weighted`: residuals times the square of their weight, zeros beyond the block's rows.
+  void add_block(const SampleBlock& rows, const Block& block, const Eigen::VectorXd& weighted) {
+    solver_.affine().add(block, rows.count, weighted.data(), ports_);
+    if (!has_others_) return;
+    solver_.chain_others(rows, others_.leftCols(model_.size()));
+    others_.bottomRows(Block::kRows - rows.count).setZero();
+    add_gradient({others_.data(), Block::kRows, Block::kRows, others_.cols()}, weighted.data(), out_.gradient.data());
+  }
+
+  void flush() {
+    Eigen::Index column = 0;
+    for (std::size_t term = 0; term < model_.terms.size(); ++term) {
+      const Eigen::Index size = model_.terms[term].values.size();
+      const AffinePart& affine = solver_.affine();
+      if (affine.has(term)) out_.gradient.segment(column, size) += affine.gradient(term, size, ports_);
+      column += size;
+    }
+  }
+
+ private:
+  const Model& model_;
+  const BlockSolver& solver_;
+  NormalEquations& out_;
+  PortGradient ports_;
+  bool has_others_ = false;
+  Eigen::MatrixXd others_;  // columns of the Jacobian of the effects that are not affine; zeros for the affine ones
 };
 
 /// Keep the Jacobian of a block, columns those of all values, where that is asked for.
@@ -181,15 +221,16 @@ void Accumulator::keep(const SampleBlock& rows, const Eigen::Ref<const Eigen::Ma
 
 void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index last, Sums sums, NormalEquations& out) {
   const bool derives = sums >= Sums::kGradient;
-  Gathered gathered(width(model), sums, out);
-  Eigen::MatrixXd all;  // columns of the Jacobian, where some are not summed
-  if (!takes_all(model)) all.resize(Block::kRows, model.size());
-  Eigen::VectorXd residual(Block::kRows), weight(Block::kRows);
+  Eigen::VectorXd residual(Block::kRows), weight = Eigen::VectorXd::Ones(Block::kRows);
   BlockSolver solver(model, samples_, &memory_);
+  Gathered gathered(sums == Sums::kAll ? out.information.cols() : 0, out);
+  GradientSums gradient(model, solver, out);
+  Eigen::MatrixXd all;  // columns of the Jacobian, where some are not summed
+  if (sums == Sums::kAll && !takes_all(model)) all.resize(Block::kRows, model.size());
   solver.each_block(first, last, derives, [&](const SampleBlock& rows, const Block& block) {
-    for (Eigen::Index row = 0; row < rows.count && out.failure < 0; ++row) {
-      out.failure_status = status_of(block, row);
-      if (out.failure_status != Status::kOk) out.failure = rows.first + row;
+    if (out.failure < 0 && solver.first_failure() >= 0) {
+      out.failure = rows.first + solver.first_failure();
+      out.failure_status = status_of(block, solver.first_failure());
     }
     if (out.failure >= 0) return;
     residual.head(rows.count) = measured_mm_.segment(rows.first, rows.count) - block.reading_mm.head(rows.count);
@@ -200,7 +241,8 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
     } else {
       out.squared += residual.squaredNorm();
     }
-    if (!derives) return;
+    if (sums == Sums::kGradient) gradient.add_block(rows, block, weight.cwiseProduct(residual));
+    if (sums != Sums::kAll) return;
     auto counted = gathered.jacobian();  // columns that are only there for whole tiles stay zero
     if (takes_all(model)) {
       solver.chain(rows, counted);
@@ -217,16 +259,13 @@ void Accumulator::chunk(const Model& model, Eigen::Index first, Eigen::Index las
     gathered.residual() = residual;
     gathered.add_block();
   });
-  if (derives) gathered.flush();
+  if (sums == Sums::kAll) gathered.flush();
+  if (sums == Sums::kGradient) gradient.flush();
 }
 
 /// Return whether all values of a model are summed and those that count chosen from the sums: where they fill as many
 /// tiles, that spares a copy of the Jacobian.
 bool Accumulator::takes_all(const Model& model) const { return padded(model.size()) == padded(columns_.size()); }
-
-Eigen::Index Accumulator::width(const Model& model) const {
-  return padded(takes_all(model) ? model.size() : columns_.size());
-}
 
 NormalEquations normal_equations(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm) {
   samples.validate();

@@ -122,7 +122,9 @@ inline void cramer_step(const Loops<T>& loops, const LoopJacobian<T>& jacobian, 
   }
 }
 
-/// Compute 1 / sqrt(1 + e) by its series: error below 2e-16 for |e| < 4e-4, without a root or a division.
+constexpr double kNearOne = 4e-4;  // |e| below which the next function's error is below 2e-16
+
+/// Compute 1 / sqrt(1 + e) by its series, without a root or a division.
 template <class T>
 inline T inverse_root_near_one(const T& e) {
   return 1.0 - e * (0.5 - e * (0.375 - e * (0.3125 - e * 0.2734375)));
@@ -138,7 +140,7 @@ inline void turn_by(const T& t, const T& scale, T& c, T& s) {
 
 inline void turn(double t, double& c, double& s) {
   const double stretch = (t * t + 1.0) * (c * c + s * s) - 1.0;
-  turn_by(t, std::abs(stretch) < 4e-4 ? inverse_root_near_one(stretch) : 1.0 / std::sqrt(1.0 + stretch), c, s);
+  turn_by(t, std::abs(stretch) < kNearOne ? inverse_root_near_one(stretch) : 1.0 / std::sqrt(1.0 + stretch), c, s);
 }
 
 }  // namespace hexdbb::rssr

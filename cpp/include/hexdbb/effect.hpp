@@ -6,9 +6,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hexdbb/affine_push.hpp"
 #include "hexdbb/samples.hpp"
 
 namespace hexdbb {
@@ -78,9 +80,9 @@ class Effect {
   virtual void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
                      JacobianBlock jacobian) const = 0;
 
-  /// Return the effect for many blocks at the same values, with what the values alone determine computed once; null
-  /// where that is nothing worth while.
-  virtual EffectPtr settled(Values) const { return nullptr; }
+  /// Return the pushes at these values where they are affine in the sliders' coordinates for all samples; nothing where
+  /// they are not. push() and chain() then are what follows from it.
+  virtual std::optional<AffinePush> affine(Values) const { return std::nullopt; }
 
  private:
   EffectInfo info_;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "columns.hpp"
-#include "hexdbb/effect.hpp"
+#include "affine_effect.hpp"
 
 namespace hexdbb::effects {
 
@@ -17,29 +17,20 @@ struct Link {
   double factor;
 };
 
-class ConstantEffect : public Effect {
+class ConstantEffect : public AffineEffect {
  public:
-  ConstantEffect(EffectInfo info, std::vector<Link> links) : Effect(std::move(info)), links_(std::move(links)) {
+  ConstantEffect(EffectInfo info, std::vector<Link> links) : AffineEffect(std::move(info)), links_(std::move(links)) {
     std::stable_sort(links_.begin(), links_.end(),
                      [](const Link& one, const Link& other) { return one.value < other.value; });
   }
 
-  void push(const SampleBlock&, Values values, PortBlock ports) const override {
+  std::optional<AffinePush> affine(Values values) const override {
+    AffinePush out;
     for (const Link& link : links_) {
-      const double pushed = link.factor * values[link.value];
-      if (pushed != 0.0) ports.col(link.port).array() += pushed;
+      out.constant.value[link.port] += link.factor * values[link.value];
+      out.rates.push_back({link.value, link.port, link.factor});
     }
-  }
-
-  void chain(const SampleBlock&, Values, ConstPortBlock sensitivity, JacobianBlock jacobian) const override {
-    auto link = links_.begin();
-    for (Eigen::Index value = 0; value < jacobian.cols(); ++value) {
-      auto add = &set_scaled;
-      if (link == links_.end() || link->value != value) jacobian.col(value).setZero();
-      for (; link != links_.end() && link->value == value; ++link, add = &add_scaled) {
-        add(jacobian.rows(), link->factor, sensitivity.col(link->port).data(), jacobian.col(value).data());
-      }
-    }
+    return out;
   }
 
  private:

@@ -7,12 +7,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <utility>
 
-#include "columns.hpp"
+#include "affine_effect.hpp"
 #include "elements.hpp"
 #include "geometric_sizes.hpp"
-#include "hexdbb/effect.hpp"
 
 namespace hexdbb::effects {
 
@@ -21,10 +21,10 @@ struct Hinge {
   Vector3 centre;  // base frame
 };
 
-class GuidewayRotation : public Effect {
+class GuidewayRotation : public AffineEffect {
  public:
   GuidewayRotation(EffectInfo info, const Machine& machine, const std::vector<Hinge>& hinges)
-      : Effect(std::move(info)) {
+      : AffineEffect(std::move(info)) {
     for (int i = 0; i < kGuideways; ++i) {
       Lever lever;
       lever.u0 = hinges[i].axis.cross(guideway_vertex(machine, i) - hinges[i].centre);
@@ -35,41 +35,30 @@ class GuidewayRotation : public Effect {
     }
   }
 
-  void push(const SampleBlock& block, Values values, PortBlock ports) const override {
-    for (int k = 0; k < kLegs; ++k) {
-      const Lever& lever = levers_[guideway_of(k)];
-      const double angle = values[guideway_of(k)];
-      if (angle == 0.0) continue;
-      const Affine move = lever.at(std::sin(angle), 1.0 - std::cos(angle));
-      for (int axis = 0; axis < 3; ++axis) {
-        add_affine(block.count, move.constant[axis], move.slope[axis], block.slider_mm(k).data(),
-                   ports.col(port::kSliderJoint + 3 * k + axis).data());
+  std::optional<AffinePush> affine(Values values) const override {
+    AffinePush out;
+    for (int i = 0; i < kGuideways; ++i) {
+      const double angle = values[i], cosine = std::cos(angle), sine = std::sin(angle);
+      const Move move = levers_[i].at(sine, 1.0 - cosine), rate = levers_[i].at(cosine, sine);
+      for (const int k : {2 * i, 2 * i + 1}) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const int port = port::kSliderJoint + 3 * k + axis;
+          out.constant.value[port] = move.constant[axis];
+          out.slope.value[port] = move.slope[axis];
+          out.rates.push_back({i, port, rate.constant[axis], rate.slope[axis]});
+        }
       }
     }
-  }
-
-  void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
-             JacobianBlock jacobian) const override {
-    jacobian.setZero();
-    for (int k = 0; k < kLegs; ++k) {
-      const Lever& lever = levers_[guideway_of(k)];
-      const double angle = values[guideway_of(k)];
-      const Affine rate = lever.at(std::cos(angle), std::sin(angle));
-      const double constant[3] = {rate.constant[0], rate.constant[1], rate.constant[2]};
-      const double slope[3] = {rate.slope[0], rate.slope[1], rate.slope[2]};
-      add_affine_times(block.count, constant, slope, block.slider_mm(k).data(),
-                       sensitivity.col(port::kSliderJoint + 3 * k).data(), sensitivity.outerStride(),
-                       jacobian.col(guideway_of(k)).data());
-    }
+    return out;
   }
 
  private:
-  struct Affine {
+  struct Move {
     Vector3 constant, slope;
   };
   struct Lever {
     Vector3 u0, u1, w0, w1;
-    Affine at(double u_factor, double w_factor) const {
+    Move at(double u_factor, double w_factor) const {
       return {u_factor * u0 + w_factor * w0, u_factor * u1 + w_factor * w1};
     }
   };

@@ -1,6 +1,7 @@
 // A position (x, y, z), of the cup or the ball, that differs between set-ups: one for each fixing of the tool cup.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -44,6 +45,17 @@ class PlacePerSetUp : public Effect {
             sensitivity.col(first_port_ + axis).segment(first, count);
       }
     });
+  }
+
+  /// With one set-up for all samples its place is as constant as the machine's errors.
+  std::optional<AffinePush> affine(Values values) const override {
+    if (info().elements.size() != 1) return std::nullopt;
+    AffinePush out;
+    for (int axis = 0; axis < 3; ++axis) {
+      out.constant.value[first_port_ + axis] = values[axis];
+      out.rates.push_back({axis, first_port_ + axis, 1.0});
+    }
+    return out;
   }
 
  private:

@@ -4,9 +4,10 @@
 // identify it. It is fixed as the nearest to the nominal one to first order: the centroid stays, and the joints'
 // moments about it vanish. Exact in the side lengths, by Newton on the six in-plane coordinates.
 #include <Eigen/LU>
+#include <optional>
 #include <utility>
 
-#include "block.hpp"
+#include "affine_effect.hpp"
 #include "catalogue.hpp"
 #include "geometric_sizes.hpp"
 
@@ -14,57 +15,26 @@ namespace hexdbb::effects {
 
 namespace {
 
-/// The joints' displacements and their rates of change with the sides at given values.
-class SettledSides : public Effect {
+class PlatformSides : public AffineEffect {
  public:
-  using Rate = Eigen::Matrix<double, 6, 3>;
-
-  SettledSides(EffectInfo info, const Vector6& move, const Rate& rate)
-      : Effect(std::move(info)), move_(move), rate_(rate) {}
-
-  void push(const SampleBlock&, Values, PortBlock ports) const override {
-    for (int k = 0; k < kLegs; ++k) {
-      for (int axis = 0; axis < 2; ++axis) {
-        ports.col(port::kPlatformJoint + 3 * k + axis).array() += move_[2 * guideway_of(k) + axis];
-      }
-    }
-  }
-
-  void chain(const SampleBlock&, Values, ConstPortBlock sensitivity, JacobianBlock jacobian) const override {
-    Eigen::Matrix<double, Eigen::Dynamic, 6, 0, Block::kRows, 6> joint(sensitivity.rows(), 6);  // x, y of each
-    for (int i = 0; i < kGuideways; ++i) {
-      joint.middleCols<2>(2 * i) = sensitivity.middleCols<2>(port::kPlatformJoint + 6 * i) +
-                                   sensitivity.middleCols<2>(port::kPlatformJoint + 6 * i + 3);
-    }
-    jacobian = joint.lazyProduct(rate_);
-  }
-
- private:
-  Vector6 move_;  // x, y of each joint
-  Rate rate_;
-};
-
-class PlatformSides : public Effect {
- public:
-  PlatformSides(EffectInfo info, const Machine& machine) : Effect(std::move(info)) {
+  PlatformSides(EffectInfo info, const Machine& machine) : AffineEffect(std::move(info)) {
     for (int i = 0; i < 3; ++i) nominal_.segment<2>(2 * i) = platform_joint(machine, i).head<2>();
   }
 
-  void push(const SampleBlock& block, Values values, PortBlock ports) const override {
-    settled(values)->push(block, values, ports);
-  }
-
-  void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
-             JacobianBlock jacobian) const override {
-    settled(values)->chain(block, values, sensitivity, jacobian);
-  }
-
-  EffectPtr settled(Values values) const override {
-    const Vector6 at = joints(values);
-    Eigen::Matrix<double, 6, 3> rate = Eigen::Matrix<double, 6, 3>::Zero();
-    for (int i = 0; i < 3; ++i) rate(i, i) = 1.0;
-    rate = constraints(at, values).gradient.inverse() * rate.eval();
-    return std::make_shared<SettledSides>(info(), at - nominal_, rate);
+  std::optional<AffinePush> affine(Values values) const override {
+    const Vector6 at = joints(values), move = at - nominal_;
+    const Eigen::Matrix<double, 6, 3> rate = constraints(at, values).gradient.inverse().leftCols<3>();
+    AffinePush out;
+    for (int value = 0; value < 3; ++value) {
+      for (int k = 0; k < kLegs; ++k) {
+        for (int axis = 0; axis < 2; ++axis) {
+          const int port = port::kPlatformJoint + 3 * k + axis, row = 2 * guideway_of(k) + axis;
+          out.constant.value[port] = move[row];
+          out.rates.push_back({value, port, rate(row, value)});
+        }
+      }
+    }
+    return out;
   }
 
  private:
