@@ -1,7 +1,7 @@
 """Service data (SDO): read and write objects of a node; every written value is read back.
 
-`canopen` carries the transfers. Two of its defaults are replaced: it waits 0.3 s and tries once, and its setters return
-normally if a device did not accept a value.
+`canopen` carries the transfers. Three of its ways are replaced: it waits 0.3 s and tries once, its setters return
+normally if a device did not accept a value, and an answer that comes late counts as that to the next request.
 Source: CiA 301, SDO protocol and abort codes; CiA 306, EDS files.
 """
 
@@ -17,6 +17,7 @@ from canopen.sdo.exceptions import SdoAbortedError, SdoCommunicationError
 
 from hexdbb.capture.eds.file import read_eds
 from hexdbb.capture.frames import SDO_ANSWER_BASE
+from hexdbb.capture.late_answers import PromptClient
 from hexdbb.capture.link import Link
 from hexdbb.capture.transport import one_line
 from hexdbb.errors import RunError
@@ -65,7 +66,7 @@ class RemoteDevice:
         self.eds = read_eds(eds, node_id)
         dictionary = self.eds.dictionary()
         # Not `canopen.RemoteNode`: it also makes PDOs of the EDS, and raises for one that describes them in part.
-        self._sdo = canopen.sdo.SdoClient(SDO_REQUEST_BASE + node_id, SDO_ANSWER_BASE + node_id, dictionary)
+        self._sdo = PromptClient(SDO_REQUEST_BASE + node_id, SDO_ANSWER_BASE + node_id, dictionary)
         self._sdo.RESPONSE_TIMEOUT, self._sdo.MAX_RETRIES = SDO_TIMEOUT_S, SDO_TRIES
         self._sdo.network = network
         network.subscribe(SDO_ANSWER_BASE + node_id, self._sdo.on_response)
