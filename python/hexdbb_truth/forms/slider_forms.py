@@ -138,7 +138,8 @@ def _spike_two_decays(draw: Draw, exact: Exact) -> Values:
 
 def _turning(history: History, k: int) -> Array:
     """Return the acceleration of a drive at each of its reversals."""
-    return np.abs(history.acceleration_mm_s2[history.pieces(k).begin, k])
+    size: Array = np.abs(history.acceleration_mm_s2[history.pieces(k).begin, k])
+    return size
 
 
 def _spike_by_speed(draw: Draw, exact: Exact) -> Values:
