@@ -25,8 +25,9 @@ DETECTION_RATIO = 3.0
 """RMS of the unexplained signature over the noise from which an effect counts as detectable: three standard deviations,
 so that it is visible in single readings and not only in their average."""
 ROUNDING_SHARE = 1e-6
-"""Unexplained share of an effect's largest signature below which it counts as zero: what projection by QR leaves of
-an exactly redundant column in double precision, with a margin."""
+"""Unexplained share of an effect's largest signature, or of the noise where that is larger, below which it counts as
+zero: what projection by QR leaves of an exactly redundant column in double precision, with a margin. A leg that does not
+warm has a signature of rounding errors alone, all of it its own."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ class Detectable:
     unit: str
     """Unit of files and JSON."""
     kept: float
-    """Largest unexplained share of a signature, 0 to 1."""
+    """Largest unexplained share of a signature, 0 to 1; 0 where no reading shows the effect."""
 
     def to_json(self) -> dict[str, Any]:
         """Return the entry of `hexdbb plan check --json`."""
@@ -75,7 +76,8 @@ def _detectable(effect: str, sensitivity: Sensitivity, noise_mm: float) -> Detec
     parameters, prior = sensitivity.where(own), sensitivity.prior_sigma[own]
     with np.errstate(divide="ignore"):
         needed = DETECTION_RATIO * noise_mm / (left / np.sqrt(sensitivity.readings) / prior)
-    seen = left > ROUNDING_SHARE * whole.max()
+    noise = noise_mm * np.sqrt(sensitivity.readings)
+    seen = left > ROUNDING_SHARE * max(float(whole.max()), float(noise))
     # No machine has a value beyond its limit: an effect that would need it is not detectable with this plan.
     visible = seen & (needed <= [each.limit for each in parameters])
     kept = float((left[seen] / whole[seen]).max(initial=0.0))
