@@ -143,7 +143,7 @@ class RecordCurves:
 
     def machine_curve(self, set_up: Sequence[Group]) -> Floats:
         """Return what is measured less what the set-up does on a nominal machine, centred over the few samples."""
-        alone = self.model.start
+        alone = self.model.start.copy()
         for group in set_up:
             alone[group.columns] = self.model.values[group.columns]
         by_set_up_mm = predict(self.few_samples, self.model.with_values(alone)).reading_mm
