@@ -19,6 +19,9 @@ Mask = NDArray[np.bool_]
 NEIGHBOURS = 3
 """Readings to each side whose median is expected: a step between two of them stays a step, and three readings off
 together are the machine's."""
+DENSE_RAD = np.radians(6.0)
+"""Angle between readings up to which neighbours say what to expect: a contour of eight harmonics bends within 45
+degrees, and three neighbours to each side span 36 then."""
 ALONE = 6.0
 """Standard deviations from that median beyond which a reading is off: one in 10^8 of normal noise."""
 MEDIAN_TO_SIGMA = 1.4826
@@ -56,7 +59,7 @@ def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     off = np.zeros(len(residual_mm))
     alone = np.zeros(len(residual_mm), dtype=np.bool_)
     for rows in samples.sweeps():
-        if len(rows) > 2 * NEIGHBOURS:
+        if len(rows) > 2 * NEIGHBOURS and _is_dense(samples["angle_rad"][rows]):
             off[rows], usual_mm = _off_neighbours(residual_mm[rows], noise_mm)
             doubtful = np.flatnonzero(np.abs(off[rows]) > AGAIN)
             apart_mm = residual_mm[rows[doubtful]] - _medians(residual_mm[rows], doubtful)
@@ -88,6 +91,10 @@ def glitches_sentence(samples: Samples, residual_mm: Floats, found: Mask) -> str
         f"{stands} alone, up to {far_um:.3g} µm off ({100.0 * count / len(samples):.2g} % of all):"
         " glitches of the gauge or its line, by which the model is not judged"
     )
+
+
+def _is_dense(angle_rad: Floats) -> bool:
+    return bool(np.median(np.abs(_wrapped(np.diff(angle_rad)))) <= DENSE_RAD)
 
 
 def _off_neighbours(residual_mm: Floats, noise_mm: float) -> tuple[Floats, float]:

@@ -26,8 +26,8 @@ DETECTION_RATIO = 3.0
 so that it is visible in single readings and not only in their average."""
 ROUNDING_SHARE = 1e-6
 """Unexplained share of an effect's largest signature, or of the noise where that is larger, below which it counts as
-zero: what projection by QR leaves of an exactly redundant column in double precision, with a margin. A leg that does not
-warm has a signature of rounding errors alone, all of it its own."""
+zero: what projection by QR leaves of an exactly redundant column in double precision, with a margin. A leg that does
+not warm has a signature of rounding errors alone, all of it its own."""
 
 
 @dataclass(frozen=True)
