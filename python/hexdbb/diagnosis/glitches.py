@@ -35,6 +35,9 @@ SAME_PLACE_RAD = np.radians(1.0)
 as far as neighbours are apart, but for spikes at reversals, which are shorter than that."""
 REVERSAL_S = 0.2
 """Time about a drive's reversal in which it may cross its play, or jump, from one reading to the next."""
+JUMP = 1.5
+"""Distance from the median over the jump of the prediction at a reversal up to which a reading was taken meanwhile: it
+lies between where it was and where it will be, but for noise, and what the median takes of either."""
 HOPELESS = 0.1
 """Part of the readings from which on none is looked at twice."""
 MOST = 0.02
@@ -67,7 +70,7 @@ def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     if alone.mean() > HOPELESS:
         return np.zeros_like(alone)
     for row in np.flatnonzero(alone):
-        alone[row] = not _is_of_machine(samples, off, row)
+        alone[row] = not (_is_of_machine(samples, off, row) or _is_late_jump(samples, residual_mm, row))
     return alone if alone.mean() < MOST else np.zeros_like(alone)
 
 
@@ -102,10 +105,16 @@ def _off_neighbours(residual_mm: Floats, noise_mm: float) -> tuple[Floats, float
 
     The second value is the standard deviation of one reading, as the sweep shows it: the noise at least.
     """
-    apart_mm = np.zeros_like(residual_mm)
-    apart_mm[1:-1] = residual_mm[1:-1] - 0.5 * (residual_mm[:-2] + residual_mm[2:])
+    apart_mm = _from_middle(residual_mm)
     usual_mm = max(noise_mm, MEDIAN_TO_SIGMA * float(np.median(np.abs(apart_mm))) / OF_DIFFERENCE)
     return apart_mm / (OF_DIFFERENCE * usual_mm), usual_mm
+
+
+def _from_middle(values: Floats) -> Floats:
+    """Return values less the mean of those before and after, zero at the ends."""
+    apart = np.zeros_like(values)
+    apart[1:-1] = values[1:-1] - 0.5 * (values[:-2] + values[2:])
+    return apart
 
 
 def _medians(values: Floats, places: NDArray[np.intp]) -> Floats:
@@ -132,6 +141,19 @@ def _is_of_machine(samples: Samples, off: Floats, row: np.intp) -> bool:
         return True
     is_repeated = np.any(other_lap & (apart_rad <= SAME_PLACE_RAD))
     return not is_repeated and _is_at_reversal(samples, row)
+
+
+def _is_late_jump(samples: Samples, residual_mm: Floats, row: np.intp) -> bool:
+    """Check for a reading taken while a drive crosses its play, which the model has crossed at once, or not yet.
+
+    Such a reading is off by no more than the prediction jumps there.
+    """
+    near = slice(max(int(row) - NEIGHBOURS, 0), int(row) + NEIGHBOURS + 1)
+    same = samples["sweep"][near] == samples["sweep"][row]
+    left_mm = residual_mm[near][same]
+    # Between two readings a smooth contour changes by the mean of the changes before and after.
+    jumps_mm = np.abs(_from_middle(np.diff(samples.reading_mm[near][same] - left_mm)))
+    return bool(abs(residual_mm[row] - np.median(left_mm)) <= JUMP * jumps_mm.max()) and _is_at_reversal(samples, row)
 
 
 def _wrapped(angle_rad: Floats) -> Floats:

@@ -9,9 +9,9 @@ import pytest
 
 from hexdbb.diagnosis import diagnose, glitches_in
 from hexdbb.discovery import discover
-from hexdbb.model import new_model
+from hexdbb.model import Choice, new_model
 from hexdbb.record import Record
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, predict
 from hexdbb_truth.forms.cases import case
 
 NOISE_MM = 0.5e-3
@@ -43,9 +43,11 @@ def test_noise_alone_has_no_glitch(clean: Record) -> None:
 
 
 def test_glitches_are_found_and_nothing_else(clean: Record) -> None:
-    samples, left = Samples.of([clean]), white(clean)
+    left = white(clean)
     hit = np.arange(50, len(clean), 501)
     left[hit] += 12.0 * NOISE_MM
+    exact = predict(Samples.of([clean]), new_model(clean.machine).with_mounts(Samples.of([clean]).mounts))
+    samples = Samples.of([with_readings(clean, (exact.reading_mm + left) * 1e3)])
     found = glitches_in(samples, left, NOISE_MM)
     assert set(np.flatnonzero(found)) <= set(hit)
     assert found[hit].mean() > 0.9  # a few lie beside another by chance, or near a reversal
@@ -89,3 +91,22 @@ def test_a_fault_with_glitches_keeps_its_name() -> None:
     record, _ = glitched(case("backlash-d10-x10-calibrate-s1").record(), 0.004)
     found = discover(Samples.of([record]), new_model(record.machine), known_only=True)
     assert [each.choice for each in found.causes] == ["backlash:5"]
+
+
+def test_a_reading_taken_while_a_play_is_crossed_is_the_machine(clean: Record) -> None:
+    """The model crosses a play from one reading to the next; the machine had not yet crossed it, in one lap of two."""
+    mounts = Samples.of([clean]).mounts
+    model = new_model(clean.machine).with_effect(Choice.parse("backlash:5")).with_mounts(mounts)
+    play = np.array([each.label == "backlash:5 play" for each in model.parameters()])
+    exact = predict(Samples.of([clean]), model.with_values(np.where(play, 0.03, 0.0))).reading_mm
+    jumps = np.diff(exact, prepend=exact[0])
+    turned = np.diff(Samples.of([clean])["travel_direction"][:, 4], prepend=0.0) != 0.0
+    dense = Samples.of([clean])["feed_mm_s"] < 20.0
+    row = int(np.argmax(np.where(turned & dense, np.abs(jumps - np.roll(jumps, 1)), 0.0)[10:])) + 10
+    left = white(clean)
+    left[row] -= 8.0 * NOISE_MM * np.sign(jumps[row])
+    samples = Samples.of([with_readings(clean, (exact + left) * 1e3)])
+    assert not glitches_in(samples, left, NOISE_MM)[row]
+    far = left.copy()
+    far[row] -= 200.0 * NOISE_MM * np.sign(jumps[row])
+    assert glitches_in(Samples.of([with_readings(clean, (exact + far) * 1e3)]), far, NOISE_MM)[row]
