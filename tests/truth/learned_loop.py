@@ -27,7 +27,7 @@ from hexdbb_truth.forms.sizes import UnreachableSizeError
 SEEDS = 20
 """Every pair of the four known and five other faults once."""
 DEVIATION = 0.1
-"""Of the known fault's form from the catalogue's: the middle of what the calibration has."""
+"""Part of the known fault's push that is not the catalogue's formula: the middle of the calibration's 0 to 20 %."""
 TARGET = 50.0
 """Times by which the machine's own error is to fall."""
 

@@ -22,7 +22,7 @@ Key = tuple[int, bytes]
 """Command specifier of an answer, index and sub-index of the object."""
 
 
-class PromptClient(canopen.sdo.SdoClient):  # type: ignore[misc]  # canopen has no types
+class PromptClient(canopen.sdo.SdoClient):
     """A client of one node to which late answers do not count."""
 
     def __init__(self, *arguments: object) -> None:
