@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from playwright.sync_api import Locator, Page
+from playwright.sync_api import Locator, Page, expect
 
 TIMEOUT_S = 60.0
 
@@ -73,3 +73,11 @@ def drawn(page: Page) -> int:
 def number(page: Page, name: str) -> float:
     """Return a number of the page's head."""
     return float(marked(page, name).inner_text())
+
+
+def write(page: Page, button: str, name: str) -> None:
+    """Press a button that asks for the name of a file, and take the one that it proposes."""
+    marked(page, button).click()
+    dialog = page.get_by_role("dialog").last
+    expect(dialog.get_by_label("File")).to_have_value(name)
+    dialog.get_by_role("button", name="Write").click()

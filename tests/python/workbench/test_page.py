@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
 from tests.browser.chromium import browser, opened, violations
-from tests.python.workbench.served import Served, drawn, marked, number, served
+from tests.python.workbench.served import Served, drawn, marked, number, served, write
 
 import hexdbb as hx
 from hexdbb.compensation import read_compensation
@@ -25,13 +25,19 @@ def strange(samples):
     return samples["velocity_mm_s"][:, 0]
 """
 
-LOOPS = """
+SEEN = "seen"
+LOOPS = f"""
+from pathlib import Path
+from time import sleep
+
 from hexdbb import effect
 
 @effect(port="reading", unit="mm", prior_sigma=0.01)
 def endless(samples):
+    while not Path({SEEN!r}).exists(): sleep(0.05)
     while True: pass
 """
+"""It waits, which takes no processor time, until the test has seen what the page says meanwhile."""
 
 
 @pytest.fixture
@@ -169,7 +175,7 @@ def test_the_machine_follows_the_cursor_and_the_editor_needs_leave(browser: Brow
 
 def test_files_are_written_and_code_that_loops_is_stopped(browser: Browser, folder: Path) -> None:
     """Take away what the workbench writes, from a page that an effect without an end has not held up."""
-    options = ("-m", "model.toml", "--allow-code", "--code-seconds", "3")
+    options = ("-m", "model.toml", "--allow-code", "--code-seconds", "2")
     with served(folder, "today.parquet", *options) as allowed, opened(browser, allowed.address) as page:
         drawn(page)
         marked(page, "editor").locator(".q-item").click()
@@ -178,6 +184,7 @@ def test_files_are_written_and_code_that_loops_is_stopped(browser: Browser, fold
         expect(page.get_by_role("status")).to_contain_text("trying my_effects.py")
         marked(page, "switch leg_length").click()  # the page answers meanwhile
         expect(marked(page, "switch leg_length")).to_have_attribute("aria-checked", "false")
+        (folder / SEEN).touch()
         expect(page.get_by_role("alert")).to_contain_text("my_effects.py: did not end and was stopped")
         page.get_by_role("button", name="Back to the fit").click()
         with page.expect_download() as downloaded:
@@ -192,14 +199,6 @@ def test_files_are_written_and_code_that_loops_is_stopped(browser: Browser, fold
         write(page, "Next circle", "today-next-plan.toml")
         expect(page.get_by_text("determines most of the machine's errors alone")).to_be_visible()
         assert len(hx.load_plan(folder / "today-next-plan.toml").circles) == 1
-
-
-def write(page: Page, button: str, name: str) -> None:
-    """Press a button that asks for the name of a file, and take the one that it proposes."""
-    marked(page, button).click()
-    dialog = page.get_by_role("dialog").last
-    expect(dialog.get_by_label("File")).to_have_value(name)
-    dialog.get_by_role("button", name="Write").click()
 
 
 def test_without_leave_there_is_no_editor(browser: Browser, workbench: Served) -> None:

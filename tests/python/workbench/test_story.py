@@ -1,4 +1,4 @@
-"""The whole story in a real browser: open, see where it fails, ask, preview, add, read the error, undo."""
+"""The whole story in a real browser: open, see where it fails, ask, preview, add, read the error, undo, report."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, expect
 from tests.browser.chromium import browser, opened
-from tests.python.workbench.served import Served, drawn, marked, number, served
+from tests.python.workbench.served import Served, drawn, marked, number, served, write
 
 import hexdbb as hx
 
@@ -22,7 +22,7 @@ def workbench(folder: Path) -> Iterator[Served]:
         yield started
 
 
-def test_find_preview_add_and_undo_the_hidden_fault(browser: Browser, workbench: Served, folder: Path) -> None:
+def test_find_preview_add_undo_and_report_the_hidden_fault(browser: Browser, workbench: Served, folder: Path) -> None:
     with opened(browser, workbench.address) as page:
         drawn(page)
         expect(marked(page, "verdict")).to_contain_text("Something is missing")
@@ -47,3 +47,7 @@ def test_find_preview_add_and_undo_the_hidden_fault(browser: Browser, workbench:
         expect(marked(page, "verdict")).to_contain_text("Something is missing")
         assert number(page, "rms") == before_um
         assert len(hx.load_model(folder / "model.toml").ledger) == 1
+        write(page, "Report", "today-report.html")
+        expect(page.get_by_text("today-report.html: written.")).to_be_visible()
+    with opened(browser, (folder / "today-report.html").as_uri()) as report:
+        expect(report.locator(".verdict")).to_contain_text("likely cause: slider 4 has")
