@@ -69,7 +69,7 @@ def command(machine_path: Path | None, rate_hz: float | None, seconds: float, bu
         say(f"note: {each}")
     verdict = judged(latency, rate_hz, can_setup.rpdo_timeout_ms / 1000.0)
     if verdict.safe:
-        say(verdict.said)
+        say(verdict.said if nodes else f"{verdict.said} for this computer; of the bus, --bus measures the answers")
         return
     interface = bus_spec.partition(":")[2] if bus_spec is not None and bus_spec.startswith("socketcan:") else None
     say("To change, what counts most first:")

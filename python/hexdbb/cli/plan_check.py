@@ -14,7 +14,14 @@ import numpy as np
 from hexdbb.capture.bus_load import check_load
 from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.plan_assessment import PlanAssessment, assess_plan, noise_option
-from hexdbb.cli.plan_tables import LIMITED, print_assessment, print_clearances, print_motion, print_nearest
+from hexdbb.cli.plan_tables import (
+    LIMITED,
+    print_assessment,
+    print_clearances,
+    print_motion,
+    print_nearest,
+    warn_of_condition,
+)
 from hexdbb.errors import InputError
 from hexdbb.kinematics.margins import nearest_end, nearest_sliders
 from hexdbb.machine import MachineFile
@@ -97,6 +104,7 @@ def _print(
     print_nearest(_nearest(programme, machine))
     print_clearances(clearances)
     print_assessment(assessment)
+    warn_of_condition(plan_name, assessment)
 
 
 def _clearances(plan: Plan, machine: MachineFile, plan_name: str) -> dict[int, Clearances]:

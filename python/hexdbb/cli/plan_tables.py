@@ -137,8 +137,8 @@ def warn_of_condition(name: str, assessment: PlanAssessment) -> None:
         return
     say(
         f"{name}: condition {condition:.0f} (expected at most {TRUSTED_CONDITION:.0f} for an identification to be"
-        " trusted): the least determined combination of errors takes in what temperature and set-up do; more circles"
-        " (--circles), or hexdbb plan propose with --criterion minmax or a larger --bar-angle, may lower it",
+        " trusted): the least determined combination of errors takes in what temperature and set-up do; hexdbb plan"
+        " propose with more --circles, --criterion minmax or a larger --bar-angle may lower it",
         err=True,
     )
 
