@@ -24,260 +24,96 @@ TRUTH = "hexdbb_truth"
 
 # Each part of the package (a package with all that is in it) and the parts it may import.
 ALLOWED: dict[str, set[str]] = {
-    "errors": set(),
-    "units": set(),
-    "_core": set(),
-    "threads": set(),
-    "files": {"errors"},
-    # many tasks on Dask, whatever they compute
-    "cluster": {"errors", "files", "_core"},
-    # what is measured on, and what is asked of it
-    "machine": {"errors", "files"},
-    "kinematics": {"errors", "machine", "_core"},
-    "plan": {"errors", "files", "machine", "kinematics"},
-    "record": {"errors", "files", "machine", "plan"},
-    # readings of other programs as records
-    "importing": {"errors", "files", "machine", "kinematics", "plan", "record"},
-    # the machine's line
-    "learned": {"errors", "_core"},
-    "model": {"errors", "files", "units", "machine", "kinematics", "learned", "_core"},
-    "samples": {"errors", "files", "machine", "plan", "record", "kinematics", "model", "_core"},
-    "effects": {"errors", "units", "machine", "plan", "kinematics", "learned", "model", "samples", "_core"},
-    "identifiability": {"errors", "plan", "record", "kinematics", "model", "samples", "_core"},
-    "diagnosis": {
-        "errors",
-        "files",
-        "units",
-        "plan",
-        "record",
-        "kinematics",
-        "model",
-        "samples",
-        "identifiability",
-        "learned",
-        "_core",
-    },
-    "ledger": {"errors", "files", "threads", "units", "record", "learned", "model", "samples", "diagnosis", "_core"},
-    # which variables of the samples predict a residual
-    "predictors": {"record", "kinematics", "model", "samples", "effects", "_core"},
-    # hypotheses on what is missing, decided by their evidence
-    "evidence": {"errors", "units", "machine", "learned", "model", "samples", "diagnosis", "predictors", "_core"},
-    "discovery": {
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "plan",
-        "record",
-        "kinematics",
-        "learned",
-        "model",
-        "samples",
-        "effects",
-        "diagnosis",
-        "ledger",
-        "predictors",
-        "evidence",
-        "_core",
-    },
-    # where the model fails, and the likely cause; readings come in as arrays, predicted or measured
-    "comparison": {
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "plan",
-        "record",
-        "model",
-        "samples",
-        "diagnosis",
-        "predictors",
-        "discovery",
-        "_core",
-    },
-    # what changes over the records of years
-    "trend": {
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "machine",
-        "record",
-        "model",
-        "samples",
-        "identifiability",
-        "diagnosis",
-        "comparison",
-        "_core",
-    },
-    # every error's part in the circular deviation
-    "contributions": {
-        "errors",
-        "files",
-        "threads",
-        "learned",
-        "model",
-        "samples",
-        "diagnosis",
-        "identifiability",
-        "ledger",
-        "predictors",
-        "comparison",
-        "charts",
-    },
-    # what pictures and pages show, before either draws it
-    "charts": {"comparison"},
-    "plots": {
-        "errors",
-        "files",
-        "units",
-        "machine",
-        "kinematics",
-        "workspace",
-        "plan",
-        "learned",
-        "model",
-        "samples",
-        "diagnosis",
-        "predictors",
-        "discovery",
-        "comparison",
-        "trend",
-        "charts",
-    },
-    # one file to hand over; nothing is computed in it
-    "reporting": {
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "machine",
-        "plan",
-        "record",
-        "model",
-        "samples",
-        "identifiability",
-        "diagnosis",
-        "ledger",
-        "predictors",
-        "comparison",
-        "contributions",
-        "charts",
-    },
-    # the records of many machines
-    "fleet": {
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "machine",
-        "record",
-        "importing",
-        "model",
-        "samples",
-        "diagnosis",
-        "discovery",
-        "comparison",
-        "trend",
-        "reporting",
-        "cluster",
-    },
-    # what a controller does about it
-    "trajectory": {"errors", "machine", "plan", "kinematics"},
-    "compensation": {"errors", "files", "machine", "record", "kinematics", "model", "trajectory", "_core"},
-    # a machine's files over the years
-    "logbook": {"errors", "files", "machine", "record", "model", "compensation", "trend"},
-    # which circles determine most
-    "planning": {
-        "errors",
-        "units",
-        "machine",
-        "plan",
-        "kinematics",
-        "model",
-        "identifiability",
-        "trajectory",
-        "_core",
-    },
-    # where a machine is wanted to go: reach, limits, singular poses
-    "workspace": {"errors", "files", "machine", "kinematics", "identifiability", "plan"},
-    # the thesis' own way, beside ours; the estimator judged on true machines
-    "studies": {
-        TRUTH,
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "machine",
-        "plan",
-        "record",
-        "kinematics",
-        "model",
-        "samples",
-        "identifiability",
-        "diagnosis",
-        "ledger",
-        "evidence",
-        "discovery",
-        "planning",
-        "plots",
-        "rig",
-        "cluster",
-        "_core",
-    },
-    # the public face, beside the commands
-    "api": {
-        "errors",
-        "files",
-        "machine",
-        "plan",
-        "record",
-        "model",
-        "samples",
-        "diagnosis",
-        "ledger",
-        "comparison",
-        "discovery",
-        "compensation",
-        "planning",
-        "contributions",
-        "reporting",
-        "capture",
-        "_core",
-    },
-    # who may open a page, and how it is served
-    "pages": {"errors"},
-    # seen and played with: a view of what the commands do
-    "workbench": {
-        "errors",
-        "files",
-        "threads",
-        "units",
-        "machine",
-        "kinematics",
-        "plan",
-        "record",
-        "importing",
-        "model",
-        "effects",
-        "samples",
-        "predictors",
-        "diagnosis",
-        "ledger",
-        "comparison",
-        "discovery",
-        "api",
-        "charts",
-        "pages",
-        "_core",
-    },
-    # a page that watches a run, told by it through a pipe
-    "live": {"errors", "charts", "pages"},
-    # the rig's line
-    "rig": {"errors", "files", "machine"},
-    "capture": {"errors", "files", "machine", "plan", "record", "trajectory"},
-    # what the estimator is judged by: none of these parts computes a prediction
-    TRUTH: {"errors", "files", "machine", "plan", "record", "rig"},
+    part: set(others.split())
+    for part, others in {
+        "errors": "",
+        "units": "",
+        "_core": "",
+        "threads": "",
+        "files": "errors",
+        # many tasks on Dask, whatever they compute
+        "cluster": "errors files _core",
+        # what is measured on, and what is asked of it
+        "machine": "errors files",
+        "kinematics": "errors machine _core",
+        "plan": "errors files machine kinematics",
+        "record": "errors files machine plan",
+        # readings of other programs as records
+        "importing": "errors files machine kinematics plan record",
+        # the machine's line
+        "learned": "errors _core",
+        "model": "errors files units machine kinematics learned _core",
+        "samples": "errors files machine plan record kinematics model _core",
+        "effects": "errors units machine plan kinematics learned model samples _core",
+        "identifiability": "errors plan record kinematics model samples _core",
+        "diagnosis": "errors files units plan record kinematics model samples identifiability learned _core",
+        "ledger": "errors files threads units record learned model samples diagnosis _core",
+        # which variables of the samples predict a residual
+        "predictors": "record kinematics model samples effects _core",
+        # hypotheses on what is missing, decided by their evidence
+        "evidence": "errors units machine learned model samples diagnosis predictors _core",
+        "discovery": (
+            "errors files threads units plan record kinematics learned model samples effects diagnosis ledger "
+            "predictors evidence _core"
+        ),
+        # where the model fails, and the likely cause; readings come in as arrays, predicted or measured
+        "comparison": "errors files threads units plan record model samples diagnosis predictors discovery _core",
+        # what changes over the records of years
+        "trend": ("errors files threads units machine record model samples identifiability diagnosis comparison _core"),
+        # every error's part in the circular deviation
+        "contributions": (
+            "errors files threads learned model samples diagnosis identifiability ledger predictors comparison charts"
+        ),
+        # what pictures and pages show, before either draws it
+        "charts": "comparison",
+        "plots": (
+            "errors files units machine kinematics workspace plan learned model samples diagnosis predictors "
+            "discovery comparison trend charts"
+        ),
+        # one file to hand over; nothing is computed in it
+        "reporting": (
+            "errors files threads units machine plan record model samples identifiability diagnosis ledger "
+            "predictors comparison contributions charts"
+        ),
+        # the records of many machines
+        "fleet": (
+            "errors files threads units machine record importing model samples diagnosis discovery comparison "
+            "trend reporting cluster"
+        ),
+        # what a controller does about it
+        "trajectory": "errors machine plan kinematics",
+        "compensation": "errors files machine record kinematics model trajectory _core",
+        # a machine's files over the years
+        "logbook": "errors files machine record model compensation trend",
+        # which circles determine most
+        "planning": "errors units machine plan kinematics model identifiability trajectory _core",
+        # where a machine is wanted to go: reach, limits, singular poses
+        "workspace": "errors files machine kinematics identifiability plan",
+        # the thesis' own way, beside ours; the estimator judged on true machines
+        "studies": (
+            "hexdbb_truth errors files threads units machine plan record kinematics model samples "
+            "identifiability diagnosis ledger evidence discovery planning plots rig cluster _core"
+        ),
+        # the public face, beside the commands
+        "api": (
+            "errors files machine plan record model samples diagnosis ledger comparison discovery "
+            "compensation planning contributions reporting capture _core"
+        ),
+        # who may open a page, and how it is served
+        "pages": "errors",
+        # seen and played with: a view of what the commands do
+        "workbench": (
+            "errors files threads units machine kinematics plan record importing model effects samples "
+            "predictors diagnosis ledger comparison discovery api charts pages _core"
+        ),
+        # a page that watches a run, told by it through a pipe
+        "live": "errors charts pages",
+        # the rig's line
+        "rig": "errors files machine",
+        "capture": "errors files machine plan record trajectory",
+        # what the estimator is judged by: none of these parts computes a prediction
+        TRUTH: "errors files machine plan record rig",
+    }.items()
 }
 COMMANDS = "cli"
 """The part that may import all others; none may import it."""
