@@ -27,7 +27,7 @@ from hexdbb.errors import InputError
 from hexdbb.record import SLIDER_COLUMNS, Record, write_record
 from hexdbb.rig.geometry import Array
 from hexdbb.rig.truth import Spread, TruthFile, random_truth
-from hexdbb_truth.forms import measuring_forms, plans, slider_forms, structure_forms
+from hexdbb_truth.forms import measuring_forms, plans, reversal_forms, slider_forms, structure_forms
 from hexdbb_truth.forms.deviation import Formed, measured_deviation
 from hexdbb_truth.forms.family import Family
 from hexdbb_truth.forms.history import History
@@ -40,7 +40,12 @@ from hexdbb_truth.forms.sizes import UnreachableSizeError, shown_deviation, size
 HALVES = ("calibrate", "judge")
 TIMES_NOISE = (1.5, 3.0, 10.0, 30.0, 100.0)
 DEVIATIONS = (0.0, 0.05, 0.1, 0.2)
-FAMILIES: dict[str, Family] = {**slider_forms.FAMILIES, **structure_forms.FAMILIES, **measuring_forms.FAMILIES}
+FAMILIES: dict[str, Family] = {
+    **reversal_forms.FAMILIES,
+    **slider_forms.FAMILIES,
+    **structure_forms.FAMILIES,
+    **measuring_forms.FAMILIES,
+}
 CATALOGUED = tuple(FAMILIES)
 WARMING = frozenset({"leg_thermal", "screw_thermal"})
 ROOM_C, RISE_C, SENSOR_NOISE_C = 20.0, 2.0, 0.02
