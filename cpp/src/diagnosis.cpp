@@ -172,7 +172,7 @@ void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& 
 
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
 /// some of its standard deviations away from that of all readings, to which the last steps lead. Where they do not come
-/// to rest, steps along the geodesic do. `out` stays unusable where neither does, or all readings like the end less than
+/// to rest, steps along the geodesic do from the best point found. `out` stays unusable where neither does, or all readings like the end less than
 /// the start, whose cost is `at_start`.
 void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
                         const FitOptions& options, double at_start, FitResult& out) {
@@ -187,15 +187,16 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
   };
-  const LastSteps end = take_last_steps(of_all, few, near, bound);
+  const double chi_squared =
+      std::max(2.0 * of_all(near, Sums::kGradient).cost, static_cast<double>(accumulator.residual_mm().size()));
+  const LastSteps end = take_last_steps(of_all, few, near, bound, kFall * chi_squared);
   Eigen::VectorXd z = end.z;
   double cost = end.cost;
   out.iterations = end.steps;
   out.usable = end.is_at_rest;
   if (!out.usable) {
-    const double chi_squared =
-        std::max(2.0 * of_all(near, Sums::kAll).cost, static_cast<double>(accumulator.residual_mm().size()));
-    const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, near, bound,
+    const Eigen::VectorXd& best = std::isfinite(end.cost) ? end.z : near;
+    const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, best, bound,
                                   kFall * chi_squared, kMost);
     z = other.z;
     cost = other.cost;
