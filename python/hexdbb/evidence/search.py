@@ -168,7 +168,8 @@ class Search:
                 prior = sum(self.log_prior(each.hypothesis) for each in members)
                 node = Node(trial, trial.log_evidence + prior)
                 self.nodes.append(node)
-            if node.score > best.score and not trial.refused and needs_all(self, node) and self._predicts(node):
+            # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
+            if node.score > best.score and not trial.refused and self._predicts(node) and needs_all(self, node):
                 found.append(node)
         return max(found, key=lambda each: each.score)
 
