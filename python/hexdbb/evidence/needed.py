@@ -17,7 +17,13 @@ SLOW_DRIFTS = 3
 
 def needs_all(search: Search, node: Node) -> bool:
     """Check that no hypothesis of a set could be left out, and that known effects together are what they explain."""
-    return all(needs(search, node, member) for member in node.members) and _are_of_size(search, node)
+    # A set without a member that was fitted already costs nothing to ask, and one member too many settles it.
+    first = sorted(node.members, key=lambda member: not search.trials.has(_without(node, member)))
+    return _are_of_size(search, node) and all(needs(search, node, member) for member in first)
+
+
+def _without(node: Node, member: Member) -> tuple[Member, ...]:
+    return tuple(each for each in node.members if each is not member)
 
 
 def needs(search: Search, node: Node, member: Member) -> bool:
@@ -35,7 +41,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
         The hypothesis in question.
     """
     criteria, trials = search.criteria, search.trials
-    others = trials.of(tuple(each for each in node.members if each is not member))
+    others = trials.of(_without(node, member))
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
     explained = search.root.trial.left - others.left + trials.explained_before
     beyond = others.left - node.trial.left

@@ -120,6 +120,10 @@ class Trials:
             self._known[key] = self._about(tuple(members), self._fitted(members))
         return self._known[key]
 
+    def has(self, members: Sequence[Member]) -> bool:
+        """Check whether a model with hypotheses was fitted already."""
+        return _key(members) in self._known
+
     def linear(self, trial: Trial) -> Linear:
         """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
         key = _key(trial.members)
