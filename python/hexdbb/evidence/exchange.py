@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.needed import needs_all
+from hexdbb.evidence.needed import is_better, needs_all
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import Member
@@ -21,7 +21,7 @@ def settled(search: Search, node: Node) -> Node:
         for member in node.members:
             others = tuple(each for each in node.members if each is not member)
             search.expand(search.node(others, near=node))
-        better = sorted((each for each in search.nodes if each.score > node.score), key=lambda each: -each.score)
+        better = sorted((e for e in search.nodes if is_better(search, e, node)), key=lambda each: -each.score)
         chosen = next((each for each in better if _is_admissible(search, each)), None)
         if chosen is None:
             return node

@@ -26,6 +26,17 @@ def _without(node: Node, member: Member) -> tuple[Member, ...]:
     return tuple(each for each in node.members if each is not member)
 
 
+def is_better(search: Search, node: Node, than: Node) -> bool:
+    """Check that a set has more evidence than another, and explains more where it has more hypotheses.
+
+    What many explain no better than few is no other explanation, whatever their priors make of it.
+    """
+    if node.score <= than.score:
+        return False
+    least = search.criteria.form_described**2 * _explained(search, than)
+    return len(node.members) <= len(than.members) or than.trial.left - node.trial.left > least
+
+
 def needs(search: Search, node: Node, member: Member) -> bool:
     """Check that a hypothesis is more than the forms of the others may leave, or that these alone do not predict.
 
@@ -67,8 +78,12 @@ def _are_of_size(search: Search, node: Node) -> bool:
     sizes = _sizes(search, node)
     if len(sizes) < max(len(node.members), SLOW_DRIFTS):
         return True
-    explained = search.root.trial.left - node.trial.left + search.trials.explained_before
+    explained = _explained(search, node)
     return search.criteria.of_size <= sum(sizes.values()) / max(explained, 1e-9) <= 1.0 / search.criteria.of_size
+
+
+def _explained(search: Search, node: Node) -> float:
+    return search.root.trial.left - node.trial.left + search.trials.explained_before
 
 
 def _sizes(search: Search, node: Node) -> dict[Known, float]:
