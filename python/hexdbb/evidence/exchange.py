@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.needed import is_better, needs_all
+from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import Member
@@ -22,10 +22,20 @@ def settled(search: Search, node: Node) -> Node:
             others = tuple(each for each in node.members if each is not member)
             search.expand(search.node(others, near=node))
         better = sorted((e for e in search.nodes if is_better(search, e, node)), key=lambda each: -each.score)
-        chosen = next((each for each in better if _is_admissible(search, each)), None)
-        if chosen is None:
+        chosen = next((each for each in better if _is_admissible(search, each)), _all_needed(search, node))
+        if chosen is node:
             return node
         node = in_known_words(search, chosen)
+    return node
+
+
+def _all_needed(search: Search, node: Node) -> Node:
+    """Leave out a known effect that stood in for what was found after it, where the others predict without it."""
+    for member in node.members:
+        if len(node.members) > 1 and isinstance(member.hypothesis, Known) and not needs(search, node, member):
+            others = search.node(tuple(each for each in node.members if each is not member), near=node)
+            if not (others.trial.refused or search.checked(others).reasons):
+                return others
     return node
 
 
