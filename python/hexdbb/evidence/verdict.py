@@ -119,11 +119,11 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
 def is_for_sure(search: Search, node: Node) -> bool:
     """Check that causes together explain enough to be named for sure.
 
-    One effect of another form may predict circles left out worse than geometry alone does. Several that do so together
-    were put together to fit: each takes what the others leave.
+    One effect of another form need not predict circles that geometry alone does not predict either. Several that are
+    excused so together were put together to fit: each takes what the others leave.
     """
     checked = search.checked(node)
-    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.predicts_worse)
+    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.excused)
 
 
 def _is_form(search: Search) -> bool:
