@@ -22,7 +22,9 @@ def settled(search: Search, node: Node) -> Node:
             others = tuple(each for each in node.members if each is not member)
             search.expand(search.node(others, near=node))
         better = sorted((e for e in search.nodes if is_better(search, e, node)), key=lambda each: -each.score)
-        chosen = next((each for each in better if _is_admissible(search, each)), _all_needed(search, node))
+        needed = (_all_needed(search, each) for each in better)
+        admissible = (e for e in needed if is_better(search, e, node) and _is_admissible(search, e))
+        chosen = next(admissible, _all_needed(search, node))
         if chosen is node:
             return node
         node = in_known_words(search, chosen)
