@@ -87,3 +87,11 @@ def test_a_gauge_that_compresses_is_found_though_geometry_bends_after_it() -> No
     assert line["outcome"] == "right"
     assert [each["name"] for each in line["found"]] == ["learned:reading:deflection"]
     assert line["heldout"]["circle"]["after"] < 1.3
+
+
+def test_legs_of_another_form_are_not_named_for_sure_beside_a_screw_that_explains_more_than_their_formula() -> None:
+    line = line_of(case("screw_thermal-d10-x10-calibrate-s1"), ["screw_thermal"])
+    assert line["grade"] == "ambiguous"
+    (found,) = line["found"]
+    assert found["name"] == "leg_thermal"
+    assert "learned:slider:4:time_position" in found["rivals"]
