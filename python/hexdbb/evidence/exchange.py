@@ -21,7 +21,10 @@ def settled(search: Search, node: Node) -> Node:
         for member in node.members:
             others = tuple(each for each in node.members if each is not member)
             search.expand(search.node(others, near=node))
-        better = sorted((e for e in search.nodes if is_better(search, e, node)), key=lambda each: -each.score)
+        better = sorted(
+            (each for each in search.nodes if is_better(search, each, node) and not _names_fewer(search, each, node)),
+            key=lambda each: -each.score,
+        )
         needed = (_all_needed(search, each) for each in better)
         admissible = (e for e in needed if is_better(search, e, node) and _is_admissible(search, e))
         chosen = next(admissible, _all_needed(search, node))
@@ -29,6 +32,16 @@ def settled(search: Search, node: Node) -> Node:
             return node
         node = in_known_words(search, chosen)
     return node
+
+
+def _names_fewer(search: Search, one: Node, other: Node) -> bool:
+    """Check whether a set has the causes of another in the words of learned functions: no other explanation."""
+    known = [sum(isinstance(each, Known) for each in node.hypotheses) for node in (one, other)]
+    return known[0] < known[1] and all(
+        any(search.same_kind(each, same) for same in second.hypotheses)
+        for first, second in ((one, other), (other, one))
+        for each in first.hypotheses
+    )
 
 
 def _all_needed(search: Search, node: Node) -> Node:

@@ -16,6 +16,7 @@ from hexdbb.evidence.needed import is_better, needs_all
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.trial import Member, Trials
+from hexdbb.learned import Learned
 
 DRIFT, GAIN, SCREW = (Member(Known(name, ("1",))) for name in ("bar_drift", "bar_gain", "screw_thermal"))
 
@@ -105,3 +106,12 @@ def test_a_form_too_large_at_first_is_asked_for_again_beside_the_others() -> Non
     wider, found = trials._with_forms(linear, None, known)  # type: ignore[arg-type]
     assert wider.own.shape[1] == 5
     assert [found[each].first for each in found] == [3, 1]
+
+
+def test_the_same_causes_in_words_of_learned_functions_are_no_better_set() -> None:
+    time, bend = (Member(Learned.parse(f"learned:reading:{name}")) for name in ("time", "deflection"))
+    left = {(DRIFT, bend): 1.05, (time, bend): 1.0, (DRIFT,): 5.0, (time,): 5.0, (bend,): 6.0}
+    search, node = searched(left)
+    search.nodes.append(node_of(search.trials.of((time, bend))))
+    search.same_kind = lambda one, other: one == other or {one, other} == {DRIFT.hypothesis, time.hypothesis}
+    assert settled(search, node).members == (DRIFT, bend)
