@@ -25,8 +25,9 @@ def settled(search: Search, node: Node) -> Node:
             (each for each in search.nodes if is_better(search, each, node) and not _names_fewer(search, each, node)),
             key=lambda each: -each.score,
         )
-        needed = (_all_needed(search, each) for each in better)
-        admissible = (e for e in needed if is_better(search, e, node) and _is_admissible(search, e))
+        # The best may have one too many, as it was reached; to look at every other so would take as many fits again.
+        tried = (*(_all_needed(search, each) for each in better[:1]), *better)
+        admissible = (e for e in tried if is_better(search, e, node) and _is_admissible(search, e))
         chosen = next(admissible, _all_needed(search, node))
         if chosen is node:
             return node
