@@ -15,6 +15,7 @@ import numpy as np
 import scipy
 from command_times import command_rows, command_times
 from diagnosis_times import NOISE_MM, problem
+from discovery_times import HEADER as DISCOVERY_HEADER
 from discovery_times import PACE, discovery_rows
 from growth import HEADER, LARGEST_MB, TIMES_DRIVEN, growth_rows
 from measured_by import compiler, median_rows, processor, report
@@ -163,8 +164,7 @@ def table(
         "",
         "One call of `discover`: known effects and learned functions screened, the best fitted and judged.",
         "",
-        "| hidden in the machine | readings | verdict | time | target |",
-        "|---|---|---|---|---|",
+        *DISCOVERY_HEADER,
         *discoveries,
         "",
         "Whole commands from start to end, as a user waits for them; CPU is that of all threads. Beside another",

@@ -25,8 +25,6 @@ class Checked:
     """Whether something that is not predicted was put down to its form."""
     claimed: tuple[str, ...] = ()
     """Groupings that the hypotheses claim to predict."""
-    predicts_worse: bool = False
-    """Whether what was excused is predicted worse than without the hypotheses."""
 
 
 def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
@@ -43,7 +41,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
-    reasons, excused, worse = [], False, False
+    reasons, excused = [], False
     if all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members):
         return Checked(predicted, share, _not_between(predicted, share, criteria), claimed=(ARC,))
     for grouping, held in predicted.items():
@@ -54,7 +52,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
             continue
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
         if extrapolates and _bends_geometry(trial, share, criteria):
-            excused, worse = True, worse or held.share < 0.0
+            excused = True
         else:
             reasons.append(f"does not predict {WORDS[grouping]}")
     claimed = [held for grouping, held in predicted.items() if grouping != ARC]
@@ -62,7 +60,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
-    return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted), predicts_worse=worse)
+    return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted))
 
 
 def _not_between(predicted: Mapping[str, HeldOut], share: float, criteria: Criteria) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.needed import needs_all
+from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.trial import Member
@@ -21,11 +21,37 @@ def settled(search: Search, node: Node) -> Node:
         for member in node.members:
             others = tuple(each for each in node.members if each is not member)
             search.expand(search.node(others, near=node))
-        better = sorted((each for each in search.nodes if each.score > node.score), key=lambda each: -each.score)
-        chosen = next((each for each in better if _is_admissible(search, each)), None)
-        if chosen is None:
+        better = sorted(
+            (each for each in search.nodes if is_better(search, each, node) and not _names_fewer(search, each, node)),
+            key=lambda each: -each.score,
+        )
+        # The best may have one too many, as it was reached; to look at every other so would take as many fits again.
+        tried = (*(_all_needed(search, each) for each in better[:1]), *better)
+        admissible = (e for e in tried if is_better(search, e, node) and _is_admissible(search, e))
+        chosen = next(admissible, _all_needed(search, node))
+        if chosen is node:
             return node
         node = in_known_words(search, chosen)
+    return node
+
+
+def _names_fewer(search: Search, one: Node, other: Node) -> bool:
+    """Check whether a set has the causes of another in the words of learned functions: no other explanation."""
+    known = [sum(isinstance(each, Known) for each in node.hypotheses) for node in (one, other)]
+    return known[0] < known[1] and all(
+        any(search.same_kind(each, same) for same in second.hypotheses)
+        for first, second in ((one, other), (other, one))
+        for each in first.hypotheses
+    )
+
+
+def _all_needed(search: Search, node: Node) -> Node:
+    """Leave out a known effect that stood in for what was found after it, where the others predict without it."""
+    for member in node.members:
+        if len(node.members) > 1 and isinstance(member.hypothesis, Known) and not needs(search, node, member):
+            others = search.node(tuple(each for each in node.members if each is not member), near=node)
+            if not (others.trial.refused or search.checked(others).reasons):
+                return others
     return node
 
 

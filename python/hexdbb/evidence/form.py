@@ -33,13 +33,14 @@ KEPT = 48
 class Form:
     """How far an effect's form differs from the machine's: the relative size of the functions beside it.
 
-    `columns` is how many directions of them stand in the linearisation.
+    `columns` is how many directions of them stand in the linearisation, from column `first` on.
     """
 
     fraction: float
     deviation: float
     functions: tuple[str, ...]
     columns: int = 0
+    first: int = 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +90,7 @@ class Forms:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
         columns = np.hstack([each.table for each in spaces]) @ (factor * found.size)
-        form = Form(found.size, deviation, functions, columns.shape[1])
+        form = Form(found.size, deviation, functions, columns.shape[1], linear.own.shape[1])
         wider = replace(
             linear,
             own=np.hstack([linear.own, columns]),

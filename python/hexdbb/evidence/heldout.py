@@ -8,10 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.covered import is_covered
-from hexdbb.evidence.readings import ARC, GROUPINGS
+from hexdbb.evidence.readings import ARC, GROUPINGS, Readings
 from hexdbb.evidence.sums import Sums, Training, squared_error
 from hexdbb.evidence.trial import Trial, Trials
 from hexdbb.learned import Learned
+
+Group = tuple[int, NDArray[np.intp]]
+"""Number of a group and its cells."""
 
 
 @dataclass(frozen=True)
@@ -43,13 +46,7 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
         groups = list(zip(np.unique(numbers), before.groups(grouping), strict=True))
         if len(groups) < 2:
             continue
-        hypotheses = [each.hypothesis for each in trial.members]
-        # Arcs are what free functions of time claim, whatever lies between.
-        groups = [
-            (number, cells)
-            for number, cells in groups
-            if grouping == ARC or is_covered(hypotheses, readings, numbers == number)
-        ]
+        groups = _claimed(trial, readings, grouping, groups)
         rows = sum(float(before.rows[cells].sum()) for _, cells in groups)
         if not groups:
             continue
@@ -67,6 +64,23 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
     return found
 
 
+def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group]) -> list[Group]:
+    """Return the groups that a trial claims to predict.
+
+    A known effect whose form is off claims what the functions of its form cover: how it goes on from there is in none
+    of the other readings. Where they cover no group at all, its formula is asked.
+    """
+    # Arcs are what free functions of time claim, whatever lies between.
+    if grouping == ARC:
+        return groups
+    numbers = readings.groups[grouping]
+    learned = [each.hypothesis for each in trial.members]
+    formed = [Learned.parse(name) for form, _ in trial.columns_of_forms() for name in form.functions]
+    claimed = [each for each in groups if is_covered(learned, readings, numbers == each[0])]
+    covered = [each for each in claimed if is_covered(formed, readings, numbers == each[0])]
+    return covered or claimed
+
+
 def _error(trial: Trial, sums: Sums, training: Training, cells: NDArray[np.intp], in_group: NDArray[np.bool_]) -> float:
     """Return the sum of squared errors of a fit to a training set in the cells of a group.
 
@@ -77,7 +91,7 @@ def _error(trial: Trial, sums: Sums, training: Training, cells: NDArray[np.intp]
     error = squared_error(sums, cells, own, None, None)
     for form, columns in trial.columns_of_forms():
         formula = own.copy()
-        formula[columns] = 0.0
+        formula[columns] = -sums.linear.standing[columns]
         alone = squared_error(sums, cells, formula, None, None)
         functions = (Learned.parse(name) for name in form.functions)
         if alone < error and not is_covered(functions, sums.readings, in_group):

@@ -17,7 +17,24 @@ SLOW_DRIFTS = 3
 
 def needs_all(search: Search, node: Node) -> bool:
     """Check that no hypothesis of a set could be left out, and that known effects together are what they explain."""
-    return all(needs(search, node, member) for member in node.members) and _are_of_size(search, node)
+    # A set without a member that was fitted already costs nothing to ask, and one member too many settles it.
+    first = sorted(node.members, key=lambda member: not search.trials.has(_without(node, member)))
+    return _are_of_size(search, node) and all(needs(search, node, member) for member in first)
+
+
+def _without(node: Node, member: Member) -> tuple[Member, ...]:
+    return tuple(each for each in node.members if each is not member)
+
+
+def is_better(search: Search, node: Node, than: Node) -> bool:
+    """Check that a set has more evidence than another, and explains more where it has more hypotheses.
+
+    What many explain no better than few is no other explanation, whatever their priors make of it.
+    """
+    if node.score <= than.score:
+        return False
+    least = search.criteria.form_described**2 * _explained(search, than)
+    return len(node.members) <= len(than.members) or than.trial.left - node.trial.left > least
 
 
 def needs(search: Search, node: Node, member: Member) -> bool:
@@ -35,7 +52,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
         The hypothesis in question.
     """
     criteria, trials = search.criteria, search.trials
-    others = trials.of(tuple(each for each in node.members if each is not member))
+    others = trials.of(_without(node, member))
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
     explained = search.root.trial.left - others.left + trials.explained_before
     beyond = others.left - node.trial.left
@@ -61,8 +78,12 @@ def _are_of_size(search: Search, node: Node) -> bool:
     sizes = _sizes(search, node)
     if len(sizes) < max(len(node.members), SLOW_DRIFTS):
         return True
-    explained = search.root.trial.left - node.trial.left + search.trials.explained_before
+    explained = _explained(search, node)
     return search.criteria.of_size <= sum(sizes.values()) / max(explained, 1e-9) <= 1.0 / search.criteria.of_size
+
+
+def _explained(search: Search, node: Node) -> float:
+    return search.root.trial.left - node.trial.left + search.trials.explained_before
 
 
 def _sizes(search: Search, node: Node) -> dict[Known, float]:

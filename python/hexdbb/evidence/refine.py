@@ -33,8 +33,10 @@ def refined(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Of the verdict.
+        Of the verdict; returned as it is where the search looks at no learned functions.
     """
+    if not search.learns:
+        return node
     for _ in range(search.criteria.refinement_rounds):
         before = node
         if not _is_fine(search, node):
@@ -46,6 +48,8 @@ def refined(search: Search, node: Node) -> Node:
 
 def refined_forms(search: Search) -> Node:
     """Return the functions that describe the forms of the effects of the model, where no other cause is missing."""
+    if not search.learns:
+        return search.root
     homes = [each for homes in search.present.values() for each in homes]
     return _widened(search, search.root, {(part_of(each), each.element) for each in homes})
 

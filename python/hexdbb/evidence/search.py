@@ -7,7 +7,7 @@ so that two faults of one size, of which either alone explains half, are found t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -19,7 +19,7 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
-from hexdbb.evidence.needed import needs, needs_all
+from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.period import best_period
 from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -132,7 +132,7 @@ class Search:
             children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
             children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
             beam = self._kept(children)
-            best = max([best, *filter(self._predicts, beam)], key=lambda each: each.score)
+            best = self._best(best, filter(self._predicts, beam))
             if size == 0 and best.trial.left > self.criteria.refined_to:
                 together = self._or_known_together(best)
                 beam = [together, *beam] if len(together.members) > 1 else beam
@@ -143,7 +143,7 @@ class Search:
             if self._is_complete(best):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if _is_known(each)] if _is_free_in_time(best) else []
-        return max(best, together, key=lambda each: each.score)
+        return self._best(best, [together])
 
     def _or_known_together(self, best: Node) -> Node:
         """Return the best set of known effects, chosen together, where it is better than what explains most alone.
@@ -153,8 +153,8 @@ class Search:
         found = [best]
         alone = {h for each in self.nodes if self._explains_all_alone(each) for h in each.hypotheses}
         for together in known_sets(self, 2 if alone else self.criteria.max_effects):
-            # Nothing is left for one more where fewer explain all.
-            if any(len(each.members) < len(together.members) and self._is_complete(each) for each in found[1:]):
+            # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
+            if any(len(each.members) < len(together.members) and self._leaves_nothing(each) for each in found[1:]):
                 break
             if together.effects & alone:
                 continue
@@ -168,9 +168,15 @@ class Search:
                 prior = sum(self.log_prior(each.hypothesis) for each in members)
                 node = Node(trial, trial.log_evidence + prior)
                 self.nodes.append(node)
-            if node.score > best.score and not trial.refused and needs_all(self, node) and self._predicts(node):
+            # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
+            if node.score > best.score and not trial.refused and self._predicts(node) and needs_all(self, node):
                 found.append(node)
-        return max(found, key=lambda each: each.score)
+        return self._best(best, found[1:])
+
+    def _best(self, best: Node, others: Iterable[Node]) -> Node:
+        for each in others:
+            best = each if is_better(self, each, best) else best
+        return best
 
     def expand(self, node: Node) -> list[Node]:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
@@ -286,6 +292,12 @@ class Search:
     def _is_complete(self, node: Node) -> bool:
         excess = self.root.trial.left - 1.0
         return node.trial.left - 1.0 < max(self.criteria.complete * excess, 0.03)
+
+    def _leaves_nothing(self, node: Node) -> bool:
+        """Check that a set explains all, and predicts what is left out to within what its fit expects of itself."""
+        ratio = self.criteria.heldout_ratio * max(node.trial.left, 1.0) ** 0.5
+        heldout = self.checked(node).heldout.values()
+        return self._is_complete(node) and all(held.after <= ratio * held.expected for held in heldout)
 
     def _explains_all_alone(self, node: Node) -> bool:
         return len(node.members) == 1 and _is_known(node) and self._is_complete(node) and not node.trial.refused

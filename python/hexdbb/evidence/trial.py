@@ -77,11 +77,9 @@ class Trial:
 
     def columns_of_forms(self) -> Iterator[tuple[Form, slice]]:
         """Yield the forms that have functions beside them, with their columns of the linearisation."""
-        first = int(np.count_nonzero(self.model.free))
         for form in (*(form for _, form in self.present), *self.forms):
             if form is not None and form.columns:
-                yield form, slice(first, first + form.columns)
-                first += form.columns
+                yield form, slice(form.first, form.first + form.columns)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -119,6 +117,10 @@ class Trials:
         if key not in self._known:
             self._known[key] = self._about(tuple(members), self._fitted(members))
         return self._known[key]
+
+    def has(self, members: Sequence[Member]) -> bool:
+        """Check whether a model with hypotheses was fitted already."""
+        return _key(members) in self._known
 
     def linear(self, trial: Trial) -> Linear:
         """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
@@ -161,17 +163,10 @@ class Trials:
     def _about(self, members: tuple[Member, ...], fitted: Fitted) -> Trial:
         """Weigh members about their fit, and keep its linearisation."""
         linear = fitted.linear
-        present: list[tuple[str, Form]] = []
-        forms: list[Form | None] = []
-        for known in self._present:
-            linear, form = self.forms.beside(linear, fitted, known)
-            present.append((known.name, form))
-        for member in members:
-            if isinstance(member.hypothesis, Known):
-                linear, form = self.forms.beside(linear, fitted, member.hypothesis)
-                forms.append(form)
-            else:
-                forms.append(None)
+        known = [each.hypothesis for each in members if isinstance(each.hypothesis, Known)]
+        linear, found = self._with_forms(linear, fitted, [*self._present, *known])
+        present = [(each.name, found[each]) for each in self._present]
+        forms = [found[each.hypothesis] if isinstance(each.hypothesis, Known) else None for each in members]
         refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
         every = [*forms, *(form for _, form in present)]
         prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in every if form is not None)
@@ -191,6 +186,19 @@ class Trials:
             left=float(np.mean(residual**2)),
             present=tuple(present),
         )
+
+    def _with_forms(self, linear: Linear, fitted: Fitted, every: Sequence[Known]) -> tuple[Linear, dict[Known, Form]]:
+        """Return a linearisation with the discrepancies of some effects, and these.
+
+        A form too large for its effect may be that of one which comes after it: it is asked for again beside them all.
+        """
+        found: dict[Known, Form] = {}
+        for each in every:
+            linear, found[each] = self.forms.beside(linear, fitted, each)
+        for place, each in enumerate(every):
+            if not found[each].functions and any(found[later].columns for later in every[place + 1 :]):
+                linear, found[each] = self.forms.beside(linear, fitted, each)
+        return linear, found
 
     def _fitted(self, members: Sequence[Member]) -> Fitted:
         """Fit the model of some members, from where it was fitted with all but the last if it was."""

@@ -10,6 +10,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
+from hexdbb.evidence.form import Form
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
@@ -119,11 +120,11 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
 def is_for_sure(search: Search, node: Node) -> bool:
     """Check that causes together explain enough to be named for sure.
 
-    One effect of another form may predict circles left out worse than geometry alone does. Several that do so together
-    were put together to fit: each takes what the others leave.
+    One effect of another form need not predict circles that geometry alone does not predict either. Several that are
+    excused so together were put together to fit: each takes what the others leave.
     """
     checked = search.checked(node)
-    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.predicts_worse)
+    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.excused)
 
 
 def _is_form(search: Search) -> bool:
@@ -214,20 +215,24 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
             rivals.append(" + ".join(other.trial.names))
     form = node.trial.forms[node.hypotheses.index(cause)]
     if form is not None and form.deviation > search.criteria.form_named:
-        rivals += [name for name in _nearly_as_good(search, node, cause) if name not in rivals]
+        rivals += [name for name in _nearly_as_good(search, node, cause, form) if name not in rivals]
     if isinstance(cause, Known):
         rivals += [name for name in rivals_elsewhere(search, node, cause) if name not in rivals]
     return Found(cause, tuple(rivals), margin, tuple(alike), refinements, form.deviation if form is not None else 0.0)
 
 
-def _nearly_as_good(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return sets without a cause that explain nearly as much, at once or better than with so different a form."""
+def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:
+    """Return sets without a cause that explain nearly as much, at once or better than with so different a form.
+
+    What explains more than the effect's formula does, all but the square of its deviation, needs no form at all.
+    """
     excess = search.root.trial.left - 1.0
+    share = max(search.criteria.same_kind_share, form.deviation**2)
     return [
         " + ".join(other.trial.names)
         for other in search.nodes
         if not any(search.same_kind(each, cause) for each in other.hypotheses)
-        and other.trial.left - node.trial.left < search.criteria.same_kind_share * excess
+        and other.trial.left - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
     ]
 

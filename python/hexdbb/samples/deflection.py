@@ -2,8 +2,9 @@
 
 The measured reading is no variable of a cause: a function of it explains whatever is missing. The nominal one is
 constant on circles of the nominal radius, where errors of geometry and set-up deflect the gauge by tenths of a
-millimetre. So the readings are predicted by the machine with its geometry and set-up fitted to them, one step of Gauss
-and Newton from the nominal machine: what is left of second order is a thousandth of the deflection.
+millimetre. So the readings are predicted by the machine with its geometry and set-up fitted to them by steps of Gauss
+and Newton from the nominal machine. A gauge whose scale bends would bend geometry instead: from the second step on,
+polynomials of the deflection are fitted beside it, and only what geometry predicts is the deflection.
 """
 
 from __future__ import annotations
@@ -11,17 +12,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.polynomial import Legendre
 from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.machine import MachineFile
-from hexdbb.model import MountKey, new_model
+from hexdbb.model import Model, MountKey, new_model
 
 Floats = NDArray[np.float64]
 
 DEFLECTION = "deflection_mm"
 FITTED_ROWS = 3000
 """Readings that the step is taken from: some tens for each value of geometry and set-up, as in `Criteria.fit_rows`."""
+STEPS = 5
+"""Steps with polynomials beside: each halves what a gauge that bends by a tenth of its range bends geometry."""
+DEGREES = (2, 3, 4, 5)
+"""Of the polynomials: a scale that bends to either side, saturates, or has another gain for pressed than for drawn."""
+BEND_MM = 0.1
+"""Prior standard deviation of their coefficients: as large as the deflections that geometry makes."""
 NOISE_MM = 1e-3
 """Against which priors count: of tenths of a millimetre, they are the same beside the noise of any gauge."""
 
@@ -46,13 +54,31 @@ def deflection_mm(
         return nominal_mm
     model = new_model(machine).with_mounts(mounts)
     few = np.unique(np.linspace(0, len(reading_mm) - 1, min(len(reading_mm), FITTED_ROWS)).astype(np.intp))
-    found = _core.normal_equations(model.engine(), block.rows(few), reading_mm[few])
-    if found.failure >= 0:
-        return nominal_mm
+    rows, measured_mm = block.rows(few), reading_mm[few]
+    for degrees in ((), *(STEPS * (DEGREES,))):
+        stepped = _stepped(model, rows, measured_mm, degrees)
+        if stepped is None:
+            return nominal_mm
+        model = stepped
+    predicted = _core.predict(model.engine(), block)
+    return nominal_mm if predicted.first_failure >= 0 else predicted.reading_mm
+
+
+def _stepped(model: Model, rows: _core.Samples, reading_mm: Floats, degrees: Sequence[int]) -> Model | None:
+    """Fit geometry and set-up by one step of Gauss and Newton, polynomials of the deflection as it is beside them.
+
+    None where a sample has no pose.
+    """
+    predicted = _core.predict(model.engine(), rows, want_jacobian=True)
+    if predicted.first_failure >= 0:
+        return None
     free, values = np.flatnonzero(model.free), model.values
     prior = model.prior_sigma[free]
-    scale = prior / NOISE_MM * np.sqrt(len(reading_mm) / len(few))
-    information = found.information[np.ix_(free, free)] * np.outer(scale, scale) + np.eye(len(free))
-    values[free] += prior * np.linalg.solve(information, scale * found.gradient[free] * scale / prior)
-    predicted = _core.predict(model.with_values(values).engine(), block)
-    return nominal_mm if predicted.first_failure >= 0 else predicted.reading_mm
+    part = predicted.reading_mm / max(float(np.abs(predicted.reading_mm).max()), NOISE_MM)
+    bent = [BEND_MM * Legendre.basis(each)(part)[:, None] for each in degrees]
+    columns = np.hstack([predicted.jacobian[:, free] * prior, *bent]) / NOISE_MM
+    standing = np.concatenate([(values - model.start)[free] / prior, np.zeros(len(bent))])
+    gradient = columns.T @ ((reading_mm - predicted.reading_mm) / NOISE_MM) - standing
+    step = np.linalg.solve(columns.T @ columns + np.eye(columns.shape[1]), gradient)
+    values[free] += prior * step[: len(free)]
+    return model.with_values(values)

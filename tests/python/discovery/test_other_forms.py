@@ -71,3 +71,27 @@ def test_play_that_is_learned_predicts_what_it_does_at_reversals() -> None:
     (found,) = line["found"]
     assert "learned:slider:1:since_reversal_travel_alike" in found["refinements"]
     assert line["heldout"]["circle"]["after"] < 1.3
+
+
+def test_a_bent_gain_is_not_asked_for_deflections_that_no_other_circle_has() -> None:
+    """How it bends at the ends of the gauge's range is in none of the other readings, nor claimed to be."""
+    line = line_of(case("bar_gain-d20-x100-calibrate-s2"), ())
+    assert line["found"][0]["name"] == "bar_gain"
+    assert line["heldout"]["circle"]["after"] < 3.0 < 50.0 < line["heldout"]["circle"]["before"]
+    assert "circle" in line["claimed"]
+
+
+def test_a_gauge_that_compresses_is_found_though_geometry_bends_after_it() -> None:
+    """Its deflection is what geometry predicts beside a scale that bends; fitted alone, geometry follows the scale."""
+    line = line_of(case("gauge_compresses-d0-x10-calibrate-s1"), ())
+    assert line["outcome"] == "right"
+    assert [each["name"] for each in line["found"]] == ["learned:reading:deflection"]
+    assert line["heldout"]["circle"]["after"] < 1.3
+
+
+def test_legs_of_another_form_are_not_named_for_sure_beside_a_screw_that_explains_more_than_their_formula() -> None:
+    line = line_of(case("screw_thermal-d10-x10-calibrate-s1"), ["screw_thermal"])
+    assert line["grade"] == "ambiguous"
+    (found,) = line["found"]
+    assert found["name"] == "leg_thermal"
+    assert "learned:slider:4:time_position" in found["rivals"]

@@ -1,0 +1,117 @@
+"""What a set of hypotheses needs, and when one set is better than another: on sets whose figures are stated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.exchange import settled
+from hexdbb.evidence.form import Form
+from hexdbb.evidence.needed import is_better, needs_all
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.trial import Member, Trials
+from hexdbb.learned import Learned
+
+DRIFT, GAIN, SCREW = (Member(Known(name, ("1",))) for name in ("bar_drift", "bar_gain", "screw_thermal"))
+
+
+class Trialled:
+    """Trials of sets whose mean square left is stated; those asked for first are remembered."""
+
+    explained_before = 0.0
+
+    def __init__(self, left: dict[frozenset[Member], float], fitted: set[frozenset[Member]]) -> None:
+        self._left, self._fitted = left, fitted
+        self.asked: list[frozenset[Member]] = []
+
+    def has(self, members: tuple[Member, ...]) -> bool:
+        return frozenset(members) in self._fitted
+
+    def of(self, members: tuple[Member, ...]) -> Any:
+        self.asked.append(frozenset(members))
+        left = self._left[frozenset(members)]
+        return SimpleNamespace(members=members, left=left, log_evidence=-1000.0 * left, refused=())
+
+    def size(self, trial: Any, known: Known) -> float:
+        return 3.0
+
+
+def searched(left: dict[tuple[Member, ...], float], *fitted: tuple[Member, ...]) -> Any:
+    """Return a search whose empty set leaves 11 noise variances, and the node of the first set."""
+    trials = Trialled({frozenset(each): value for each, value in left.items()}, {frozenset(each) for each in fitted})
+    node = node_of(trials.of(next(iter(left))))
+    search = SimpleNamespace(
+        criteria=DEFAULT,
+        trials=trials,
+        root=SimpleNamespace(trial=SimpleNamespace(left=11.0)),
+        nodes=[node],
+        log_prior=lambda hypothesis: 0.0,
+        checked_trial=lambda trial: SimpleNamespace(reasons=()),
+        checked=lambda node: SimpleNamespace(reasons=(), excused=False),
+        expand=lambda node: [],
+        node=lambda members, near: node_of(trials.of(members)),
+    )
+    trials.asked.clear()
+    return search, node
+
+
+def node_of(trial: Any) -> Any:
+    hypotheses = tuple(each.hypothesis for each in trial.members)
+    return SimpleNamespace(trial=trial, members=trial.members, hypotheses=hypotheses, score=trial.log_evidence)
+
+
+@pytest.mark.parametrize(("left", "expected"), [(1.0, True), (1.19, False)])
+def test_more_effects_are_better_where_they_explain_more(left: float, expected: bool) -> None:
+    search, wider = searched({(DRIFT, GAIN): left, (SCREW,): 1.2})
+    than = node_of(search.trials.of((SCREW,)))
+    assert is_better(search, wider, than) is expected
+    assert not is_better(search, than, wider)
+
+
+def test_sets_that_are_fitted_already_are_asked_first() -> None:
+    """The third of them is needless beside the two that are fitted: no other set is."""
+    search, node = searched({(DRIFT, GAIN, SCREW): 1.0, (DRIFT, GAIN): 1.0}, (DRIFT, GAIN))
+    assert not needs_all(search, node)
+    assert search.trials.asked == [frozenset((DRIFT, GAIN))]
+
+
+def test_an_effect_that_stood_in_for_what_came_later_is_left_out() -> None:
+    search, node = searched({(SCREW, DRIFT, GAIN): 1.0, (DRIFT, GAIN): 1.01, (SCREW, GAIN): 5.0, (SCREW, DRIFT): 6.0})
+    search.trials._left |= {frozenset((DRIFT,)): 7.0, frozenset((GAIN,)): 7.0}
+    assert settled(search, node).members == (DRIFT, GAIN)
+
+
+class BesideLater:
+    """Forms of which the first is too large for its effect until the second stands beside it."""
+
+    def beside(self, linear: Linear, fitted: Any, known: Known) -> tuple[Linear, Form]:
+        first = linear.own.shape[1]
+        if known.effect == "bar_drift" and first == 1:
+            return linear, Form(0.0, 0.0, ())
+        wider = replace(linear, own=np.hstack([linear.own, np.ones((len(linear.own), 2))]))
+        return wider, Form(0.1, 0.2, ("learned:reading:time",), 2, first)
+
+
+def test_a_form_too_large_at_first_is_asked_for_again_beside_the_others() -> None:
+    trials = Trials.__new__(Trials)
+    trials.forms = BesideLater()  # type: ignore[assignment]
+    linear = Linear(np.zeros(4), np.ones((4, 1)), np.zeros(1))
+    known = [DRIFT.hypothesis, GAIN.hypothesis]
+    wider, found = trials._with_forms(linear, None, known)  # type: ignore[arg-type]
+    assert wider.own.shape[1] == 5
+    assert [found[each].first for each in found] == [3, 1]
+
+
+def test_the_same_causes_in_words_of_learned_functions_are_no_better_set() -> None:
+    time, bend = (Member(Learned.parse(f"learned:reading:{name}")) for name in ("time", "deflection"))
+    left = {(DRIFT, bend): 1.05, (time, bend): 1.0, (DRIFT,): 5.0, (time,): 5.0, (bend,): 6.0}
+    search, node = searched(left)
+    search.nodes.append(node_of(search.trials.of((time, bend))))
+    search.same_kind = lambda one, other: one == other or {one, other} == {DRIFT.hypothesis, time.hypothesis}
+    assert settled(search, node).members == (DRIFT, bend)
