@@ -3,7 +3,7 @@
 More are added as one more module with a `TABLE`, joined here.
 """
 
-from hexdbb_truth.forms import outside_drives, outside_later, outside_measuring, outside_structure
+from hexdbb_truth.forms import outside_drives, outside_last, outside_later, outside_measuring, outside_structure
 from hexdbb_truth.forms.fault import Fault, Outside
 
 __all__ = ["OUTSIDE", "Fault", "Outside"]
@@ -13,5 +13,6 @@ OUTSIDE: dict[str, Outside] = {
     **outside_structure.TABLE,
     **outside_measuring.TABLE,
     **outside_later.TABLE,
+    **outside_last.TABLE,
 }
 """Kinds by name."""
