@@ -107,11 +107,14 @@ void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& 
 
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
 /// some of its standard deviations away from that of all readings, to which the last steps lead. Where they do not come
-/// to rest, steps along the geodesic do from the best point found. `out` stays unusable where neither does, or all readings like the end less than
-/// the start, whose cost is `at_start`.
+/// to rest, steps along the geodesic do from the best point found. `out` stays unusable where neither does, or all
+/// readings like the end less than the start, whose cost is `at_start`.
 void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
                         const FitOptions& options, double at_start, FitResult& out) {
   constexpr double kCoarseTolerance = 1e-6;  // of the cost, some hundreds: far below the distance to the end
+  // Of chi-square: where a step is predicted to lower it by less, none is taken. The minimum is then 1e-4 standard
+  // deviations away over all values together.
+  constexpr double kLastFall = 1e-8;
   constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
   constexpr int kMost = 12;        // steps along the geodesic
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
@@ -124,7 +127,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   };
   const double chi_squared =
       std::max(2.0 * of_all(near, Sums::kGradient).cost, static_cast<double>(accumulator.residual_mm().size()));
-  const LastSteps end = take_last_steps(of_all, few, near, bound, kFall * chi_squared);
+  const LastSteps end = take_last_steps(of_all, few, near, bound, {kLastFall, kFall * chi_squared});
   Eigen::VectorXd z = end.z;
   double cost = end.cost;
   out.iterations = end.steps;
@@ -146,14 +149,31 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
 /// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.
 ///
 /// A model that lacks an effect distorts its geometry by many prior standard deviations to imitate it; from there the
-/// minimum of the complete model is far. The fit is therefore also started from the values most probable a priori.
+/// minimum of the complete model is far. The fit is therefore also started from the values most probable a priori. From
+/// the minimum of nearly the same readings, a few steps lead to that of these.
 Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-                               Accumulator& accumulator, const Unknowns& unknowns, double noise_mm, FitResult& out) {
+                               Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
+                               FitResult& out) {
   constexpr int kMostCoarse = 60, kMost = 20;  // iteration limits
   constexpr double kCoarseFall = 1.0;          // of chi-square: the remaining readings move the minimum by more
   constexpr double kFall = 0.02;               // of chi-square: verdicts depend on differences of several units
+  const double noise_mm = options.noise_mm;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
+  const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
+    return posterior_at(model, accumulator, unknowns, noise_mm, at, sums);
+  };
+  out.termination = "Converged: no further step improves the fit.";
+  // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
+  if (options.from_minimum && samples.size() >= kLeastStride * kFewRows) {
+    const LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall});
+    out.usable = end.is_at_rest;
+    out.iterations = end.steps;
+    if (out.usable) {
+      out.values = unknowns.values(end.z.data());
+      return end.z;
+    }
+  }
   const auto down_from = [&](const Eigen::VectorXd& z) {
     return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, kCoarseFall, kMostCoarse);
   };
@@ -164,8 +184,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
     if (other.is_reachable && other.cost < coarse.cost) coarse = std::move(other);
   }
   const Descent fine =
-      descend([&](const Eigen::VectorXd& z) { return posterior_at(model, accumulator, unknowns, noise_mm, z); }, few,
-              coarse.z, bound, kFall, kMost);
+      descend([&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); }, few, coarse.z, bound, kFall, kMost);
   // Of several minima the coarse descent may choose one that all readings like less than the start: Ceres begins anew.
   Model first = model;
   first.set_values(unknowns.values(start.data()));
@@ -173,7 +192,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   const double at_start = 0.5 * (squared / (noise_mm * noise_mm) + start.squaredNorm());
   out.usable = fine.is_reachable && !(at_start < fine.cost);
   out.iterations = fine.steps;
-  out.termination = fine.is_at_rest ? "Converged: no further step improves the fit." : "Iteration limit reached.";
+  if (!fine.is_at_rest) out.termination = "Iteration limit reached.";
   out.values = unknowns.values(fine.z.data());
   return out.usable ? fine.z : start;
 }
@@ -236,7 +255,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   Accumulator accumulator(samples, measured_mm, unknowns.columns, options.robust_mm);
   Eigen::VectorXd z = unknowns.scaled_start();
   if (options.hypothesis && options.robust_mm == 0.0) {
-    z = fit_hypothesis(model, samples, measured_mm, accumulator, unknowns, options.noise_mm, out);
+    z = fit_hypothesis(model, samples, measured_mm, accumulator, unknowns, options, out);
   }
   if (!options.hypothesis) diagnose(model, samples, measured_mm, accumulator, unknowns, options, out);
   if (!out.usable) minimize_all(model, accumulator, unknowns, options, z, out);

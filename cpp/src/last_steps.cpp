@@ -6,9 +6,6 @@ namespace hexdbb {
 
 namespace {
 
-// Of chi-square: where a step is predicted to lower it by less, none is taken. The minimum is then 1e-4 standard
-// deviations away over all values together.
-constexpr double kLastFall = 1e-8;
 // Of chi-square: below, a step is a tenth of a standard deviation long, and convergence is linear.
 constexpr double kLinearFall = 1e-2;
 constexpr double kMostMixing = 1.0;  // |g|: a distance that halves with each step has 1, a slower one is not linear
@@ -45,19 +42,19 @@ Eigen::VectorXd bent(const BoundedStep& step, FewReadings& few, const Eigen::Vec
 }
 
 /// Return whether there is no further step to take: what it is predicted to bring is nothing, or too little for a slow one.
-bool is_at_rest(const Point& last, const Point& now, double slow_fall) {
-  return now.fall < kLastFall || (now.fall < slow_fall && now.fall > kSlow * last.fall);
+bool is_at_rest(const Point& last, const Point& now, const EndOfSteps& end) {
+  return now.fall < end.fall || (now.fall < end.slow_fall && now.fall > kSlow * last.fall);
 }
 
 /// Return whether the next point's step will bring less than the last fall, where falls go on as between the last two.
-bool is_end_near(const Point& last, const Point& now) {
-  return std::isfinite(last.fall) && now.fall * now.fall < kLastFall * last.fall;
+bool is_end_near(const Point& last, const Point& now, const EndOfSteps& end) {
+  return std::isfinite(last.fall) && now.fall * now.fall < end.fall * last.fall;
 }
 
 }  // namespace
 
 LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& all_at, FewReadings& few,
-                          Eigen::VectorXd z, const Eigen::VectorXd& bound, double slow_fall) {
+                          Eigen::VectorXd z, const Eigen::VectorXd& bound, const EndOfSteps& end) {
   LastSteps out;
   Point last;
   Posterior part;
@@ -76,9 +73,9 @@ LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, 
     Point now{z, all.downhill, step.predicted_fall(), step.step()};
     out.cost = all.cost;
     out.z = z;
-    out.is_at_rest = is_at_rest(last, now, slow_fall);
+    out.is_at_rest = is_at_rest(last, now, end);
     if (out.is_at_rest) break;
-    is_near_end = is_end_near(last, now);
+    is_near_end = is_end_near(last, now, end);
     z += std::isinf(last.fall) ? bent(step, few, z, bound) : mixed(step, last, now, bound);
     last = std::move(now);
   }

@@ -14,7 +14,7 @@
 // Anderson's mixing (1965) of depth one, products in the metric of J'J.
 // With millions of readings what J'J leaves out, which grows with their square root, exceeds the prior along the
 // directions that no reading determines: a step then divides the distance by less than two, and the way ends where what
-// is left of it is no longer worth a pass over all readings (`slow_fall`).
+// is left of it is no longer worth a pass over all readings (`EndOfSteps::slow_fall`).
 #pragma once
 
 #include <functional>
@@ -30,10 +30,16 @@ struct LastSteps {
   bool is_at_rest = false;  // false also where a step made all readings' cost worse
 };
 
+/// Where the way ends: where a step is predicted to lower chi-square by less, and where convergence is slow, by less than
+/// the second.
+struct EndOfSteps {
+  double fall;
+  double slow_fall;
+};
+
 /// Step to the minimum of all readings. `all_at` returns their posterior; the last one is mostly asked with its
-/// information, so that an accumulator has it. Where convergence is slow, the end is where a step is predicted to lower
-/// chi-square by less than `slow_fall`.
+/// information, so that an accumulator has it.
 LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& all_at, FewReadings& few,
-                          Eigen::VectorXd z, const Eigen::VectorXd& bound, double slow_fall);
+                          Eigen::VectorXd z, const Eigen::VectorXd& bound, const EndOfSteps& end);
 
 }  // namespace hexdbb

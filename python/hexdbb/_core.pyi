@@ -887,6 +887,7 @@ def fit(
     robust_mm: typing.SupportsFloat | typing.SupportsIndex = 0.0,
     sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"] = ...,
     hypothesis: bool = False,
+    from_minimum: bool = False,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.
@@ -908,6 +909,8 @@ def fit(
         Capture of each sample, within which neighbours may be correlated.
     hypothesis : bool
         Full fit of a hypothesis: faster, its covariance to first order.
+    from_minimum : bool
+        Of a hypothesis: the start is the minimum of nearly the same readings.
 
     Raises
     ------

@@ -35,6 +35,9 @@ struct FitOptions {
   // Full fit of a hypothesis: it ends where a further step would change chi-square by less than a verdict depends on;
   // its covariance is to first order; `machine` and `rms_before_mm` of the result are not filled.
   bool hypothesis = false;
+  // Of a hypothesis: the model's values are the minimum of nearly the same readings, as where some circles are held out,
+  // and the minimum that a few steps from there lead to is wanted. Makes no difference for few readings.
+  bool from_minimum = false;
   // Number of the capture each sample belongs to; neighbours within one may be correlated. Empty: all independent.
   Eigen::VectorXi sweep;
   // A direction is identifiable where the readings alone determine it to at most this fraction of its prior standard

@@ -43,6 +43,7 @@ def evaluate_fit(
     *,
     robust: bool = False,
     hypothesis: bool = False,
+    from_minimum: bool = False,
 ) -> tuple[Model, _core.FitResult]:
     """Fit chosen values of a model, no more: no held-out circles, no words.
 
@@ -58,6 +59,8 @@ def evaluate_fit(
         Huber's loss beyond `GLITCH_SIGMAS`.
     hypothesis : bool
         A fit that only serves to compare models: it ends sooner, and its covariance is to first order.
+    from_minimum : bool
+        Of a hypothesis: the start was fitted to nearly the same readings, and the minimum near it is wanted.
 
     Raises
     ------
@@ -67,7 +70,7 @@ def evaluate_fit(
         Where the fit did not end in a usable solution.
     """
 
-    def fit(start: Model) -> _core.FitResult:
+    def fit(start: Model, from_minimum: bool = False) -> _core.FitResult:
         try:
             result = _core.fit(
                 samples.engine(start),
@@ -78,6 +81,7 @@ def evaluate_fit(
                 robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
                 sweep=samples["sweep"],
                 hypothesis=hypothesis,
+                from_minimum=from_minimum,
             )
         except ValueError as error:
             raise InputError(f"{samples.name}: {error}") from None
@@ -87,7 +91,7 @@ def evaluate_fit(
 
     if (free & model.shaped).any():
         return _with_spread(*fit_shapes(samples, model, free, noise, fit))
-    result = fit(model)
+    result = fit(model, from_minimum)
     return _with_spread(model.with_values(np.where(model.shaped, model.values, result.values)), result)
 
 
@@ -225,10 +229,11 @@ def diagnose(
 
 
 def refitter(noise: Noise, robust: bool = False) -> Refit:
-    """Return a function that fits a model's free values to samples."""
+    """Return a function that fits a model's free values, fitted to more samples, to some of them."""
 
     def refit(samples: Samples, model: Model) -> Model:
-        return evaluate_fit(samples, model, model.free, noise, robust=robust, hypothesis=True)[0]
+        fit = evaluate_fit(samples, model, model.free, noise, robust=robust, hypothesis=True, from_minimum=True)
+        return fit[0]
 
     return refit
 
