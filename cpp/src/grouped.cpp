@@ -29,20 +29,25 @@ DesignSums design_sums(const Eigen::Ref<const Places>& place, const Eigen::Ref<c
   }
   DesignSums sums{RowMajorMatrix::Zero(groups * columns, columns),
                   RowMajorMatrix::Zero(groups * columns, table.cols())};
+  const Eigen::Index width = table.cols();
   for (Eigen::Index row = 0; row < rows; ++row) {
     if (group[row] < 0) continue;
     if (group[row] >= groups) throw out_of_range("group[" + std::to_string(row) + "]", group[row], groups);
-    const Eigen::Index first = group[row] * columns;
+    const int* const at = place.data() + row * place.outerStride();
+    const double *const own = weight.data() + row * weight.outerStride(), *const values =
+                                                                              table.data() + row * table.outerStride();
+    double* const square = sums.square.data() + group[row] * columns * columns;
+    double* const cross = sums.cross.data() + group[row] * columns * width;
     for (Eigen::Index part = 0; part < parts; ++part) {
-      const int at = place(row, part);
-      if (at < 0 || at >= columns) throw out_of_range("place[" + std::to_string(row) + "]", at, columns);
-      const double own = weight(row, part);
-      sums.cross.row(first + at) += own * table.row(row);
-      for (Eigen::Index other = 0; other < parts; ++other) {
-        // A place out of range is met by the loop outside at the latest.
-        const int beside = place(row, other);
-        if (beside >= 0 && beside < columns) sums.square(first + at, beside) += own * weight(row, other);
+      if (at[part] < 0 || at[part] >= columns) {
+        throw out_of_range("place[" + std::to_string(row) + "]", at[part], columns);
       }
+      for (Eigen::Index k = 0; k < width; ++k) cross[at[part] * width + k] += own[part] * values[k];
+      for (Eigen::Index other = 0; other < part; ++other) {
+        square[at[part] * columns + at[other]] += own[part] * own[other];
+        square[at[other] * columns + at[part]] += own[part] * own[other];
+      }
+      square[at[part] * (columns + 1)] += own[part] * own[part];
     }
   }
   return sums;
