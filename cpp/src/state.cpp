@@ -197,7 +197,12 @@ void derive(const NominalGeometry& nominal, Samples& samples, const std::vector<
   if (columns.empty()) {
     for (std::size_t each = 0; each < kPartial; ++each) derivations()[each].fill(nominal, samples);
   }
-  for (const std::string& column : columns) derivation_of(column).fill(nominal, samples);
+  std::vector<const Derivation*> wanted;  // each once, whatever of its columns are asked for
+  for (const std::string& column : columns) {
+    const Derivation* const each = &derivation_of(column);
+    if (std::find(wanted.begin(), wanted.end(), each) == wanted.end()) wanted.push_back(each);
+  }
+  for (const Derivation* each : wanted) each->fill(nominal, samples);
 }
 
 }  // namespace hexdbb
