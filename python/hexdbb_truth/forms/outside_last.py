@@ -32,7 +32,7 @@ def _screw_bent(draw: Draw) -> Fault:
 
     def values(scene: Scene, size: float) -> Array:
         sliders = scene.history.machine.sliders
-        low, high = sliders.travel_mm
+        low, high = sliders.travels_mm[k]
         along = (scene.drive_mm(k) - low) / (high - low)
         turn = 2.0 * math.pi / sliders.screw_lead_mm * scene.drive_mm(k)
         return column(1e-3 * size * np.sin(math.pi * along) ** 2 * np.sin(turn + phase))
