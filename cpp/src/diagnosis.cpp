@@ -1,14 +1,13 @@
 #include "hexdbb/diagnosis.hpp"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "curvature.hpp"
 #include "last_steps.hpp"
+#include "minimum.hpp"
 
 namespace hexdbb {
 
@@ -42,46 +41,6 @@ constexpr Eigen::Index kLeastStride = 4;
 constexpr Eigen::Index kMostStride = 16;
 
 double rms(const Eigen::VectorXd& v) { return std::sqrt(v.squaredNorm() / static_cast<double>(v.size())); }
-
-/// Residuals and prior, compressed. With r the whitened readings' residuals and J their Jacobian, Ceres sees the n + p
-/// numbers only through |r|^2, J'r and J'J. A triangular factor U of J'J, U^-T J'r and the part of |r| outside J's
-/// range have the same three, so that a problem of 20,000 residuals becomes one of p + 1, and its dense algebra takes
-/// no time.
-class CompressedCost : public ceres::CostFunction {
- public:
-  CompressedCost(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, double noise_mm)
-      : model_(model), accumulator_(accumulator), unknowns_(unknowns), noise_mm_(noise_mm) {
-    set_num_residuals(static_cast<int>(unknowns.size()) + 1);
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(unknowns.size()));
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const Eigen::Index size = unknowns_.size();
-    const Eigen::Map<const Eigen::VectorXd> z(parameters[0], size);
-    // Ceres evaluates the cost of a step first, and its derivatives where it accepts it: both result from one pass.
-    Model model = model_;
-    model.set_values(unknowns_.values(parameters[0]));
-    const NormalEquations& now = accumulator_.at(model);
-    if (now.failure >= 0) return false;                                 // Ceres then takes a shorter step
-    const Posterior here = posterior_of(now, unknowns_, noise_mm_, z);  // the prior's residuals are z themselves
-    const Eigen::LLT<Eigen::MatrixXd> factor(here.information);
-    const Eigen::VectorXd inside = -factor.matrixL().solve(here.downhill);
-    Eigen::Map<Eigen::VectorXd>(residuals, size) = inside;
-    residuals[size] = std::sqrt(std::max(2.0 * here.cost - inside.squaredNorm(), 0.0));
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<RowMajorMatrix> out(jacobians[0], size + 1, size);
-      out.topRows(size) = factor.matrixU();
-      out.row(size).setZero();
-    }
-    return true;
-  }
-
- private:
-  const Model& model_;
-  Accumulator& accumulator_;
-  const Unknowns& unknowns_;
-  double noise_mm_;
-};
 
 /// Return the normal equations at a model. Throws std::invalid_argument where a sample has no solution, naming it;
 /// `stride` is that of the accumulator's samples.
@@ -136,43 +95,19 @@ Identifiability machine_identifiability(const Model& model, Accumulator& accumul
   return identifiability_of(information, machine, set_up, kRedundant, options.noise_mm / options.identified_fraction);
 }
 
-/// Run Ceres from scaled values `z`, which become those of the end. `function_tolerance` is relative.
-ceres::Solver::Summary minimize(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, double noise_mm,
-                                int max_iterations, double function_tolerance, Eigen::VectorXd& z) {
-  ceres::Problem problem;
-  problem.AddResidualBlock(new CompressedCost(model, accumulator, unknowns, noise_mm), nullptr, z.data());
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = max_iterations;
-  solver.function_tolerance = function_tolerance;
-  solver.gradient_tolerance = 1e-9;
-  solver.parameter_tolerance = 1e-9;
-  solver.initial_trust_region_radius = 1e8;  // the problem is nearly linear: start with Gauss-Newton steps
-  solver.logging_type = ceres::SILENT;
-  const Eigen::VectorXd bound = bounds_about(unknowns, z);
-  for (Eigen::Index j = 0; j < unknowns.size(); ++j) {
-    problem.SetParameterLowerBound(z.data(), static_cast<int>(j), -bound[j]);
-    problem.SetParameterUpperBound(z.data(), static_cast<int>(j), bound[j]);
-  }
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  return summary;
-}
-
 /// Fit by Ceres to all readings, until no step improves the fit by more than a part of 1e-9 of its cost.
 void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
                   Eigen::VectorXd z, FitResult& out) {
-  const ceres::Solver::Summary summary =
-      minimize(model, accumulator, unknowns, options.noise_mm, options.max_iterations, 1e-9, z);
-  out.usable = summary.IsSolutionUsable();
-  out.iterations = static_cast<int>(summary.iterations.size()) - 1;
-  out.termination = summary.message;
+  const Minimum found = minimize(model, accumulator, unknowns, options.noise_mm, options.max_iterations, 1e-9, z);
+  out.usable = found.is_usable;
+  out.iterations = found.iterations;
+  out.termination = found.message;
   out.values = unknowns.values(z.data());
 }
 
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
 /// some of its standard deviations away from that of all readings, to which the last steps lead. Where they do not come
-/// to rest, steps along the geodesic do. `out` stays unusable where neither does, or all readings like the end less than
+/// to rest, steps along the geodesic do from the best point found. `out` stays unusable where neither does, or all readings like the end less than
 /// the start, whose cost is `at_start`.
 void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
                         const FitOptions& options, double at_start, FitResult& out) {
@@ -181,21 +116,22 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   constexpr int kMost = 12;        // steps along the geodesic
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
-  const ceres::Solver::Summary summary =
+  const Minimum found =
       minimize(model, few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, kCoarseTolerance, near);
-  if (!summary.IsSolutionUsable()) return;
+  if (!found.is_usable) return;
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
   };
-  const LastSteps end = take_last_steps(of_all, few, near, bound);
+  const double chi_squared =
+      std::max(2.0 * of_all(near, Sums::kGradient).cost, static_cast<double>(accumulator.residual_mm().size()));
+  const LastSteps end = take_last_steps(of_all, few, near, bound, kFall * chi_squared);
   Eigen::VectorXd z = end.z;
   double cost = end.cost;
   out.iterations = end.steps;
   out.usable = end.is_at_rest;
   if (!out.usable) {
-    const double chi_squared =
-        std::max(2.0 * of_all(near, Sums::kAll).cost, static_cast<double>(accumulator.residual_mm().size()));
-    const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, near, bound,
+    const Eigen::VectorXd& best = std::isfinite(end.cost) ? end.z : near;
+    const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, best, bound,
                                   kFall * chi_squared, kMost);
     z = other.z;
     cost = other.cost;
@@ -268,105 +204,10 @@ Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unk
   return Eigen::LLT<Eigen::MatrixXd>(total).solve(Eigen::MatrixXd::Identity(unknowns.size(), unknowns.size()));
 }
 
-/// Contribution of the readings' curvature along weakly determined directions to the covariance of the others.
-///
-/// Along a direction that no reading determines to first order (the cup's height under horizontal circles: its square
-/// shortens the bar) the truth may be a whole prior standard deviation away, and its second-order effect on the
-/// readings is attributed to other values. With steps s_k of one standard deviation along the weak directions,
-///   reading(x + sum t_k s_k) = ... + sum h_kl t_k t_l,   t standard normal;
-/// the estimate is off by P sum h_kl t_k t_l, P = C J' / noise^2, whose second moment is
-///   m m' + 2 sum p_kl p_kl',   p_kl = P h_kl,   m = sum p_kk.
-/// Evenly spaced rows suffice: h is smooth along a circle.
-class Curvature {
- public:
-  /// `solved` has passed over the samples.
-  Curvature(const Model& model, const Samples& samples, const Accumulator& solved, const Unknowns& unknowns,
-            const Eigen::MatrixXd& spread, double noise_mm)
-      : model_(model), unknowns_(unknowns) {
-    const Eigen::Index stride = std::max<Eigen::Index>(1, samples.size() / kRows);
-    rows_ = samples.every(stride);
-    no_reading_.setZero(rows_.size());
-    accumulator_ = std::make_unique<Accumulator>(rows_, no_reading_, unknowns.columns);
-    accumulator_->start_from(solved, stride);
-    accumulator_->keep_jacobian();
-    here_ = jacobian(Eigen::VectorXd::Zero(unknowns.size()));
-    gain_ = (static_cast<double>(stride) / (noise_mm * noise_mm)) * spread * here_.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(spread);
-    const Eigen::VectorXd sigma = principal.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    const Eigen::Index weak = (sigma.array() > kWeak).count();  // eigenvalues rise
-    steps_ = principal.eigenvectors().rightCols(weak) * sigma.tail(weak).asDiagonal();
-  }
-
-  Eigen::MatrixXd spread() const {
-    const Eigen::Index size = unknowns_.size(), weak = steps_.cols();
-    Eigen::MatrixXd seconds(rows_.size(), weak * (weak + 1) / 2);  // r_kl = 2 h_kl, but for the third derivatives
-    Eigen::Index pair = 0;
-    for (Eigen::Index k = 0; k < weak; ++k, pair += k) {
-      seconds.middleCols(pair, k + 1).noalias() = (jacobian(steps_.col(k)) - here_) * steps_.leftCols(k + 1);
-    }
-    const Eigen::MatrixXd p = 0.5 * gain_ * seconds;
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(size), times = Eigen::VectorXd::Constant(p.cols(), 4.0);  // kl and lk
-    pair = 0;
-    for (Eigen::Index k = 0; k < weak; ++k, pair += k) {
-      mean += p.col(pair + k);
-      times[pair + k] = 2.0;
-    }
-    const Eigen::MatrixXd out = p * times.asDiagonal() * p.transpose();
-    return out + mean * mean.transpose();
-  }
-
- private:
-  static constexpr Eigen::Index kRows = 256;  // some 36 per circle of a seven-circle plan
-  // In prior standard deviations: the curvature along directions determined better than this is (1 / 50)^2 of the
-  // prior's.
-  static constexpr double kWeak = 0.02;
-
-  /// Return the scaled Jacobian one step away; where a sample has no solution there, the one here: no change.
-  Eigen::MatrixXd jacobian(const Eigen::VectorXd& step) const {
-    Model model = model_;
-    const Eigen::VectorXd z = model.values()(unknowns_.columns).cwiseQuotient(unknowns_.scale) + step;
-    model.set_values(unknowns_.values(z.data()));
-    if (accumulator_->at(model).failure >= 0) return here_;
-    return accumulator_->jacobian() * unknowns_.scale.asDiagonal();
-  }
-
-  const Model& model_;
-  const Unknowns& unknowns_;
-  Samples rows_;
-  Eigen::VectorXd no_reading_;
-  std::unique_ptr<Accumulator> accumulator_;  // of the rows; remembers their last solutions
-  Eigen::MatrixXd here_, gain_;
-  Eigen::MatrixXd steps_;  // columns
-};
-
 }  // namespace
 
 Eigen::VectorXd prior_sigmas(const Model& model) {
   return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.prior_sigma; });
-}
-
-double autocorrelation_time(const Eigen::VectorXd& residual, const Eigen::VectorXi& sweep) {
-  const Eigen::Index count = residual.size();
-  if (sweep.size() != count) {
-    throw std::invalid_argument("sweep has " + std::to_string(sweep.size()) + " entries, expected " +
-                                std::to_string(count) + ", one per residual");
-  }
-  const auto covariance = [&](Eigen::Index lag) {
-    double sum = 0.0;
-    for (Eigen::Index row = lag; row < count; ++row) {
-      if (sweep[row] == sweep[row - lag]) sum += residual[row] * residual[row - lag];
-    }
-    return sum;
-  };
-  const double variance = covariance(0);
-  double length = 1.0;
-  if (!(variance > 0.0)) return length;
-  for (Eigen::Index lag = 1; lag + 1 < count; lag += 2) {
-    const double pair = (covariance(lag) + covariance(lag + 1)) / variance;
-    if (!(pair > 0.0)) break;
-    length += 2.0 * pair;
-  }
-  return std::max(length, 1.0);
 }
 
 FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
@@ -410,7 +251,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.sweep.size() != 0) out.correlation = autocorrelation_time(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);
-  if (!options.hypothesis) spread += Curvature(fitted, samples, accumulator, unknowns, spread, effective_mm).spread();
+  if (!options.hypothesis) spread += spread_of_curvature(fitted, samples, accumulator, unknowns, spread, effective_mm);
   out.covariance = Eigen::MatrixXd::Zero(model.size(), model.size());
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();

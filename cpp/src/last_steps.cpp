@@ -13,12 +13,14 @@ constexpr double kLastFall = 1e-8;
 constexpr double kLinearFall = 1e-2;
 constexpr double kMostMixing = 1.0;  // |g|: a distance that halves with each step has 1, a slower one is not linear
 constexpr double kRounding = 1e-11;  // of the cost, relative: thousand times that of its sum
-constexpr int kMost = 12;            // steps; four to seven suffice where the model is complete
+constexpr double kSlow = 0.1;  // of the last fall: four to seven steps that each divide it by more lead to the end
+constexpr int kMost = 24;      // steps; sixteen were needed for 2,000,000 readings from the other sign of a value
 
 /// A point of the way: where, how steep, and the fall of chi-square that its step was predicted to bring.
 struct Point {
   Eigen::VectorXd z, downhill;
   double fall = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd step;  // unmixed
 };
 
 /// Mix a step with the last one; the step itself where the last two do not converge linearly, or a value would pass its
@@ -42,6 +44,11 @@ Eigen::VectorXd bent(const BoundedStep& step, FewReadings& few, const Eigen::Vec
   return is_valid && ((z + out).cwiseAbs().array() <= bound.array()).all() ? out : step.step();
 }
 
+/// Return whether there is no further step to take: what it is predicted to bring is nothing, or too little for a slow one.
+bool is_at_rest(const Point& last, const Point& now, double slow_fall) {
+  return now.fall < kLastFall || (now.fall < slow_fall && now.fall > kSlow * last.fall);
+}
+
 /// Return whether the next point's step will bring less than the last fall, where falls go on as between the last two.
 bool is_end_near(const Point& last, const Point& now) {
   return std::isfinite(last.fall) && now.fall * now.fall < kLastFall * last.fall;
@@ -50,7 +57,7 @@ bool is_end_near(const Point& last, const Point& now) {
 }  // namespace
 
 LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& all_at, FewReadings& few,
-                          Eigen::VectorXd z, const Eigen::VectorXd& bound) {
+                          Eigen::VectorXd z, const Eigen::VectorXd& bound, double slow_fall) {
   LastSteps out;
   Point last;
   Posterior part;
@@ -58,13 +65,18 @@ LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, 
   for (; out.steps < kMost; ++out.steps) {
     // J'J of all readings is only wanted at the end, where it is that of the covariance.
     const Posterior all = all_at(z, is_near_end ? Sums::kAll : Sums::kGradient);
+    const bool is_worse = all.is_reachable && all.cost > out.cost * (1.0 + kRounding);
+    if (is_worse && z != last.z + last.step) {
+      z = last.z + last.step;  // mixed with the one before, it led too far
+      continue;
+    }
     if (!(last.fall < kLinearFall)) part = few.at(z);
-    if (!all.is_reachable || !part.is_reachable || all.cost > out.cost * (1.0 + kRounding)) break;
+    if (!all.is_reachable || !part.is_reachable || is_worse) break;
     const BoundedStep step(part.information, all.downhill, z, bound);
-    Point now{z, all.downhill, step.predicted_fall()};
+    Point now{z, all.downhill, step.predicted_fall(), step.step()};
     out.cost = all.cost;
     out.z = z;
-    out.is_at_rest = now.fall < kLastFall;
+    out.is_at_rest = is_at_rest(last, now, slow_fall);
     if (out.is_at_rest) break;
     is_near_end = is_end_near(last, now);
     z += std::isinf(last.fall) ? bent(step, few, z, bound) : mixed(step, last, now, bound);

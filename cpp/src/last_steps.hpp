@@ -12,6 +12,9 @@
 // there, so that two steps tell the rest of the way: with f = step, D the change since the last point, the point is
 //   z + f - g (Dz + Df),   g = <Df, f> / <Df, Df>,
 // Anderson's mixing (1965) of depth one, products in the metric of J'J.
+// With millions of readings what J'J leaves out, which grows with their square root, exceeds the prior along the
+// directions that no reading determines: a step then divides the distance by less than two, and the way ends where what
+// is left of it is no longer worth a pass over all readings (`slow_fall`).
 #pragma once
 
 #include <functional>
@@ -28,8 +31,9 @@ struct LastSteps {
 };
 
 /// Step to the minimum of all readings. `all_at` returns their posterior; the last one is mostly asked with its
-/// information, so that an accumulator has it.
+/// information, so that an accumulator has it. Where convergence is slow, the end is where a step is predicted to lower
+/// chi-square by less than `slow_fall`.
 LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& all_at, FewReadings& few,
-                          Eigen::VectorXd z, const Eigen::VectorXd& bound);
+                          Eigen::VectorXd z, const Eigen::VectorXd& bound, double slow_fall);
 
 }  // namespace hexdbb

@@ -1,11 +1,13 @@
 // Three linked charts of one circle: polar, unrolled, residual against a variable. A cursor, by mouse or arrow keys,
 // marks one angle in all of them. Everything is drawn from what Python sends; nothing is computed but places on screen.
 //
-// ECharts draws what stays while a value is dragged: axes, grids, measured paths, reversals. What follows the value lies
-// on a canvas above it (Overlay): a few thousand points drawn there take a millisecond, in ECharts twenty.
+// ECharts draws axes, grids and reversals. Paths lie on canvases above it (Overlay), where a few thousand points take a
+// millisecond, and twenty in ECharts: what was measured on one that is drawn when the scale changes, what follows a value
+// that is dragged on another.
 import { echarts } from "nicegui-echart";
 import {
-  againstOption, at, extent, FITTED, INK, opened, Overlay, polarOption, POLAR_SHARE, spanSeries, TURN, unrolledOption,
+  againstOption, at, extent, FAINT, FITTED, INK, MUTED, opened, Overlay, polarOption, POLAR_SHARE, spanSeries, TURN,
+  unrolledOption,
 } from "hexdbb-drawing";
 
 const NEAR_DEG = 2.0; // readings this near to the cursor are highlighted: a few in each lap
@@ -42,9 +44,11 @@ export default {
   async mounted() {
     await new Promise((resolve) => setTimeout(resolve, 0));
     this.charts = {};
+    this.under = {};
     this.over = {};
     for (const name of ["polar", "unrolled", "against"]) {
       this.charts[name] = echarts.init(this.$refs[name], null, { renderer: "canvas" });
+      if (name !== "against") this.under[name] = new Overlay(this.$refs[name]);
       this.over[name] = new Overlay(this.$refs[name]);
     }
     this.fitted = [];
@@ -78,11 +82,9 @@ export default {
       const isScaled = JSON.stringify(predicted.scale) !== JSON.stringify(this.predicted?.scale);
       this.predicted = { ...predicted, lines: opened(predicted.lines) };
       this.scaleLabel = predicted.scaleLabel;
+      this.isRescaled ||= isScaled;
       if (measured) this.drawWhole();
-      else {
-        if (isScaled) this.charts.polar.setOption(polarOption(this.measured, this.predicted));
-        this.fitScales(fitted !== null);
-      }
+      else this.fitScales(fitted !== null);
       this.drawOver();
       this.drawn = (this.drawn ?? 0) + 1;
       this.$el.dataset.drawn = this.drawn;
@@ -97,7 +99,8 @@ export default {
     },
     drawWhole() {
       if (!this.predicted) return;
-      this.charts.polar.setOption(polarOption(this.measured, this.predicted), true);
+      this.isRescaled = true;
+      this.charts.polar.setOption(polarOption(this.measured), true);
       this.spans = this.wantedSpans();
       this.charts.unrolled.setOption(unrolledOption(this.measured, this.spans, this.$refs.unrolled.clientWidth < NARROW), true);
       this.charts.against.setOption(againstOption(this.measured, this.points), true);
@@ -117,31 +120,59 @@ export default {
       const isOther = exactly && JSON.stringify(wanted) !== JSON.stringify(this.spans);
       if (!isOther && !wanted.some((each, panel) => isWrong(each, shown[panel]))) return;
       this.spans = wanted;
+      this.isRescaled = true;
       this.charts.unrolled.setOption({ series: spanSeries(this.spans) });
     },
     axisExtent(panel) {
       return this.charts.unrolled.getModel().getComponent("yAxis", panel).axis.scale.getExtent();
     },
     drawOver() {
-      // Everything that follows a value or the cursor, once for each frame of the display.
+      // Everything that follows a value or the cursor, once for each frame of the display; what was measured if need be.
       this.frame ??= requestAnimationFrame(() => {
         this.frame = null;
         if (!this.predicted) return;
+        if (this.isRescaled) this.drawMeasured();
+        this.isRescaled = false;
         this.drawOverPolar();
         this.drawOverUnrolled();
         this.drawOverAgainst();
       });
     },
-    drawOverPolar() {
-      const over = this.over.polar, { centre, division, count } = this.predicted.scale;
-      over.clear();
-      const width = over.holder.clientWidth, height = over.holder.clientHeight;
+    placeInPolar() {
+      const { clientWidth: width, clientHeight: height } = this.$refs.polar, { centre, division, count } = this.predicted.scale;
       const perUm = (POLAR_SHARE * Math.min(width, height)) / 2 / ((count + 0.25) * division - centre);
-      const place = (angle, value, into) => {
+      return (angle, value, into) => {
         const radius = (value - centre) * perUm, radians = (angle * Math.PI) / 180;
         into[0] = width / 2 + radius * Math.cos(radians);
         into[1] = height / 2 - radius * Math.sin(radians);
       };
+    },
+    placeInPanel(panel) {
+      const [low, high] = this.axisExtent(panel);
+      const pixels = (point) => this.charts.unrolled.convertToPixel({ xAxisIndex: panel, yAxisIndex: panel }, point);
+      const [left, bottom] = pixels([0, low]), [right, top] = pixels([TURN, high]);
+      return (angle, value, into) => {
+        into[0] = left + ((right - left) * angle) / TURN;
+        into[1] = bottom + ((top - bottom) * (value - low)) / (high - low);
+      };
+    },
+    drawMeasured() {
+      const { polar, unrolled } = this.under, { division, count } = this.predicted.scale;
+      const placed = this.placeInPolar(), ring = (value) => Array.from({ length: 362 }, (_, index) => (index % 2 ? value : index));
+      polar.clear();
+      for (const value of [count * division, -count * division]) polar.line(ring(value), FAINT, 1, placed);
+      polar.line(ring(0), MUTED, 1, placed);
+      unrolled.clear();
+      const unrolledPlace = this.placeInPanel(0);
+      this.measured.lines.forEach((each, index) => {
+        const colour = this.measured.directions[index].measuredColour;
+        polar.line(each.measuredPolar, colour, 4 - 1.5 * index, placed);
+        unrolled.line(each.measured, colour, 3.5 - 1.2 * index, unrolledPlace);
+      });
+    },
+    drawOverPolar() {
+      const over = this.over.polar, { centre, division, count } = this.predicted.scale, place = this.placeInPolar();
+      over.clear();
       this.predicted.lines.forEach((each, index) => over.line(each.polar, this.measured.directions[index].predictedColour, 1.4, place));
       const into = [0, 0];
       for (const value of [count * division, 0, -count * division]) {
@@ -151,16 +182,10 @@ export default {
       if (this.cursor !== null) over.line([this.cursor, centre, this.cursor, (count + 0.25) * division], INK, 1, place);
     },
     drawOverUnrolled() {
-      const over = this.over.unrolled, chart = this.charts.unrolled;
+      const over = this.over.unrolled;
       over.clear();
       [0, 1].forEach((panel) => {
-        const [low, high] = this.axisExtent(panel);
-        const pixels = (point) => chart.convertToPixel({ xAxisIndex: panel, yAxisIndex: panel }, point);
-        const [left, bottom] = pixels([0, low]), [right, top] = pixels([TURN, high]);
-        const place = (angle, value, into) => {
-          into[0] = left + ((right - left) * angle) / TURN;
-          into[1] = bottom + ((top - bottom) * (value - low)) / (high - low);
-        };
+        const place = this.placeInPanel(panel), [low, high] = this.axisExtent(panel);
         if (panel) this.fitted.forEach((each) => over.line(each.residual, FITTED, 1, place));
         this.predicted.lines.forEach((each, index) =>
           over.line(panel ? each.residual : each.predicted, this.measured.directions[index].predictedColour, 1.4, place));

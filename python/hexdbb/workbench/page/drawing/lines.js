@@ -4,7 +4,6 @@
 const unpacked = (text) => new Float32Array(Uint8Array.from(atob(text), (each) => each.charCodeAt(0)).buffer);
 export const opened = (directions) => directions.map((each) =>
   Object.fromEntries(Object.entries(each).map(([name, line]) => [name, unpacked(line)])));
-export const pairs = (line) => Array.from({ length: line.length / 2 }, (_, index) => [line[2 * index], line[2 * index + 1]]);
 
 export function at(line, angle) {
   // The value of a line at an angle, by linear interpolation.

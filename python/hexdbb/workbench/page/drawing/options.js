@@ -1,14 +1,8 @@
-// What ECharts draws: axes, grids, measured paths, reversals, readings against a variable.
-import { pairs } from "./lines.js";
+// What ECharts draws: axes, grids, reversals, readings against a variable.
 import { FAINT, INK, MUTED, POLAR_SHARE, TEXT, TURN } from "./style.js";
 
-export function polarOption(measured, predicted) {
-  const { centre, division, count } = predicted.scale;
-  const line = (id, data, color, width, z) => ({
-    id, type: "line", coordinateSystem: "polar", data, showSymbol: false, silent: true, animation: false, z,
-    lineStyle: { color, width },
-  });
-  const ring = (radius) => Array.from({ length: 181 }, (_, index) => [radius, 2 * index]);
+export function polarOption(measured) {
+  // The radius goes from 0 to 1, whatever the scale: rings and paths, which follow it, lie on a canvas above.
   return {
     animation: false,
     polar: { center: ["50%", "50%"], radius: `${100 * POLAR_SHARE}%` },
@@ -18,18 +12,13 @@ export function polarOption(measured, predicted) {
       axisTick: { show: false },
     },
     radiusAxis: {
-      min: centre, max: (count + 0.25) * division, axisLine: { show: false }, axisTick: { show: false }, z: 5,
-      axisLabel: { show: false }, splitLine: { show: false },
+      min: 0, max: 1, axisLine: { show: false }, axisTick: { show: false }, axisLabel: { show: false }, splitLine: { show: false },
     },
     series: [
-      ...[-1, 1].map((side) => line(`grid${side}`, ring(side * count * division), FAINT, 1, 1)),
-      line("nominal", ring(0), MUTED, 1, 1),
-      ...measured.lines.map((each, index) => line(`measured${index}`, pairs(each.measuredPolar).map(([angle, value]) => [value, angle]),
-        measured.directions[index].measuredColour, 4 - 1.5 * index, 2)),
       {
         id: "reversals", type: "scatter", coordinateSystem: "polar", silent: true, symbolSize: 1, z: 4,
         data: measured.reversals.map(([slider, angle]) => ({
-          value: [(count + 0.25) * division, angle], label: { show: true, formatter: String(slider), position: "inside",
+          value: [1, angle], label: { show: true, formatter: String(slider), position: "inside",
             color: INK, fontSize: 11, backgroundColor: "#FFFFFFDD", padding: [1, 3], borderRadius: 3 },
         })),
       },
@@ -59,13 +48,7 @@ export function unrolledOption(measured, spans, narrow) {
     grid: [{ left: 58, right: 10, top: 18, height: "40%" }, { left: 58, right: 10, bottom: 26, height: "40%" }],
     xAxis: [axis(0), axis(1)],
     yAxis: [scale(0, "deviation, µm"), scale(1, "residual, µm")],
-    series: [
-      ...measured.lines.map((each, index) => ({
-        id: `measured${index}`, type: "line", data: pairs(each.measured), xAxisIndex: 0, yAxisIndex: 0, showSymbol: false,
-        silent: true, animation: false, z: 2, lineStyle: { color: measured.directions[index].measuredColour, width: 3.5 - 1.2 * index },
-      })),
-      ...spanSeries(spans).map((each) => ({ ...each, ...marks })),
-    ],
+    series: spanSeries(spans).map((each) => ({ ...each, ...marks })),
   };
 }
 
