@@ -56,6 +56,15 @@ const CompensationTable kVertical =
     learned_table("slider_joint", "sliders_mm", {{0, 2, 1.0}, {1, 5, 1.0}}, 30.0, 840.0, 289);
 const CompensationTable kPosition = learned_table("slider", "sliders_mm", {{3, 3, 1.0}}, 30.0, 840.0, 289);
 const CompensationTable kVelocity = with_step(learned_table("slider", "velocity_mm_s", {{3, 3, 1.0}}, -60, 60, 161));
+const CompensationTable kAcceleration =
+    with_step(learned_table("slider", "acceleration_mm_s2", {{3, 3, 1.0}}, -60, 60, 161));
+
+CompensationTable against_motion(CompensationTable table) {
+  table.times = "travel_direction";
+  return table;
+}
+const CompensationTable kSinceReversal =
+    against_motion(learned_table("slider", "since_reversal_mm", {{3, 3, 1.0}}, 0.0, 120.0, 161));
 const CompensationTable kTurning =
     with_step(learned_table("leg", "slider_joint_rate_rad_s", {{4, 4, 1.0}}, -0.2, 0.2, 161));
 const CompensationTable kJointAngle = learned_table("leg", "slider_joint_angle_rad", {{4, 4, 1.0}}, 0.5, 2.5, 161);
@@ -80,6 +89,7 @@ Path circle() {
   for (std::size_t at = 0; at < out.pose.size(); ++at) {
     out.direction.push_back(direction_between(nominal, out.pose[at], out.pose[(at + 1) % out.pose.size()], kStep_s));
     out.direction.back().temperature_c = 23.0;
+    out.direction.back().acceleration_mm_s2.setConstant(30.0 * std::sin(2.0 * M_PI * double(at) / count));
   }
   return out;
 }
@@ -180,6 +190,8 @@ BENCHMARK_CAPTURE(sliders, all, geometry_and(kAll))->UseManualTime();
 BENCHMARK_CAPTURE(table, vertical, geometry_and({"backlash"}), kVertical)->UseManualTime();
 BENCHMARK_CAPTURE(table, position, geometry_and({"backlash"}), kPosition)->UseManualTime();
 BENCHMARK_CAPTURE(table, velocity, geometry_and({"backlash"}), kVelocity)->UseManualTime();
+BENCHMARK_CAPTURE(table, acceleration, geometry_and({"backlash"}), kAcceleration)->UseManualTime();
+BENCHMARK_CAPTURE(table, since_reversal, geometry_and({"backlash"}), kSinceReversal)->UseManualTime();
 BENCHMARK_CAPTURE(table, turning, geometry_and({"backlash"}), kTurning)->UseManualTime();
 BENCHMARK_CAPTURE(table, joint_angle, geometry_and({"backlash"}), kJointAngle)->UseManualTime();
 BENCHMARK_CAPTURE(table, swing, geometry_and({"backlash"}), kSwing)->UseManualTime();

@@ -26,6 +26,8 @@ TABLES = {
     "table/vertical": "height of both sliders of a guideway, by their positions",
     "table/position": "position of a slider",
     "table/velocity": "velocity of a slider, with a step at 0",
+    "table/acceleration": "acceleration of a slider, with a step at 0",
+    "table/since_reversal": "travel of a slider since a reversal, times its direction",
     "table/turning": "turning rate of a leg's slider joint, with a step at 0",
     "table/joint_angle": "angle of a leg's slider joint",
     "table/swing": "swing rate of a leg, with a step at 0",

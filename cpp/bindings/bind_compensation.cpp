@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "bindings.hpp"
 #include "hexdbb/compensation.hpp"
@@ -18,27 +20,62 @@ Pose pose_of(const Rows3& position_mm, const Rows3& rpy_rad, Eigen::Index row) {
   return {position_mm.row(row).transpose(), rotation_from_rpy(rpy_rad(row, 0), rpy_rad(row, 1), rpy_rad(row, 2))};
 }
 
-/// Compute targets along a path. Velocities are those of the nominal sliders between the neighbours of each row;
-/// directions of travel follow from the motion where none are given.
+/// Return the coordinates of the nominal sliders, one row per pose; NaN where one is out of reach.
+Rows6 nominal_sliders(const NominalGeometry& nominal, const Rows3& position_mm, const Rows3& rpy_rad) {
+  Rows6 out(position_mm.rows(), int{kLegs});
+  for (Eigen::Index row = 0; row < out.rows(); ++row) {
+    const InverseResult found = inverse(nominal, pose_of(position_mm, rpy_rad, row));
+    out.row(row) = found.sliders_mm.transpose();
+    if (found.status == Status::kUnreachable) out.row(row).setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+/// Return how the sliders move in a row: by the neighbours on either side, at an end by the next two rows but for the
+/// velocity, which is that between the two rows there. Zero, and no accelerations, where one of them is out of reach.
+Direction direction_in(const Rows6& sliders_mm, const Eigen::VectorXd& time_s, Eigen::Index row) {
+  const Eigen::Index last = sliders_mm.rows() - 1;
+  Direction out;
+  if (last < 1) return out;
+  const Eigen::Index before = std::max<Eigen::Index>(row - 1, 0), after = std::min(row + 1, last);
+  if (last >= 2) {
+    const Eigen::Index at = std::clamp<Eigen::Index>(row, 1, last - 1);
+    out =
+        direction_through(sliders_mm.row(at - 1).transpose(), sliders_mm.row(at).transpose(),
+                          sliders_mm.row(at + 1).transpose(), time_s[at] - time_s[at - 1], time_s[at + 1] - time_s[at]);
+  }
+  const double step_s = time_s[after] - time_s[before];
+  out.velocity_mm_s = (sliders_mm.row(after) - sliders_mm.row(before)).transpose() / step_s;
+  if (!(step_s > 0.0) || !out.velocity_mm_s.allFinite()) out.velocity_mm_s.setZero();
+  return out;
+}
+
+/// Compute targets along a path. Velocities and accelerations are those of the nominal sliders between the neighbours of
+/// each row; directions of travel, and the travel since reversals, follow from the motion where none are given.
 py::tuple sliders_along(Compensator& compensator, const Rows3& position_mm, const Rows3& rpy_rad,
                         const Eigen::VectorXd& time_s, const Eigen::VectorXd& temperature_c,
-                        const std::optional<Rows6>& travel_direction) {
+                        const std::optional<Rows6>& travel_direction,
+                        const std::optional<std::pair<Rows6, Rows6>>& since_reversal_mm) {
   const Eigen::Index count = position_mm.rows();
   if (travel_direction && travel_direction->rows() != count)
     throw std::invalid_argument("travel_direction and position_mm differ in length");
+  if (since_reversal_mm && (since_reversal_mm->first.rows() != count || since_reversal_mm->second.rows() != count))
+    throw std::invalid_argument("since_reversal_mm and position_mm differ in length");
   if (rpy_rad.rows() != count || time_s.size() != count || temperature_c.size() != count) {
     throw std::invalid_argument("position_mm, rpy_rad, time_s and temperature_c differ in length");
   }
-  const NominalGeometry nominal(compensator.machine());
   Rows6 sliders(count, int{kLegs}), correction(count, int{kLegs});
   Eigen::VectorXi status(count), slider(count);
   std::optional<py::gil_scoped_release> others_may_run(std::in_place);  // such as a cyclic loop
+  const Rows6 nominal_mm = nominal_sliders(NominalGeometry(compensator.machine()), position_mm, rpy_rad);
   for (Eigen::Index row = 0; row < count; ++row) {
-    const Eigen::Index before = std::max<Eigen::Index>(row - 1, 0), after = std::min(row + 1, count - 1);
-    Direction direction = direction_between(nominal, pose_of(position_mm, rpy_rad, before),
-                                            pose_of(position_mm, rpy_rad, after), time_s[after] - time_s[before]);
+    Direction direction = direction_in(nominal_mm, time_s, row);
     direction.temperature_c = temperature_c[row];
     if (travel_direction) direction.travel_direction = travel_direction->row(row).transpose();
+    if (since_reversal_mm) {
+      direction.since_reversal_mm = {since_reversal_mm->first.row(row).transpose(),
+                                     since_reversal_mm->second.row(row).transpose()};
+    }
     const SliderTargets targets = compensator.sliders(pose_of(position_mm, rpy_rad, row), direction);
     sliders.row(row) = targets.sliders_mm.transpose();
     correction.row(row) = targets.correction_mm.transpose();
@@ -102,6 +139,7 @@ void bind_table(py::module_& module) {
     if (each.variable != TableVariable::kNone) variables.emplace_back(each.column);
   }
   module.attr("TABLE_VARIABLES") = py::tuple(py::cast(variables));
+  module.attr("LONG_AGO") = kLongAgo;
 }
 
 /// Return the names of the effects that data correct, those of tables last, each once.
@@ -178,11 +216,14 @@ void bind_compensation(py::module_& module) {
       .def(py::init<const CompensationData&, const std::string&>(), py::arg("data"), py::arg("source"))
       .def("sliders_along", &sliders_along, py::arg("position_mm"), py::arg("rpy_rad"), py::arg("time_s"),
            py::arg("temperature_c"), py::arg("travel_direction") = py::none(),
+           py::arg("since_reversal_mm") = py::none(),
            "Compute slider targets of poses in order of motion.\n\n"
            "Parameters\n----------\nposition_mm, rpy_rad : ndarray, shape (n, 3)\n"
            "time_s, temperature_c : ndarray, shape (n,)\n    Temperature nan where not measured.\n"
            "travel_direction : ndarray, shape (n, 6), optional\n"
-           "    -1 to 1 per slider, where the motion to come is known; from the motion so far where not given.\n\n"
+           "    -1 to 1 per slider, where the motion to come is known; from the motion so far where not given.\n"
+           "since_reversal_mm : pair of ndarray, shape (n, 6), optional\n"
+           "    Travel since a reversal, of motion down and of motion up; likewise.\n\n"
            "Returns\n-------\nsliders_mm, correction_mm : ndarray, shape (n, 6)\n"
            "    A refused row has the last targets and, where a correction is too large, its size.\n"
            "status, slider : ndarray of int, shape (n,)\n    Slider at fault from 0, or -1.")

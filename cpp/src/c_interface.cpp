@@ -66,6 +66,13 @@ bool is_known(const hexdbb_constants* given) {
           given->struct_size == kConstantsWithoutLayout);
 }
 
+constexpr size_t kMotionWithoutAcceleration = offsetof(hexdbb_motion, acceleration_mm_s2);
+
+/// A motion has grown once.
+bool is_known(const hexdbb_motion* given) {
+  return given->struct_size == sizeof(hexdbb_motion) || given->struct_size == kMotionWithoutAcceleration;
+}
+
 /// Return the layout of constants, or null.
 const hexdbb_layout* layout_of(const hexdbb_constants& constants) {
   return constants.struct_size == sizeof(hexdbb_constants) ? constants.layout : nullptr;
@@ -182,6 +189,9 @@ bool to_direction(const hexdbb_motion* motion, hexdbb::Direction& out) {
   if (!is_known(motion)) return false;
   out.velocity_mm_s = Eigen::Map<const hexdbb::Vector6>(motion->velocity_mm_s);
   out.temperature_c = motion->temperature_c;
+  if (motion->struct_size != kMotionWithoutAcceleration) {
+    out.acceleration_mm_s2 = Eigen::Map<const hexdbb::Vector6>(motion->acceleration_mm_s2);
+  }
   return true;
 }
 

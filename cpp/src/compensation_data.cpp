@@ -35,8 +35,10 @@ Reason why_not(const std::string& column, double reference_temperature_c) {
 /// Return why a table cannot be compensated.
 Reason why_not(const CompensationTable& table, double reference_temperature_c) {
   if (find_compensated_port(table.port) == nullptr) return "pushes the " + table.port + ", not the machine";
-  const Reason reason = why_not(table.variable, reference_temperature_c);
-  return reason.empty() ? why_not(table.times, reference_temperature_c) : reason;
+  Reason reason = why_not(table.variable, reference_temperature_c);
+  if (reason.empty()) reason = why_not(table.times, reference_temperature_c);
+  if (!reason.empty() || may_multiply(find_table_variable(table.times)->variable)) return reason;
+  return "depends on " + table.times + " as a factor, which is not known to a controller";
 }
 
 /// Sort tables into those that are compensated, effect by effect, and effects that are left out.

@@ -35,7 +35,8 @@ class TableCheck {
     if (find_table_variable(table_.variable) == nullptr) {
       refuse(Fault::kUnknownEffect, "variable " + table_.variable + ": not known here", "one that a controller knows");
     }
-    if (find_table_variable(table_.times) == nullptr || table_.times == "sliders_mm") {
+    const TableVariableInfo* times = find_table_variable(table_.times);
+    if (times == nullptr || !may_multiply(times->variable)) {
       refuse(Fault::kUnknownEffect, "times " + table_.times + ": not known here", "one that a controller knows");
     }
   }

@@ -33,8 +33,13 @@ const PortSpan* find_compensated_port(const std::string& name) noexcept {
   return found == port::kSpans.end() ? nullptr : &*found;
 }
 
+bool may_multiply(TableVariable variable) noexcept {
+  return variable != TableVariable::kSliders && variable != TableVariable::kSinceReversal;
+}
+
 TableState::TableState() {
   for (Vector6& each : column) each.setZero();
+  for (Vector6& each : since_reversal_mm) each.setZero();
   (*this)[TableVariable::kNone].setOnes();
 }
 
@@ -89,6 +94,9 @@ TableSet::TableSet(const std::vector<CompensationTable>& tables) {
       element = each.element;
       legs_[static_cast<std::size_t>(variable)] |= 1u << element;
       legs_[static_cast<std::size_t>(times.variable)] |= 1u << element;
+      if (variable == TableVariable::kSinceReversal) {
+        legs_[static_cast<std::size_t>(TableVariable::kTravelDirection)] |= 1u << element;
+      }
       pushes_.push_back({LegPorts::place(first_port + each.column), each.weight});
       lookups_.back().last_push = place + 1;
       if (variable != TableVariable::kSliders) {
@@ -108,6 +116,21 @@ TableSet::TableSet(const std::vector<CompensationTable>& tables) {
   is_pushed_.erase(std::unique(is_pushed_.begin(), is_pushed_.end()), is_pushed_.end());
 }
 
+/// Return the value of a function of the travel since a reversal: of either direction of travel as much as is in force.
+double TableSet::since_reversal(const TableState& state, Lookup& lookup) const noexcept {
+  const TableFunction& function = functions_[static_cast<std::size_t>(lookup.function)];
+  const bool is_signed = lookup.times == TableVariable::kTravelDirection;
+  const double sigma = state[TableVariable::kTravelDirection][lookup.element];
+  double out = 0.0;
+  for (const std::size_t side : {0u, 1u}) {
+    const double sign = side == 0 ? -1.0 : 1.0, part = 0.5 * (1.0 + sign * sigma);
+    if (part == 0.0) continue;
+    const double value_mm = function.at(state.since_reversal_mm[side][lookup.element], lookup.interval);
+    out += part * (is_signed ? sign : lookup.factor) * value_mm;
+  }
+  return out;
+}
+
 void TableSet::push(const Lookup& lookup, double value_mm, LegPorts& out) const noexcept {
   for (int at = lookup.first_push; at < lookup.last_push; ++at) {
     const Push& each = pushes_[static_cast<std::size_t>(at)];
@@ -122,6 +145,10 @@ void TableSet::settle(const TableState& state) noexcept {
     const double factor = state[each.times][each.element];
     each.factor = std::isfinite(factor) ? factor : 0.0;
     if (at < of_position_) continue;
+    if (each.variable == TableVariable::kSinceReversal) {
+      push(each, since_reversal(state, each), settled_);
+      continue;
+    }
     const double value_mm = functions_[each.function].at(state[each.variable][each.element], each.interval);
     push(each, each.factor * value_mm, settled_);
   }

@@ -88,6 +88,7 @@ void Compensator::prepare() {
 void Compensator::reset() noexcept {
   travel_direction_.setZero();
   joint_direction_.setZero();
+  for (Vector6& each : since_reversal_mm_) each.setConstant(kLongAgo);
   followed_mm_.setConstant(kUnknown);
   checked_mm_.setConstant(kUnknown);
   last_correction_mm_ = correction_step_mm_ = LegRow();
@@ -258,6 +259,16 @@ Direction direction_between(const NominalGeometry& nominal, const Pose& from, co
   const InverseResult first = inverse(nominal, from), second = inverse(nominal, to);
   const bool are_reached = first.status != Status::kUnreachable && second.status != Status::kUnreachable;
   if (are_reached && step_s > 0.0) out.velocity_mm_s = (second.sliders_mm - first.sliders_mm) / step_s;
+  return out;
+}
+
+Direction direction_through(const Vector6& before_mm, const Vector6& at_mm, const Vector6& after_mm, double before_s,
+                            double after_s) noexcept {
+  Direction out;
+  if (!(before_s > 0.0) || !(after_s > 0.0)) return out;
+  const Vector6 arriving_mm_s = (at_mm - before_mm) / before_s, leaving_mm_s = (after_mm - at_mm) / after_s;
+  out.velocity_mm_s = (after_s * arriving_mm_s + before_s * leaving_mm_s) / (before_s + after_s);
+  out.acceleration_mm_s2 = 2.0 * (leaving_mm_s - arriving_mm_s) / (before_s + after_s);
   return out;
 }
 

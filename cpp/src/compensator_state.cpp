@@ -12,6 +12,9 @@ namespace hexdbb {
 
 namespace {
 
+// Part of a function that is no longer in force where a direction of travel is given by rounded numbers.
+constexpr double kNothing = 1e-9;
+
 /// Return the largest distance of a slider; NaN where one of the two is unknown.
 double distance_mm(const Vector6& one, const Vector6& other) { return (one - other).cwiseAbs().maxCoeff(); }
 
@@ -42,6 +45,7 @@ bool Compensator::follow(const Vector6& nominal_mm, const Direction& direction) 
     }
   }
   travel_direction_ = direction.travel_direction.array().isNaN().select(travel_direction_, direction.travel_direction);
+  if (tables_.legs(TableVariable::kSinceReversal) != 0u) follow_reversals(nominal_mm, direction);
   followed_mm_ = nominal_mm;
   return true;
 }
@@ -58,6 +62,28 @@ void Compensator::follow_joints(const Vector6& nominal_mm, const Vector6& veloci
     const double towards = rate == 0.0 ? turned_mm : std::copysign(turned_mm, rate);
     const double play = std::clamp(joint_direction_[k] + direction_per_mm_ * towards, -1.0, 1.0);
     joint_direction_[k] = is_first ? sense : play;
+  }
+}
+
+/// Update the travel since a reversal: that of the direction in which a slider moves grows, that of the other begins anew
+/// as soon as nothing of it is in force.
+void Compensator::follow_reversals(const Vector6& nominal_mm, const Direction& direction) noexcept {
+  const bool is_first = std::isnan(followed_mm_[0]);
+  for (int k = 0; k < kLegs; ++k) {
+    const double travel_mm = is_first ? 0.0 : nominal_mm[k] - followed_mm_[k];
+    const double velocity = direction.velocity_mm_s[k], towards = velocity == 0.0 ? travel_mm : velocity;
+    for (const std::size_t side : {0u, 1u}) {
+      const double sign = side == 0 ? -1.0 : 1.0;
+      double& since_mm = since_reversal_mm_[side][k];
+      const bool is_in_force = sign * travel_direction_[k] > kNothing - 1.0;
+      if (sign * towards > 0.0) {
+        since_mm += std::abs(travel_mm);
+      } else if (!is_in_force) {
+        since_mm = 0.0;
+      }
+      const double stated_mm = direction.since_reversal_mm[side][k];
+      if (!std::isnan(stated_mm)) since_mm = stated_mm;
+    }
   }
 }
 
@@ -85,6 +111,8 @@ void Compensator::set_tables(const Direction& direction, const Vector6& travel_d
     if (tables_.legs(variable) != 0u) state[variable] = value;
   };
   set(TableVariable::kVelocity, direction.velocity_mm_s);
+  set(TableVariable::kAcceleration, direction.acceleration_mm_s2);
+  if (tables_.legs(TableVariable::kSinceReversal) != 0u) state.since_reversal_mm = since_reversal_mm_;
   set(TableVariable::kTravelDirection, travel_direction);
   set(TableVariable::kLegForce, leg_force);
   set(TableVariable::kSliderJointDirection, joint_direction_);

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 namespace hexdbb {
 
@@ -21,10 +22,15 @@ class Curvature {
     accumulator_->keep_jacobian();
     here_ = jacobian(Eigen::VectorXd::Zero(unknowns.size()));
     gain_ = (static_cast<double>(stride) / (noise_mm * noise_mm)) * spread * here_.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(spread);
+    const std::vector<Eigen::Index> bending = that_bend(model, unknowns);
+    steps_.resize(unknowns.size(), 0);
+    if (bending.empty()) return;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> principal(spread(bending, bending));
     const Eigen::VectorXd sigma = principal.eigenvalues().cwiseMax(0.0).cwiseSqrt();
     const Eigen::Index weak = (sigma.array() > kWeak).count();  // eigenvalues rise
-    steps_ = principal.eigenvectors().rightCols(weak) * sigma.tail(weak).asDiagonal();
+    // One standard deviation along each; the values that do not bend follow as the covariance ties them to it.
+    steps_ = spread(Eigen::all, bending) * principal.eigenvectors().rightCols(weak) *
+             sigma.tail(weak).cwiseInverse().asDiagonal();
   }
 
   Eigen::MatrixXd spread() const {
@@ -50,6 +56,22 @@ class Curvature {
   // In prior standard deviations: the curvature along directions determined better than this is (1 / 50)^2 of the
   // prior's.
   static constexpr double kWeak = 0.02;
+
+  /// Return the unknowns along which readings bend: all but those of learned functions, which push micrometres. The
+  /// square of that over the shortest length of a machine is far below any noise, and hundreds of them, most determined
+  /// weakly, would take the square of their number in pairs.
+  static std::vector<Eigen::Index> that_bend(const Model& model, const Unknowns& unknowns) {
+    std::vector<bool> is_learned;
+    for (const Term& term : model.terms) {
+      const EffectInfo& info = term.effect->info();
+      is_learned.insert(is_learned.end(), static_cast<std::size_t>(term.values.size()), info.source == "learned");
+    }
+    std::vector<Eigen::Index> out;
+    for (Eigen::Index j = 0; j < unknowns.size(); ++j) {
+      if (!is_learned[static_cast<std::size_t>(unknowns.columns[static_cast<std::size_t>(j)])]) out.push_back(j);
+    }
+    return out;
+  }
 
   /// Return the scaled Jacobian one step away; where a sample has no solution there, the one here: no change.
   Eigen::MatrixXd jacobian(const Eigen::VectorXd& step) const {

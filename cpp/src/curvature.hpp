@@ -13,7 +13,8 @@ namespace hexdbb {
 ///   reading(x + sum t_k s_k) = ... + sum h_kl t_k t_l,   t standard normal;
 /// the estimate is off by P sum h_kl t_k t_l, P = C J' / noise^2, whose second moment is
 ///   m m' + 2 sum p_kl p_kl',   p_kl = P h_kl,   m = sum p_kk.
-/// Evenly spaced rows suffice: h is smooth along a circle.
+/// Evenly spaced rows suffice: h is smooth along a circle. Learned functions bend no readings: their values only follow
+/// the others.
 /// `solved` has passed over the samples; `spread` is the covariance of the scaled unknowns to first order.
 Eigen::MatrixXd spread_of_curvature(const Model& model, const Samples& samples, const Accumulator& solved,
                                     const Unknowns& unknowns, const Eigen::MatrixXd& spread, double noise_mm);

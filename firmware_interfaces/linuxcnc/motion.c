@@ -12,13 +12,14 @@ static kins_pins* pins;
 
 static bool has_begun, is_moving, has_reported_bracket;
 static double since_followed_s;
-static double followed_mm[HEXDBB_SLIDERS]; /* nominal; NAN before the first */
+static double followed_mm[HEXDBB_SLIDERS];   /* nominal; NAN before the first */
+static double followed_mm_s[HEXDBB_SLIDERS]; /* velocities then; NAN where there was no motion before */
 static hexdbb_status reported;
 
 void motion_start(const kins_engines* given, kins_pins* given_pins) {
   engines = *given;
   pins = given_pins;
-  for (int k = 0; k < HEXDBB_SLIDERS; ++k) followed_mm[k] = NAN;
+  for (int k = 0; k < HEXDBB_SLIDERS; ++k) followed_mm[k] = followed_mm_s[k] = NAN;
 }
 
 void motion_begin(void* unused, long period_ns) {
@@ -41,7 +42,8 @@ static hexdbb_pose to_pose(const EmcPose* world) {
 }
 
 static hexdbb_motion at_rest(void) {
-  hexdbb_motion motion = {(uint32_t)sizeof(hexdbb_motion), 0u, {0.0}, NAN};
+  hexdbb_motion motion = {(uint32_t)sizeof(hexdbb_motion), 0u, {0.0}, NAN, {0.0}};
+  for (int k = 0; k < HEXDBB_SLIDERS; ++k) motion.acceleration_mm_s2[k] = NAN;
   if (*pins->temperature_valid) motion.temperature_c = *pins->temperature;
   return motion;
 }
@@ -55,8 +57,8 @@ static void report(hexdbb_status status, int slider) {
                   hexdbb_status_text(status));
 }
 
-/* Velocities of the sliders, from the nominal machine; see the header. */
-static void find_velocity(const hexdbb_pose* pose, hexdbb_motion* motion) {
+/* Velocities and accelerations of the sliders, from the nominal machine; see the header. */
+static void find_motion(const hexdbb_pose* pose, hexdbb_motion* motion) {
   hexdbb_target now = HEXDBB_TARGET_INIT;
   double largest_mm = 0.0;
   const double step_s = since_followed_s;
@@ -66,11 +68,16 @@ static void find_velocity(const hexdbb_pose* pose, hexdbb_motion* motion) {
     const double step_mm = now.sliders_mm[k] - followed_mm[k];
     followed_mm[k] = now.sliders_mm[k];
     motion->velocity_mm_s[k] = step_s > 0.0 ? step_mm / step_s : 0.0;
+    motion->acceleration_mm_s2[k] = step_s > 0.0 ? (motion->velocity_mm_s[k] - followed_mm_s[k]) / step_s : NAN;
+    followed_mm_s[k] = motion->velocity_mm_s[k];
     /* false where there was no position before (NAN) */
     largest_mm = fabs(step_mm) <= MOTION_STEP_MM ? largest_mm : 2.0 * MOTION_STEP_MM;
   }
   if (largest_mm > MOTION_STEP_MM) {
-    for (int k = 0; k < HEXDBB_SLIDERS; ++k) motion->velocity_mm_s[k] = 0.0;
+    for (int k = 0; k < HEXDBB_SLIDERS; ++k) {
+      motion->velocity_mm_s[k] = 0.0;
+      motion->acceleration_mm_s2[k] = followed_mm_s[k] = NAN;
+    }
   }
 }
 
@@ -93,7 +100,7 @@ static void show(const hexdbb_target* target, long long begun_ns) {
 static hexdbb_status follow(const hexdbb_pose* pose, hexdbb_target* target) {
   const long long begun_ns = rtapi_get_time();
   hexdbb_motion motion = at_rest();
-  find_velocity(pose, &motion);
+  find_motion(pose, &motion);
   hexdbb_sliders_from_pose(engines.following, pose, &motion, target);
   show(target, begun_ns);
   return target->status;

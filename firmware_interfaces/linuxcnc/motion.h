@@ -13,8 +13,9 @@
  *
  * A pose outside the bracket is only checked. Where begin never runs, compensation never acts.
  *
- * Velocity: nominal slider coordinates of this pose minus those of the pose before, divided by the time between. A step
- * beyond MOTION_STEP_MM is not a motion of this thread (joints were jogged meanwhile) and has zero velocity.
+ * Velocity: nominal slider coordinates of this pose minus those of the pose before, divided by the time between; the
+ * acceleration likewise from two velocities. A step beyond MOTION_STEP_MM is not a motion of this thread (joints were
+ * jogged meanwhile) and has zero velocity and no acceleration.
  *
  * The pose of the platform (kinematicsForward) is computed by the same compensator, with the part of the correction in
  * force and the present directions of travel: the joints of a pose lead back to that pose.

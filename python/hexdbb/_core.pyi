@@ -22,6 +22,7 @@ __all__: list[str] = [
     "FitResult",
     "FittedCircle",
     "Identifiability",
+    "LONG_AGO",
     "Machine",
     "Model",
     "NormalEquations",
@@ -705,6 +706,11 @@ class Compensator:
         time_s: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
         temperature_c: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
         travel_direction: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"] | None = None,
+        since_reversal_mm: tuple[
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"],
+            typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 6]"],
+        ]
+        | None = None,
     ) -> tuple:
         """
         Compute slider targets of poses in order of motion.
@@ -716,6 +722,8 @@ class Compensator:
             Temperature nan where not measured.
         travel_direction : ndarray, shape (n, 6), optional
             -1 to 1 per slider, where the motion to come is known; from the motion so far where not given.
+        since_reversal_mm : pair of ndarray, shape (n, 6), optional
+            Travel since a reversal, of motion down and of motion up; likewise.
 
         Returns
         -------
@@ -1161,6 +1169,7 @@ def status_name(code: typing.SupportsInt | typing.SupportsIndex) -> str:
     """
 
 CORRECTION_LIMIT: int = 6
+LONG_AGO: float = 1000000.0
 PORTS: dict = {
     "slider": (0, 6),
     "leg": (6, 6),
@@ -1184,4 +1193,6 @@ TABLE_VARIABLES: tuple = (
     "platform_joint_rate_rad_s",
     "swing_angle_rad",
     "swing_rate_rad_s",
+    "since_reversal_mm",
+    "acceleration_mm_s2",
 )

@@ -1,5 +1,6 @@
 #include "compensating.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -62,6 +63,10 @@ std::vector<CompensationTable> all_tables() {
   out.back().values_mm.back() = out.back().values_mm.front();
   out.push_back(table_of("leg", "sliders_mm", {{5, 5, 1.0}}, 30.0, 840.0, 20));
   out.back().times = "travel_direction";
+  out.push_back(table_of("slider", "since_reversal_mm", {{1, 1, 1.0}, {2, 2, 1.0}}, 0.0, 60.0, 40));
+  out.back().times = "travel_direction";
+  out.push_back(table_of("leg", "since_reversal_mm", {{3, 3, 1.0}}, 0.0, 60.0, 41));
+  out.push_back(table_of("slider", "acceleration_mm_s2", {{4, 4, 1.0}}, -40.0, 40.0, 40));
   return out;
 }
 
@@ -81,7 +86,11 @@ SliderTable drive(Compensator& compensator, const std::vector<Pose>& path, doubl
   SliderTable out(static_cast<Eigen::Index>(path.size()), int{kLegs});
   for (std::size_t at = 0; at < path.size(); ++at) {
     const std::size_t before = at == 0 ? at : at - 1, after = at + 1 == path.size() ? at : at + 1;
-    Direction direction = direction_between(nominal, path[before], path[after], double(after - before) * step_s);
+    const std::size_t middle = std::clamp<std::size_t>(at, 1, path.size() - 2);
+    const auto nominal_mm = [&](std::size_t pose) { return inverse(nominal, path[pose]).sliders_mm; };
+    Direction direction =
+        direction_through(nominal_mm(middle - 1), nominal_mm(middle), nominal_mm(middle + 1), step_s, step_s);
+    direction.velocity_mm_s = (nominal_mm(after) - nominal_mm(before)) / (double(after - before) * step_s);
     direction.temperature_c = temperature_c;
     const SliderTargets targets = compensator.sliders(path[at], direction);
     if (targets.status != Status::kOk) throw std::runtime_error(status_name(targets.status));

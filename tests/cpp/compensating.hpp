@@ -32,7 +32,8 @@ std::vector<CompensationTable> all_tables();
 /// Return poses along a tilted circle of 90 mm, one every `step_s`, over `laps` of 12 s each.
 std::vector<Pose> circle_path(double step_s, double laps, const Vector3& rpy_rad = {0.05, -0.03, 0.1});
 
-/// Compute the slider coordinates of a path, one row per pose, by a compensator that knows the velocities.
+/// Compute the slider coordinates of a path of three poses or more, one row per pose, by a compensator that knows the
+/// velocities and accelerations.
 SliderTable drive(Compensator& compensator, const std::vector<Pose>& path, double step_s,
                   double temperature_c = std::numeric_limits<double>::quiet_NaN());
 

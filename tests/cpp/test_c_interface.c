@@ -20,9 +20,10 @@ LAYOUT(hexdbb_dimensions, screw_lead_mm, 64);
 LAYOUT(hexdbb_dimensions, moved_mass_kg, 72);
 SIZE(hexdbb_pose, 48);
 LAYOUT(hexdbb_pose, roll_rad, 24);
-SIZE(hexdbb_motion, 64);
+SIZE(hexdbb_motion, 112);
 LAYOUT(hexdbb_motion, velocity_mm_s, 8);
 LAYOUT(hexdbb_motion, temperature_c, 56);
+LAYOUT(hexdbb_motion, acceleration_mm_s2, 64);
 SIZE(hexdbb_target, 120);
 LAYOUT(hexdbb_target, status, 4);
 LAYOUT(hexdbb_target, sliders_mm, 8);
@@ -92,7 +93,7 @@ static void nominal_kinematics_there_and_back(void) {
 
 static void compensation_from_constants(void) {
   const hexdbb_constants data = constants();
-  hexdbb_motion motion = {sizeof(hexdbb_motion), 0, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, NAN};
+  hexdbb_motion motion = {sizeof(hexdbb_motion), 0, {1.0, 1.0, 1.0, 1.0, 1.0, 1.0}, NAN, {0.0}};
   hexdbb_compensator* compensator = NULL;
   hexdbb_target target = HEXDBB_TARGET_INIT, off = HEXDBB_TARGET_INIT;
   hexdbb_dimensions other = HEXDBB_DIMENSIONS_INIT, own = HEXDBB_DIMENSIONS_INIT;
@@ -115,6 +116,31 @@ static void compensation_from_constants(void) {
   EXPECT(hexdbb_create_from_constants(&data, &other, &compensator, message, sizeof message) == HEXDBB_OTHER_MACHINE);
   EXPECT(compensator == NULL);
   EXPECT(strcmp(message, "compensation constants: of another machine: leg_length_mm is 400 (expected 401)") == 0);
+}
+
+static void accelerations_are_stated(void) {
+  static const int32_t kFirst[] = {1};
+  static const double kWeight[] = {1.0}, kKnots[] = {-100.0, 100.0}, kSizes[] = {-0.01, 0.03};
+  const hexdbb_table table = {"learned", "slider", "acceleration_mm_s2", "", 0.0, 1, 2, kFirst, kFirst, kWeight,
+                              kKnots,    kSizes};
+  hexdbb_motion motion = {sizeof(hexdbb_motion), 0, {0.0}, NAN, {50.0}};
+  hexdbb_constants data = constants();
+  hexdbb_compensator* compensator = NULL;
+  hexdbb_target target = HEXDBB_TARGET_INIT;
+  char message[200];
+  data.value_count = 0;
+  data.table_count = 1;
+  data.tables = &table;
+  EXPECT(hexdbb_create_from_constants(&data, NULL, &compensator, message, sizeof message) == HEXDBB_OK);
+  EXPECT(hexdbb_sliders_from_pose(compensator, &kPose, &motion, &target) == HEXDBB_OK);
+  EXPECT(fabs(target.correction_mm[0] + 0.02) < 1e-9);
+  /* a program of before: what follows its struct is not read */
+  motion.struct_size = (uint32_t)offsetof(hexdbb_motion, acceleration_mm_s2);
+  EXPECT(hexdbb_sliders_from_pose(compensator, &kPose, &motion, &target) == HEXDBB_OK);
+  EXPECT(target.correction_mm[0] == 0.0);
+  motion.struct_size = 1;
+  EXPECT(hexdbb_sliders_from_pose(compensator, &kPose, &motion, &target) == HEXDBB_BAD_ARGUMENT);
+  hexdbb_destroy(compensator);
 }
 
 static void tables_in_constants(void) {
@@ -197,6 +223,7 @@ static void names(void) {
 int main(void) {
   nominal_kinematics_there_and_back();
   compensation_from_constants();
+  accelerations_are_stated();
   tables_in_constants();
   refusals();
   names();

@@ -71,10 +71,8 @@ SliderTable read_along(const std::string& variable, const std::vector<Pose>& pat
   return 1e4 * (drive(compensator, path, kStep_s, 23.5) - drive(nominal, path, kStep_s, 23.5));
 }
 
-class TableVariables : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(TableVariables, AreThoseOfTheRecordsState) {
-  const std::vector<Pose> path = circle_path(kStep_s, 0.4);
+/// Return the state of a record of the nominal machine on the path, as the prediction derives it.
+State state_along(const std::vector<Pose>& path) {
   Compensator nominal{Machine()};
   Samples samples;
   samples.sliders_mm = drive(nominal, path, kStep_s);
@@ -85,9 +83,18 @@ TEST_P(TableVariables, AreThoseOfTheRecordsState) {
   samples.state.time_s = Eigen::VectorXd::LinSpaced(count, 0.0, kStep_s * double(count - 1));
   samples.state.sweep.setZero(count);
   derive(NominalGeometry(Machine()), samples);
+  return samples.state;
+}
+
+class TableVariables : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(TableVariables, AreThoseOfTheRecordsState) {
+  const std::vector<Pose> path = circle_path(kStep_s, 0.4);
+  const State state = state_along(path);
   const SliderTable seen = read_along(GetParam(), path);
+  const Eigen::Index count = seen.rows();
   bool is_found = false;
-  for_each_column(samples.state, [&](const ColumnInfo& info, const auto& column) {
+  for_each_column(state, [&](const ColumnInfo& info, const auto& column) {
     if constexpr (std::is_same_v<std::decay_t<decltype(column)>, SliderTable>) {
       if (std::string(info.name) != GetParam()) return;
       is_found = true;
@@ -101,10 +108,95 @@ TEST_P(TableVariables, AreThoseOfTheRecordsState) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Compensation, TableVariables,
-                         ::testing::Values("velocity_mm_s", "leg_force", "slider_joint_angle_rad",
+                         ::testing::Values("velocity_mm_s", "acceleration_mm_s2", "leg_force", "slider_joint_angle_rad",
                                            "slider_joint_rate_rad_s", "platform_joint_angle_rad",
                                            "platform_joint_rate_rad_s"),
                          [](const ::testing::TestParamInfo<const char*>& info) { return std::string(info.param); });
+
+TEST(CompensationTables, TravelSinceAReversalIsThatOfTheRecordsState) {
+  constexpr double kNear_mm = 0.1;  // there the direction changes over, and a record smooths the turning point
+  const std::vector<Pose> path = circle_path(kStep_s, 1.2);
+  const State state = state_along(path);
+  const SliderTable seen = read_along("since_reversal_mm", path);
+  int reversed = 0;
+  for (Eigen::Index row = 0; row < seen.rows(); ++row) {
+    for (int k = 0; k < kLegs; ++k) {
+      const double expected = state.since_reversal_mm(row, k);
+      if (expected < kNear_mm || std::abs(state.velocity_mm_s(row, k)) < 1.0) continue;
+      reversed += expected < kLongAgo;
+      EXPECT_NEAR(seen(row, k), std::min(expected, 1000.0), 1e-3) << row << " " << k;  // held beyond the last knot
+    }
+  }
+  EXPECT_GT(reversed, 6000);
+}
+
+/// A table with 5 um at a reversal and 20 um long after it, against the motion.
+CompensationTable after_reversal() {
+  CompensationTable out = readout("since_reversal_mm", "travel_direction");
+  for (TablePush& each : out.pushes) each.weight = -1.0;
+  out.knots = {0.0, 0.05};
+  out.values_mm = {0.005, 0.02};
+  return out;
+}
+
+/// Steps of 1 um back and forth, by 200 um and by 4 um, less than the reversal travel of 10 um.
+TEST(CompensationTables, TravelSinceAReversalJumpsNowhere) {
+  Compensator compensator(data_with({after_reversal()}));
+  double x = 0.0;
+  Vector6 before = Vector6::Zero(), last_mm = before, lowest = Vector6::Constant(1.0), highest = -lowest;
+  for (int call = 0; call < 4000; ++call) {
+    const int phase = call % 1000;
+    const bool is_back = phase >= 500 || (phase >= 300 && phase < 304);
+    x += is_back ? -1e-3 : 1e-3;
+    const SliderTargets targets = compensator.sliders(make_pose(x, 0, 285, 0, 0, 0));
+    ASSERT_EQ(targets.status, Status::kOk);
+    const Vector6 nominal_mm = targets.sliders_mm - targets.correction_mm;
+    for (int k = 0; call > 0 && k < kLegs; ++k) {
+      // From 20 um one way to 5 um the other over 10 um of travel, and the function's own slope; at the first motion from
+      // rest, which no reversal precedes, to 20 um over half that travel.
+      const double steepest = call < 10 ? 0.02 / 0.005 : (0.02 + 0.005) / 0.01 + 2.0 * 0.015 / 0.05;
+      EXPECT_LE(std::abs(targets.correction_mm[k] - before[k]), steepest * std::abs(nominal_mm[k] - last_mm[k]) + 1e-9);
+    }
+    last_mm = nominal_mm;
+    before = targets.correction_mm;
+    lowest = lowest.cwiseMin(before);
+    highest = highest.cwiseMax(before);
+  }
+  EXPECT_NEAR(highest.maxCoeff(), 0.02, 1e-9);
+  EXPECT_NEAR(lowest.minCoeff(), -0.02, 1e-9);
+}
+
+TEST(CompensationTables, ASliderThatTurnsBackWithinItsReversalTravelHasNotReversed) {
+  Compensator straight(data_with({after_reversal()})), turning(data_with({after_reversal()}));
+  const auto at = [](Compensator& compensator, double x) {
+    return compensator.sliders(make_pose(x, 0, 285, 0, 0, 0)).correction_mm;
+  };
+  for (const double x : {0.0, 0.2, 0.1, 0.12, 0.3}) at(straight, x);
+  for (const double x : {0.0, 0.2, 0.1, 0.12, 0.3, 0.299, 0.298, 0.299, 0.3}) at(turning, x);
+  EXPECT_LT((at(straight, 0.31) - at(turning, 0.31)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(CompensationTables, TravelSinceAReversalMayBeStated) {
+  Compensator compensator(data_with({after_reversal()}));
+  Direction direction;
+  direction.travel_direction << 1.0, 1.0, -1.0, 0.0, 0.5, -0.5;
+  direction.since_reversal_mm = {Vector6::Constant(0.0), Vector6::Constant(0.05)};
+  const Vector6 found = compensator.sliders(make_pose(0, 0, 285, 0, 0, 0), direction).correction_mm;
+  Vector6 expected;  // (1 + sigma) / 2 of 20 um, less (1 - sigma) / 2 of 5 um
+  expected << 0.02, 0.02, -0.005, 0.0075, 0.01375, 0.00125;
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(CompensationTables, AnAccelerationThatIsNotStatedPushesNothing) {
+  CompensationTable table = readout("acceleration_mm_s2");
+  table.values_mm = {-900.0, 1100.0};  // 100 at rest
+  Compensator compensator(data_with({table}));
+  Direction direction;
+  const Pose pose = make_pose(10, 20, 285, 0, 0, 0);
+  EXPECT_EQ(compensator.sliders(pose, direction).largest_correction_mm, 0.0);
+  direction.acceleration_mm_s2.setZero();
+  EXPECT_NEAR(compensator.sliders(pose, direction).largest_correction_mm, 0.01, 1e-9);
+}
 
 TEST(CompensationTables, SwingRateIsThatOfTheSwing) {
   const std::vector<Pose> path = circle_path(kStep_s, 0.4);
@@ -209,15 +301,17 @@ TEST(CompensationTables, AreLeftOutWithTheirEffectAndTheReason) {
     tables.back().times = times;
   };
   add("both", "leg", "leg_force", "");
-  add("both", "leg", "acceleration_mm_s2", "");
+  add("both", "leg", "since_reversal_s", "");
   add("cup", "cup", "time_s", "");
   add("growing", "leg", "sliders_mm", "elapsed");
+  add("steep", "leg", "sliders_mm", "since_reversal_mm");
   const CompensationData data = compensation_of(Model{Machine()}, "m", "", {1.0, 0.01}, 20.0, tables);
   EXPECT_EQ(data.tables.size(), good);
-  ASSERT_EQ(data.left_out.size(), 3u);
-  EXPECT_EQ(data.left_out[0].reason, "depends on acceleration_mm_s2, which is not known to a controller");
+  ASSERT_EQ(data.left_out.size(), 4u);
+  EXPECT_EQ(data.left_out[0].reason, "depends on since_reversal_s, which is not known to a controller");
   EXPECT_EQ(data.left_out[1].reason, "pushes the cup, not the machine");
   EXPECT_EQ(data.left_out[2].reason, "depends on time");
+  EXPECT_EQ(data.left_out[3].reason, "depends on since_reversal_mm as a factor, which is not known to a controller");
   const CompensationData cold = compensation_of(Model{Machine()}, "m", "", {1.0, 0.01}, kNaN, tables);
   EXPECT_EQ(cold.tables.size(), good - 1) << "warming counts from a temperature that was not stated";
 }

@@ -127,6 +127,7 @@ TEST_F(NoAllocation, AHundredThousandCallsOfTheCompensator) {
   EXPECT_EQ(during([&] {
               for (std::size_t call = 0; call < 100000; ++call) {
                 direction.velocity_mm_s.setConstant(call % 2000 < 1000 ? 1.0 : -1.0);
+                direction.acceleration_mm_s2.setConstant(call % 3000 < 1000 ? 5.0 : -5.0);
                 const SliderTargets targets = compensator.sliders(path[call % path.size()], direction);
                 failures += targets.status != Status::kOk;
                 failures += compensator.pose(targets.sliders_mm, direction).status != Status::kOk;

@@ -53,6 +53,7 @@ TEST(RealTime, NoSystemCallInAHundredThousand) {
   for (std::size_t at = 0; at < path.size(); ++at) {
     directions[at] = direction_between(truth.nominal, path[at], path[(at + 1) % path.size()], 0.004);
     directions[at].temperature_c = 22.0;
+    directions[at].acceleration_mm_s2.setConstant(at % 100 < 50 ? 5.0 : -5.0);
   }
   const int status = confined([&] {
     bool are_good = true;

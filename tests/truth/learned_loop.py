@@ -66,9 +66,9 @@ exactly and only geometry were fitted to the same noisy readings.
 
 Noise, plan and geometry set a limit of {known_ratio:.0f} times in the median. The models found would reach
 {model_ratio:.0f} times in the median: what they miss is the forms of the faults, where functions describe them
-incompletely. A controller loses the rest: effects in brackets are in the model and
-[not corrected](compensation.md), because they depend on what a controller does not know (travel since a reversal,
-acceleration) or push the ball; that is so on {uncorrected} of the machines.
+incompletely. A controller loses the rest: directions of travel change over within some travel, and effects in brackets
+are in the model and [not corrected](compensation.md), because they depend on what a controller does not know (the time
+since a reversal) or push the ball; that is so on {uncorrected} of the machines.
 {skipped}
 Made by `{command}`.
 """

@@ -14,8 +14,12 @@
 // speed, and constant while the slider rests. The play counts as crossed: the drive is commanded to cross it over that
 // travel. The sense in which a leg turns at its slider joint is the same operator on the arc of the leg's far end.
 //
+// Travel since a reversal counts from where a slider's commanded coordinate turned. It is kept for either direction: that
+// of the direction left behind stays until sigma has changed over, so that a function of it changes over as
+// continuously, and a slider that turns back before that resumes it, as if it had not turned.
+//
 // Tables (learned effects) take slider positions as they are in the iteration; what the joints do is that of the nominal
-// machine at the commanded pose, turning rates from the commanded velocities.
+// machine at the commanded pose, turning rates from the commanded velocities, accelerations as they are stated.
 //
 // Real time: sliders() and pose() allocate nothing, throw nothing, lock nothing and call no system; at most four
 // inverse solutions. One instance belongs to one thread.
@@ -34,8 +38,12 @@ struct Direction {
   /// nominal coordinate at the call before.
   Vector6 velocity_mm_s = Vector6::Zero();
   double temperature_c = std::numeric_limits<double>::quiet_NaN();  // NaN: not measured, no growth corrected
+  /// Commanded, of each slider. NaN: not known, and functions of it push nothing: the compensator knows no cycle time.
+  Vector6 acceleration_mm_s2 = Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
   /// -1 to 1, stated by a controller that looks ahead and reverses as fast as its drives allow; NaN: derived as above.
   Vector6 travel_direction = Vector6::Constant(std::numeric_limits<double>::quiet_NaN());
+  /// Travel since a reversal, of motion down and of motion up, stated by a controller that looks ahead; NaN: derived.
+  std::array<Vector6, 2> since_reversal_mm = {travel_direction, travel_direction};
 };
 
 struct SliderTargets {
@@ -90,6 +98,7 @@ class Compensator {
   void prepare();
   bool follow(const Vector6& nominal_mm, const Direction& direction) noexcept;
   void follow_joints(const Vector6& nominal_mm, const Vector6& velocity_mm_s) noexcept;
+  void follow_reversals(const Vector6& nominal_mm, const Direction& direction) noexcept;
   void set_state(const Direction& direction, const Vector6& travel_direction, const Vector6& leg_force) noexcept;
   void set_tables(const Direction& direction, const Vector6& travel_direction, const Vector6& leg_force,
                   const Pose& nominal_pose, const Vector6& nominal_mm) noexcept;
@@ -119,6 +128,7 @@ class Compensator {
   LegRow reach_mm_[3], nominal_mm_;  // at the present pose: nominal ball joints from the vertices, nominal coordinates
   Vector6 travel_direction_ = Vector6::Zero();  // -1 .. 1
   Vector6 joint_direction_ = Vector6::Zero();   // -1 .. 1
+  std::array<Vector6, 2> since_reversal_mm_;    // of travel down and up
   Vector6 followed_mm_, checked_mm_;            // nominal coordinates; NaN where there are none
   Vector6 last_targets_mm_ = Vector6::Zero();
   LegRow correction_mm_, last_correction_mm_;  // at the present pose, and of the last call that counted
@@ -132,6 +142,11 @@ class Compensator {
 /// Compute the velocities of the sliders between two poses of the nominal machine `step_s` apart; zero where one of the
 /// poses is out of reach.
 Direction direction_between(const NominalGeometry& nominal, const Pose& from, const Pose& to, double step_s) noexcept;
+
+/// Return velocities and accelerations of sliders at the second of three sets of coordinates, by the parabola through
+/// them: the seconds from the first to the second, and on to the third.
+Direction direction_through(const Vector6& before_mm, const Vector6& at_mm, const Vector6& after_mm, double before_s,
+                            double after_s) noexcept;
 
 /// Load a compensation file. Throws CompensationError, whose fault() is the reason.
 Compensator load_compensation(const std::string& path);

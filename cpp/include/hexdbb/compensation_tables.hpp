@@ -3,7 +3,11 @@
 // Model: push at a port column = weight x times x f(variable), f linear between its knots and held beyond them. Variable
 // and `times` are columns of the samples' state (state.hpp) that a controller knows, those of one slider or leg, or of
 // the whole machine. A variable with a period is wrapped into [0, period) first. A variable that is not a number
-// (temperature not measured, legs that do not hold the platform) pushes nothing.
+// (temperature not measured, acceleration not stated, legs that do not hold the platform) pushes nothing.
+//
+// A function of the travel since a reversal jumps at the reversal, and no drive follows that. It is taken twice, of the
+// travel in either direction, and pushes (1 + sigma) / 2 of the one upwards and (1 - sigma) / 2 of the one downwards,
+// sigma the direction of travel (-1 to 1, compensation.hpp), each with its own sign of sigma where sigma multiplies it.
 #pragma once
 
 #include <array>
@@ -48,6 +52,8 @@ enum class TableVariable : int {
   kPlatformJointRate,
   kSwingAngle,
   kSwingRate,
+  kSinceReversal,
+  kAcceleration,
   kCount
 };
 
@@ -71,7 +77,9 @@ constexpr std::array<TableVariableInfo, static_cast<std::size_t>(TableVariable::
      {TableVariable::kPlatformJointAngle, "platform_joint_angle_rad", 3.2},
      {TableVariable::kPlatformJointRate, "platform_joint_rate_rad_s", 0.3},
      {TableVariable::kSwingAngle, "swing_angle_rad", 3.2},
-     {TableVariable::kSwingRate, "swing_rate_rad_s", 0.3}}};
+     {TableVariable::kSwingRate, "swing_rate_rad_s", 0.3},
+     {TableVariable::kSinceReversal, "since_reversal_mm", 1000.0},
+     {TableVariable::kAcceleration, "acceleration_mm_s2", 500.0}}};
 
 /// Return the variable of a column's name, nullptr where a controller does not know it.
 const TableVariableInfo* find_table_variable(const std::string& column) noexcept;
@@ -80,9 +88,14 @@ const TableVariableInfo* find_table_variable(const std::string& column) noexcept
 /// the measurement.
 const PortSpan* find_compensated_port(const std::string& name) noexcept;
 
+/// Return whether a column may multiply a function: all that tables may depend on but positions, which the iteration
+/// changes, and the travel since a reversal, which has two values while a slider turns over.
+bool may_multiply(TableVariable variable) noexcept;
+
 /// What tables may depend on, at one instant: six numbers each, those of the whole machine repeated.
 struct TableState {
   std::array<Vector6, static_cast<std::size_t>(TableVariable::kCount)> column;
+  std::array<Vector6, 2> since_reversal_mm;  // of travel down and up, in place of the column
 
   TableState();  // kNone: ones; all others zero
   Vector6& operator[](TableVariable variable) { return column[static_cast<std::size_t>(variable)]; }
@@ -151,6 +164,7 @@ class TableSet {
     double weight;
   };
 
+  double since_reversal(const TableState& state, Lookup& lookup) const noexcept;
   void push(const Lookup& lookup, double value_mm, LegPorts& out) const noexcept;
 
   std::vector<TableFunction> functions_;

@@ -110,6 +110,9 @@ typedef struct hexdbb_motion {
   uint32_t reserved;
   double velocity_mm_s[HEXDBB_SLIDERS]; /* commanded; its sign is the direction of travel, 0: see below */
   double temperature_c;                 /* measured; NAN where it is not */
+  /* commanded; NAN where it is not known: functions of it are then not corrected, because a compensator knows no cycle
+   * time. Since 0.2.0; a smaller struct_size: not known */
+  double acceleration_mm_s2[HEXDBB_SLIDERS];
 } hexdbb_motion;
 
 /* Slider coordinates to command. */
@@ -238,10 +241,10 @@ double hexdbb_enabled_part(const hexdbb_compensator* compensator) HEXDBB_NOEXCEP
 hexdbb_status hexdbb_reset(hexdbb_compensator* compensator) HEXDBB_NOEXCEPT;
 
 /* Compute the slider coordinates to command for a pose. Call it with poses in order of motion.
- * motion: NULL where unknown, equivalent to velocities of 0 and no temperature. The direction of travel of a slider
- * whose velocity is 0 follows from the call before; a pose more than 2 mm of slider travel away then changes no
- * direction, unless the next call is near it, so that a controller may check end points in between. out->struct_size
- * must be set. Returns out->status. */
+ * motion: NULL where unknown, equivalent to velocities of 0, no temperature and no accelerations. The direction of
+ * travel of a slider whose velocity is 0 follows from the call before; a pose more than 2 mm of slider travel away then
+ * changes no direction, unless the next call is near it, so that a controller may check end points in between.
+ * out->struct_size must be set. Returns out->status. */
 hexdbb_status hexdbb_sliders_from_pose(hexdbb_compensator* compensator, const hexdbb_pose* pose,
                                        const hexdbb_motion* motion, hexdbb_target* out) HEXDBB_NOEXCEPT;
 

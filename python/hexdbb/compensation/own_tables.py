@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.compensation.probe import SWITCHES, WHOLE, Probe, drawn_state, ranges
+from hexdbb.compensation.probe import NO_FACTORS, SWITCHES, WHOLE, Probe, drawn_state, places, ranges
 from hexdbb.compensation.tables import TOLERANCE_MM
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
@@ -113,7 +113,7 @@ def _variables(asked: _Asked, state: Columns, read: list[str]) -> tuple[str, str
     if len(read) == 1:
         return read[0], ""
     for variable, times in (read, read[::-1]):
-        if times == "sliders_mm":
+        if times in NO_FACTORS:
             continue
         constant, slope = _linear_parts(asked, state, times)
         if not _differ(asked.at(state), constant + _of_places(asked, state[times]) * slope):
@@ -130,7 +130,7 @@ def _linear_parts(asked: _Asked, state: Columns, times: str) -> tuple[Floats, Fl
 def _tables(asked: _Asked, state: Columns, variable: str, times: str) -> list[_core.CompensationTable]:
     """Return one table for each column of the port that is pushed, and for each part of f + t g."""
     low, high = ranges(asked.machine).get(variable, (0.0, 0.0))
-    at = np.linspace(low, high, 2 if variable in SWITCHES else GRID) if variable else np.zeros(1)
+    at = places(variable, low, high, 2 if variable in SWITCHES else GRID) if variable else np.zeros(1)
     grid = {
         name: np.broadcast_to(column[:1], (len(at), *column.shape[1:])).copy()
         for name, column in state.items()

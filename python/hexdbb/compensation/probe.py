@@ -21,11 +21,18 @@ WHOLE = ("temperature_c", "warming_k")
 """Columns of the whole machine; those of sliders and legs have shape (n, 6)."""
 SWITCHES = ("travel_direction", "slider_joint_direction")
 """Columns that are +1 or -1 but for the travel over which they change."""
+NO_FACTORS = ("sliders_mm", "since_reversal_mm")
+"""Columns by which no controller multiplies a function (`may_multiply` in compensation_tables.hpp)."""
+LOGARITHMIC = ("since_reversal_mm",)
+"""Columns whose logarithm is spread evenly: what follows a reversal may be over within a play of some µm."""
+SHORTEST_MM = 1e-4
+"""Shortest travel since a reversal that is asked for, an encoder count; nearer, a table is held."""
 
 
 def ranges(machine: MachineFile) -> dict[str, tuple[float, float]]:
     """Return the range of every column that a controller knows, in its unit; beyond it a table is held."""
     fastest = machine.can_setup.limits.velocity_mm_s
+    quickest = machine.can_setup.limits.acceleration_mm_s2
     # The ball joint of two legs that are drawn apart by both sliders at full speed, at a third of a leg's length.
     turning = 3.0 * fastest / min(machine.legs.lengths_mm)
     travels_mm = machine.sliders.travels_mm
@@ -43,8 +50,17 @@ def ranges(machine: MachineFile) -> dict[str, tuple[float, float]]:
         "platform_joint_rate_rad_s": (-turning, turning),
         "swing_angle_rad": (-np.pi, np.pi),
         "swing_rate_rad_s": (-turning, turning),
+        "since_reversal_mm": (SHORTEST_MM, max(high - low for low, high in travels_mm)),
+        "acceleration_mm_s2": (-quickest, quickest),
     }
     return {name: found[name] for name in _core.TABLE_VARIABLES}
+
+
+def places(column: str, low: float, high: float, count: int) -> Floats:
+    """Return places from `low` to `high` at which a function of a column is taken, shape (count,)."""
+    spread = np.geomspace if column in LOGARITHMIC else np.linspace
+    found: Floats = spread(low, high, count)
+    return found
 
 
 class Probe:
@@ -84,8 +100,13 @@ class Probe:
 def drawn_state(machine: MachineFile, count: int) -> dict[str, Floats]:
     """Return the columns a controller knows at `count` states drawn within their ranges, the same each time."""
     draw = np.random.default_rng(1)
-    found = {
-        name: draw.uniform(low, high, count if name in WHOLE else (count, 6))
-        for name, (low, high) in ranges(machine).items()
-    }
+
+    def drawn(name: str, low: float, high: float) -> Floats:
+        shape = count if name in WHOLE else (count, 6)
+        if name in LOGARITHMIC:
+            logarithm: Floats = np.exp(draw.uniform(np.log(low), np.log(high), shape))
+            return logarithm
+        return draw.uniform(low, high, shape)
+
+    found = {name: drawn(name, *limits) for name, limits in ranges(machine).items()}
     return found | {name: np.sign(found[name]) for name in SWITCHES}

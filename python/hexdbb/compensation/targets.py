@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +75,10 @@ class CompensatedTargets(Targets):
             directions = travel.directions(begin, end)
             smooth = np.column_stack([smooth_changes(*each) for each in zip(directions.T, cycles, strict=True)])
             position, rpy = poses.poses(low, high)
-            found = self._along(position, rpy, _times_s(cycle_s, low, high), smooth[low - begin : high - begin])
+            since = None
+            if self._has_since_reversal:
+                since = travel.since_reversal_mm(low, self._nominal_mm(position, rpy))
+            found = self._along(position, rpy, _times_s(cycle_s, low, high), smooth[low - begin : high - begin], since)
             own = slice(first - low, last - low)
             sliders_mm, correction_mm, status, slider = found
             refused = self._refused(status[own], slider[own], correction_mm[own])
@@ -90,7 +94,7 @@ class CompensatedTargets(Targets):
         for first in range(0, poses.rows, LOOK_ROWS):
             last = min(first + LOOK_ROWS, poses.rows)
             position, rpy = poses.poses(first, last)
-            travel.take(_core.inverse_table(self.data.machine, np.array(position), np.array(rpy))[0])
+            travel.take(self._nominal_mm(position, rpy))
             # With the probes before and after, which tell the velocity of the first and last one.
             low, high = max(first - PROBE_EVERY, 0), min(last + PROBE_EVERY, poses.rows)
             probed = slice(
@@ -99,9 +103,25 @@ class CompensatedTargets(Targets):
             position, rpy = (each[::PROBE_EVERY] for each in poses.poses(low, high))
             times_s = _times_s(cycle_s, low, high)[::PROBE_EVERY]
             ones = np.ones((len(times_s), 6))
-            up, down = (self._along(position, rpy, times_s, each)[1][probed] for each in (ones, -ones))
-            change_mm = np.maximum(change_mm, np.abs(up - down).max(axis=0))
+            # A function of the travel since a reversal changes from where it was long after one to where it begins.
+            ago = (0.0, _core.LONG_AGO) if self._has_since_reversal else (0.0,)
+            found = [
+                self._along(position, rpy, times_s, side * ones, (since * ones, since * ones))[1][probed]
+                for side in (1.0, -1.0)
+                for since in ago
+            ]
+            change_mm = np.maximum(change_mm, np.ptp(found, axis=0).max(axis=0))
         return travel, change_mm
+
+    @cached_property
+    def _has_since_reversal(self) -> bool:
+        """Whether a table depends on the travel since a reversal."""
+        return any(table.variable == "since_reversal_mm" for table in self.data.tables)
+
+    def _nominal_mm(self, position: Floats, rpy: Floats) -> Floats:
+        """Return the coordinates of the nominal sliders, shape (n, 6)."""
+        found: Floats = _core.inverse_table(self.data.machine, np.array(position), np.array(rpy))[0]
+        return found
 
     def pose(self, sliders_mm: Floats) -> tuple[Poses, str | None]:
         """See `hexdbb.trajectory.Targets.pose`; the sliders have no direction of travel."""
@@ -113,12 +133,17 @@ class CompensatedTargets(Targets):
         return _core.Compensator(self.data, self.name)
 
     def _along(
-        self, position: Floats, rpy: Floats, times_s: Floats, direction: Floats
+        self,
+        position: Floats,
+        rpy: Floats,
+        times_s: Floats,
+        direction: Floats,
+        since_reversal_mm: tuple[Floats, Floats] | None = None,
     ) -> tuple[Floats, Floats, Ints, Ints]:
         temperature_c = np.full(len(position), self.temperature_c)
         contiguous = [np.ascontiguousarray(each) for each in (position, rpy, direction)]
         found: tuple[Floats, Floats, Ints, Ints] = self._compensator().sliders_along(
-            contiguous[0], contiguous[1], times_s, temperature_c, contiguous[2]
+            contiguous[0], contiguous[1], times_s, temperature_c, contiguous[2], since_reversal_mm
         )
         return found
 

@@ -7,8 +7,10 @@ import pytest
 from numpy.typing import NDArray
 from tests.truth.closing import silent
 
+from hexdbb import _core
 from hexdbb.compensation import CompensatedTargets, make_compensation, smooth_changes, travel_directions
 from hexdbb.compensation import targets as targets_module
+from hexdbb.compensation.reversals import Travel
 from hexdbb.errors import InputError
 from hexdbb.kinematics import inverse
 from hexdbb.machine import shipped_machine
@@ -57,9 +59,39 @@ WORN = {
 }
 
 
-@pytest.fixture(scope="module")
-def worn() -> CompensatedTargets:
-    return targets_of(model_of(**WORN))
+def settling_of(values_mm: list[float], slider: int | None = None) -> CompensatedTargets:
+    """Every slider, or one, is off against its motion by these at 0, 0.2, 1 and 5 mm after a reversal."""
+    pushes = [(k, k, 1.0) for k in range(6) if slider in (None, k + 1)]
+    knots = [0.0, 0.2, 1.0, 5.0]
+    table = _core.CompensationTable(
+        effect="settling",
+        port="slider",
+        variable="since_reversal_mm",
+        times="travel_direction",
+        period=0.0,
+        pushes=pushes,
+        knots=knots,
+        values_mm=values_mm,
+    )
+    data = _core.compensation_of(
+        new_model(MACHINE, []).engine(),
+        name="settling",
+        model_sha256="",
+        max_correction_mm=1.0,
+        reversal_travel_mm=0.01,
+        reference_temperature_c=np.nan,
+        tables=[table],
+    )
+    return CompensatedTargets(data, LIMITS, "sp120.hexcomp")
+
+
+SETTLING_MM = [0.002, 0.005, 0.008, 0.01]
+MACHINES = {"worn": targets_of(model_of(**WORN)), "settling": settling_of(SETTLING_MM)}
+
+
+@pytest.fixture(scope="module", params=MACHINES)
+def worn(request: pytest.FixtureRequest) -> CompensatedTargets:
+    return MACHINES[request.param]
 
 
 def test_every_row_keeps_the_limits_though_play_is_crossed_at_every_reversal(worn: CompensatedTargets) -> None:
@@ -150,6 +182,24 @@ def test_a_slider_that_never_moves_has_no_direction() -> None:
     assert not travel_directions(column(3.0, 3.0 + 1e-12, 3.0 - 1e-12)).any()
 
 
+def test_travel_since_a_reversal_is_kept_for_either_direction_until_it_has_changed_over() -> None:
+    moving, never = column(0, 1, 2, 3, 2, 1, 0, 0, 2), _core.LONG_AGO
+    travel = Travel()
+    travel.take(moving[:5])
+    travel.take(moving[5:])
+    down, up = travel.since_reversal_mm(0, moving)
+    assert down[:, 0].tolist() == [never, never, 0, 0, 1, 2, 3, 3, 0]
+    assert up[:, 0].tolist() == [never] * 4 + [never, 0, 0, 0, 2]
+    part = travel.since_reversal_mm(4, moving[4:7])
+    np.testing.assert_array_equal(part, (down[4:7], up[4:7]))
+
+
+def test_a_motion_that_leads_to_another_counts_no_reversals() -> None:
+    travel = Travel(before=np.zeros(6), after=np.ones(6))
+    travel.take(column(0, 1, 0))
+    assert (np.array(travel.since_reversal_mm(0, column(0, 1, 0))) == _core.LONG_AGO).all()
+
+
 @pytest.mark.parametrize("cycles", [1, 3, 9])
 def test_a_change_of_direction_is_even_about_the_reversal(cycles: int) -> None:
     turn = np.repeat([1.0, -1.0], 40)
@@ -163,12 +213,12 @@ def test_a_change_of_direction_is_even_about_the_reversal(cycles: int) -> None:
 # --- at the ball, on a machine that shares no code with the compensation ----------------------------------------------
 
 
-def readings_um(mechanisms: list[dict[str, object]], model: Model | None, plan: Plan) -> Floats:
-    """True radial readings of a machine with these mechanisms, compensated by a model or not."""
+def readings_um(mechanisms: list[dict[str, object]], model: Model | CompensatedTargets | None, plan: Plan) -> Floats:
+    """True radial readings of a machine with these mechanisms, compensated by a model, by targets, or not."""
     tables = tuple(MECHANISMS[str(table["kind"])].model_validate(table) for table in mechanisms)
     drive = None
     if model is not None:
-        targets = targets_of(model)
+        targets = model if isinstance(model, CompensatedTargets) else targets_of(model)
 
         def drive(position_mm: Floats, rpy_rad: Floats, cycle_s: float) -> Floats:
             rows = targets.sliders(position_mm, rpy_rad, cycle_s)
@@ -195,6 +245,15 @@ def test_play_leaves_little_even_at_the_reversals(feed_mm_min: float) -> None:
     before, after = readings_um([PLAY], None, plan), readings_um([PLAY], model_of(**ONE_PLAY), plan)
     assert rms(after) < rms(before) / 15.0
     assert np.abs(after).max() < np.abs(before).max() / 2.0
+
+
+def test_play_is_undone_as_a_function_of_the_travel_since_a_reversal_too() -> None:
+    """One half of the play against the motion, however long ago the slider reversed."""
+    plan = fast_plan()
+    undone = settling_of([-0.01] * 4, slider=4)
+    before, after = readings_um([PLAY], None, plan), readings_um([PLAY], undone, plan)
+    np.testing.assert_allclose(after, readings_um([PLAY], model_of(**ONE_PLAY), plan), atol=1e-3)
+    assert rms(after) < rms(before) / 15.0
 
 
 def test_lag_is_removed_at_the_reversals_too() -> None:

@@ -92,13 +92,31 @@ def test_a_place_in_three_directions_belongs_to_its_leg() -> None:
     assert tables[0].variable == "slider_joint_angle_rad"
 
 
+def test_travel_since_a_reversal_is_spread_by_its_logarithm() -> None:
+    """Lost motion over within 20 µm, of a travel of 0.8 m."""
+    own = declared(lambda state: np.exp(-state.since_reversal_mm / 0.02) * state.travel_direction)
+    tables = tables_of(own, [0.01] * 6)
+    assert {(table.variable, table.times) for table in tables} == {("since_reversal_mm", "travel_direction")}
+    at = np.geomspace(1e-3, 500.0, 2001)
+    np.testing.assert_allclose(
+        np.interp(at, tables[0].knots, tables[0].values_mm), 0.01 * np.exp(-at / 0.02), atol=1.1e-5
+    )
+
+
+def test_an_acceleration_is_known() -> None:
+    tables = tables_of(declared(lambda state: state.acceleration_mm_s2 / 1000.0), [0.01] * 6)
+    assert {(table.variable, table.times) for table in tables} == {("acceleration_mm_s2", "")}
+    assert len(tables[0].knots) == 2
+
+
 @pytest.mark.parametrize(
     ("function", "port", "reason"),
     [
         (lambda s: (np.abs(s.sliders_mm - 300.0) < 5.0) * 1.0, "slider", "jumps at sliders_mm = 2"),
         (lambda s: np.sign(s.velocity_mm_s), "slider", "jumps at velocity_mm_s = "),
         (lambda s: 10.0 * np.sin(s.sliders_mm), "slider", "changes by more than 0.05 mm per mm"),
-        (lambda s: s.acceleration_mm_s2, "leg", "depends on acceleration_mm_s2, which is not known"),
+        (lambda s: s.jerk_mm_s3, "leg", "depends on jerk_mm_s3, which is not known"),
+        (lambda s: (s.since_reversal_mm < 0.01) * 1.0, "slider", "jumps at since_reversal_mm = 0.0099"),
         (lambda s: np.gradient(s.sliders_mm, axis=0), "leg", "depends on other samples of a record"),
         (lambda s: s.sliders_mm[:, ::-1] / 800.0, "leg", "depends on sliders_mm of several sliders"),
         (lambda s: np.sin(s.sliders_mm * s.leg_force), "leg", "depends on sliders_mm and leg_force together"),

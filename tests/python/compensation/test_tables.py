@@ -15,11 +15,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from tests.python.compensation.driven import MACHINE, Table, errors_mm, nominal_table, targets_of
+from tests.python.compensation.driven import (
+    MACHINE,
+    RPY,
+    STEP_S,
+    Table,
+    errors_mm,
+    nominal_table,
+    path,
+    targets_of,
+)
 
 import hexdbb
 from hexdbb.cli.compensate import command
-from hexdbb.compensation import make_compensation, path_targets, read_compensation, write_compensation
+from hexdbb.compensation import (
+    CompensatedTargets,
+    make_compensation,
+    path_targets,
+    read_compensation,
+    write_compensation,
+)
 from hexdbb.compensation.tables import halved, learned_tables
 from hexdbb.learned import Learned, Space
 from hexdbb.machine import load_machine
@@ -72,6 +87,7 @@ def model_of(name: str, nominal: Table, beside: tuple[str, ...] = ("leg_length",
         "learned:leg:2:platform_joint_angle",
         "learned:leg:all:swing_rate",
         "learned:leg:4:swing_angle",
+        "learned:slider:5:acceleration",
         "learned:slider:1:warming",
         "learned:platform_joint:4:joint_angle",
         "learned:platform_joint:2:constant",
@@ -111,6 +127,7 @@ def test_so_does_a_machine_that_is_not_alike_on_all_sides(name: str, unlike: Tab
     ("name", "left"),
     [
         ("learned:vertical:1:position", 1e-3),
+        ("learned:leg:1:since_reversal_travel_alike", 0.003),
         ("learned:leg:3:joint_angle", 0.01),
         ("learned:leg:5:turning_rate", 0.03),
         ("learned:leg:1:platform_turning_rate", 0.1),
@@ -149,9 +166,36 @@ def test_a_direction_is_corrected_away_from_reversals(
 
 
 @pytest.mark.parametrize(
+    "name", ["learned:slider:5:since_reversal_travel", "learned:leg:1:since_reversal_travel_alike"]
+)
+def test_travel_since_a_reversal_is_corrected_away_from_reversals(name: str, nominal: Table) -> None:
+    """As a function of the commanded travel, from which that of the drives is off by the correction's own motion."""
+    model = model_of(name, nominal)
+    remaining, driven = errors_mm(model, targets_of(model), nominal)
+    away = (driven["since_reversal_mm"] > AWAY_MM) & (np.abs(driven["velocity_mm_s"]) > AWAY_MM_S)
+    chosen = np.flatnonzero(away.all(axis=1))[20:-20]
+    assert len(chosen) > 1000
+    assert remaining[chosen].max() < 1e-5
+
+
+@pytest.mark.parametrize("name", ["learned:slider:5:since_reversal_travel", "learned:slider:5:acceleration"])
+def test_a_controller_that_looks_ahead_corrects_it_over_reversals_too(name: str, nominal: Table) -> None:
+    """The whole path, the travel in which directions change over and the correction's own motion included."""
+    model = model_of(name, nominal, ())
+    places_mm = path()
+    targets = CompensatedTargets(make_compensation(model), MACHINE.can_setup.limits, "a.hexcomp")
+    rows = targets.sliders(places_mm, np.broadcast_to(RPY, places_mm.shape), STEP_S)
+    assert rows.refused is None
+    uncorrected, _ = errors_mm(model, nominal["sliders_mm"])
+    remaining, _ = errors_mm(model, rows.sliders_mm)
+    rms = [float(np.sqrt(np.mean(error[ENDS] ** 2))) for error in (remaining, uncorrected)]
+    assert rms[0] < 0.1 * rms[1]
+
+
+@pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("learned:slider:1:acceleration", "depends on acceleration_mm_s2, which is not known to a controller"),
+        ("learned:slider:1:since_reversal_time", "depends on since_reversal_s, which is not known to a controller"),
         ("learned:leg:2:time", "depends on time"),
         ("learned:slider:3:time_position", "depends on time"),
         ("learned:ball:time", "pushes the ball, not the machine"),

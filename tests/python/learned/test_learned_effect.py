@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hexdbb.diagnosis import Diagnosis
+from hexdbb import _core
+from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.diagnosis.text import diagnosis_text
 from hexdbb.effects import draft, load_effects
 from hexdbb.errors import InputError
@@ -70,6 +71,42 @@ def test_what_the_model_lacked_is_learned_where_it_was_not_fitted(found: Diagnos
     assert step.rms_after_um < 1.15 * noise_um
     assert step.heldout_after_um < 1.3 * noise_um
     assert [(size.name, size.unit) for size in step.sizes] == [("range", "um")]
+
+
+def test_learned_functions_bend_no_readings(
+    samples: Samples, found: Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The covariance leaves their second order out; taken in, as of any other effect, it is the same."""
+    own = learned(found.model).info
+
+    def not_learned(effect: LearnedEffect) -> _core.EffectInfo:
+        info = own()
+        return _core.EffectInfo(
+            name=info.name,
+            physics=info.physics,
+            source="the test",
+            element_kind=info.element_kind,
+            elements=info.elements,
+            parameters=info.parameters,
+            ports=info.ports,
+        )
+
+    without = diagnose(samples, found.model, check_held_out=False)
+    monkeypatch.setattr(LearnedEffect, "info", not_learned)
+    complete = diagnose(Samples.of(samples.records), found.model, check_held_out=False)  # it is tabulated anew
+    free = found.model.free
+    np.testing.assert_allclose(
+        np.diag(without.covariance)[free], np.diag(complete.covariance)[free], rtol=1e-3, atol=0.0
+    )
+    assert not np.array_equal(without.covariance, complete.covariance)
+
+
+def test_learned_functions_alone_have_a_covariance(samples: Samples, found: Diagnosis) -> None:
+    own = np.array([each.effect == NAME for each in found.model.parameters()])
+    model = found.model.with_free(found.model.free & own)
+    alone = diagnose(samples, model, check_held_out=False)
+    assert alone.usable
+    assert (np.diag(alone.covariance)[model.free] > 0.0).all()
 
 
 def test_its_function_is_the_machine_s_within_the_band(found: Diagnosis) -> None:
