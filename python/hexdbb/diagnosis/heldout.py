@@ -6,7 +6,9 @@ improves where it was trained and not here explains noise, or the wrong thing.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Literal
 
@@ -19,6 +21,9 @@ from hexdbb.samples.distinct import distinct_rows
 
 MAX_FOLDS = 7
 """Groups of circles at most: the thesis' plan has seven circles, and more would each cost a fit and add little."""
+AT_ONCE_ROWS = 200_000
+"""Readings up to which groups are fitted beside each other, on all cores: the engine fits without Python's lock. Of
+millions, every fit's copy of its readings would count."""
 
 Refit = Callable[[Samples, Model], Model]
 """Fits a model to some samples."""
@@ -68,12 +73,14 @@ def held_out(
     groups = folds(samples, by, max_folds)
     if len(groups) < 2:
         return None
-    left: tuple[list[Prediction], list[Prediction]] = ([], [])
-    for group in groups:
+
+    def predicted(group: NDArray[np.bool_]) -> list[Prediction]:
         test, training = samples.part(group), samples.part(~group)
-        for (model, refit), gathered in zip((before, after), left, strict=True):
-            gathered.append(predict(test, refit(training, model)))
-    before_all, after_all = (_joined(each) for each in left)
+        return [predict(test, refit(training, model)) for model, refit in (before, after)]
+
+    with ThreadPoolExecutor(os.cpu_count() if len(samples) <= AT_ONCE_ROWS else 1) as pool:
+        left = list(pool.map(predicted, groups))
+    before_all, after_all = (_joined(each) for each in zip(*left, strict=True))
     return HeldOut(
         before_um=before_all.rms_um,
         after_um=after_all.rms_um,
@@ -95,7 +102,8 @@ def folds(samples: Samples, by: Grouping, most: int) -> list[NDArray[np.bool_]]:
     return [each_own % count == fold for fold in range(count)]
 
 
-def _joined(parts: list[Prediction]) -> Prediction:
+def _joined(parts: Iterable[Prediction]) -> Prediction:
+    every = tuple(parts)
     return Prediction(
-        np.concatenate([each.reading_mm for each in parts]), np.concatenate([each.residual_mm for each in parts])
+        np.concatenate([each.reading_mm for each in every]), np.concatenate([each.residual_mm for each in every])
     )

@@ -234,9 +234,11 @@ class Samples:
                 known[effect] = effect.tabulated(Samples(self._whole))
             return known[effect]
         at = values.tobytes()  # another fit's values need another table; the last one serves most calls
-        if effect not in self._whole.shaped or self._whole.shaped[effect][0] != at:
-            self._whole.shaped[effect] = (at, effect.tabulated_at(Samples(self._whole), values))
-        return self._whole.shaped[effect][1]
+        before, found = self._whole.shaped.get(effect, (b"", None))
+        if found is None or before != at:
+            found = effect.tabulated_at(Samples(self._whole), values)
+            self._whole.shaped[effect] = (at, found)
+        return found
 
     def pushes_of(self, effect: OwnEffect, values: Floats) -> Floats:
         """Return what an effect that is not the engine's pushes at its values, (n, 55, size), mm per unit of one."""

@@ -64,10 +64,12 @@ class Whole:
         return (*given, *STATE, *DERIVED, DEFLECTION)
 
     def column(self, name: str) -> NDArray[Any] | None:
-        """Return a column, None where there is no such."""
+        """Return a column, None where there is no such; threads that ask at once both derive the same."""
         if name not in self.columns:
-            if name in self.pending:
-                self.columns[name] = self.pending.pop(name)()
+            make = self.pending.get(name)
+            if make is not None:
+                self.columns[name] = make()
+                self.pending.pop(name, None)
             elif name in STATE:
                 self.columns |= self._derived_state(name)
             elif name in DERIVED:
@@ -86,8 +88,9 @@ class Whole:
         held, block = self.blocks.get(mounts, (frozenset(), None))
         if block is None or not needs <= held:
             held = held | needs
-            self.blocks[mounts] = held, self._engine(mounts, held)
-        return self.blocks[mounts]
+            block = self._engine(mounts, held)
+            self.blocks[mounts] = held, block  # another thread may put its own there
+        return held, block
 
     def _engine(self, mounts: tuple[MountKey, ...], names: Iterable[str]) -> _core.Samples:
         place = {key: index for index, key in enumerate(mounts)}
