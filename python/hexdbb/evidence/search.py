@@ -225,9 +225,11 @@ class Search:
         count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
         most = self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
-        for scored in (*chosen, *in_other_words(self, known, learned, chosen)):
+        every = [*chosen, *in_other_words(self, known, learned, chosen)]
+        trials = self.trials.each_of((*node.members, self.member(scored)) for scored in every)
+        for scored, fitted in zip(every, trials, strict=True):
             try:
-                trial = self.trials.of((*node.members, self.member(scored)))
+                trial = fitted()
             except RunError:
                 continue
             trial = self.with_tuned_period(trial, len(node.members))

@@ -9,10 +9,12 @@ for what else is missing all have them.
 
 from __future__ import annotations
 
+import os
 from collections import OrderedDict
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,6 +103,7 @@ class Trials:
         self.engine, self.criteria = engine, criteria
         self.forms = Forms(engine, homes, criteria)
         self._known: dict[frozenset[str], Trial] = {}
+        self._ahead: dict[frozenset[str], Future[Fitted]] = {}
         self._present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
         self._base: dict[tuple[str, ...], Sums] = {}
@@ -115,8 +118,24 @@ class Trials:
         """
         key = _key(members)
         if key not in self._known:
-            self._known[key] = self._about(tuple(members), self._fitted(members))
+            ahead = self._ahead.pop(key, None)
+            self._known[key] = self._about(tuple(members), self._fitted(members) if ahead is None else ahead.result())
         return self._known[key]
+
+    def each_of(self, every: Iterable[Sequence[Member]]) -> Iterator[Callable[[], Trial]]:
+        """Fit several models with hypotheses beside each other, as many at once as there are cores.
+
+        Yields
+        ------
+        callable
+            Returns the next trial, as `of` does. The engine fits without Python's lock.
+        """
+        new, at_once = list(every), os.cpu_count() or 1
+        for first in range(0, len(new), at_once):
+            few = new[first : first + at_once]
+            with ThreadPoolExecutor(at_once) as pool:
+                self._ahead |= {_key(each): pool.submit(self._fitted, each) for each in few if not self.has(each)}
+            yield from (partial(self.of, each) for each in few)
 
     def has(self, members: Sequence[Member]) -> bool:
         """Check whether a model with hypotheses was fitted already."""
