@@ -24,6 +24,19 @@ class Equivalent:
     """A catalogue effect that is it."""
 
 
+SAME_LEG = "one slider moves one leg: along the guideway or along the leg the platform feels nearly the same"
+
+
+def leg_too(k: int, variable: str, effect: str | None = None) -> Equivalent:
+    """Return the leg of a slider (from 0) as a place that explains the same."""
+    return Equivalent("leg", variable, (k + 1,), SAME_LEG, effect)
+
+
+def slider_too(k: int, variable: str, effect: str | None = None) -> Equivalent:
+    """Return the slider of a leg (from 0) as a place that explains the same."""
+    return Equivalent("slider", variable, (k + 1,), SAME_LEG, effect)
+
+
 @dataclass(frozen=True)
 class Label:
     """The truth about one fault.

@@ -9,19 +9,8 @@ import numpy as np
 from hexdbb.rig.geometry import Array
 from hexdbb_truth.forms.family import Draw, column, signed, slider, unit_vector
 from hexdbb_truth.forms.fault import Fault, Outside
-from hexdbb_truth.forms.labels import Equivalent
+from hexdbb_truth.forms.labels import Equivalent, leg_too, slider_too
 from hexdbb_truth.forms.ports import Action, Scene
-
-SAME_LEG = "one slider moves one leg: along the guideway or along the leg the platform feels nearly the same"
-
-
-def _leg_too(k: int, variable: str, effect: str | None = None) -> Equivalent:
-    return Equivalent("leg", variable, (k + 1,), SAME_LEG, effect)
-
-
-def _slider_too(k: int, variable: str, effect: str | None = None) -> Equivalent:
-    return Equivalent("slider", variable, (k + 1,), SAME_LEG, effect)
-
 
 # --- drives and guideways ---------------------------------------------------------------------------------------------
 
@@ -40,7 +29,7 @@ def _screw_bent(draw: Draw) -> Fault:
     why = "a wave of the screw's turn, of one size on each circle"
     return Fault(
         Action("slider", (k,), values),
-        (Equivalent("slider", "position", (k + 1,), why, "pitch_cyclic"), _leg_too(k, "position")),
+        (Equivalent("slider", "position", (k + 1,), why, "pitch_cyclic"), leg_too(k, "position")),
     )
 
 
@@ -56,8 +45,8 @@ def _grease_drags(draw: Draw) -> Fault:
     same = (
         Equivalent("slider", "direction", (k + 1,), why),
         Equivalent("slider", "since_reversal", (k + 1,), why, "reversal_spike"),
-        _leg_too(k, "velocity"),
-        _leg_too(k, "joint_turning"),
+        leg_too(k, "velocity"),
+        leg_too(k, "joint_turning"),
     )
     return Fault(Action("slider", (k,), values), same)
 
@@ -75,7 +64,7 @@ def _drive_saturates(draw: Draw) -> Fault:
     same = (
         Equivalent("slider", "velocity", (k + 1,), why, "servo_lag"),
         Equivalent("slider", "direction", (k + 1,), "where it hardly changes between reversals"),
-        _leg_too(k, "velocity"),
+        leg_too(k, "velocity"),
     )
     return Fault(Action("slider", (k,), values), same)
 
@@ -90,9 +79,9 @@ def _chain_pushes(draw: Draw) -> Fault:
         least = float(np.abs(sampled.drive_mm(k) - sampled.drive_mm(k ^ 1)).min())
         return column(1e-3 * size * np.exp(-(gap - least) / reach_mm))
 
-    both = tuple(_slider_too(each, "position") for each in (k, k ^ 1))
+    both = tuple(slider_too(each, "position") for each in (k, k ^ 1))
     angle = Equivalent("leg", "joint_angle", (k + 1,), "the joint's angle follows its slider's position")
-    return Fault(Action("slider", (k,), values), (*both, _leg_too(k, "position"), angle))
+    return Fault(Action("slider", (k,), values), (*both, leg_too(k, "position"), angle))
 
 
 def _carriages_float(draw: Draw) -> Fault:
@@ -128,7 +117,7 @@ def _leg_sings(draw: Draw) -> Fault:
         return column(1e-3 * size * np.sin(2.0 * math.pi * scene.time_s / period_s + phase))
 
     reading = Equivalent("reading", "time", None, "one period, wherever it enters")
-    return Fault(Action("leg", (k,), values), (_slider_too(k, "time"), reading))
+    return Fault(Action("leg", (k,), values), (slider_too(k, "time"), reading))
 
 
 def _joint_is_loose(draw: Draw) -> Fault:
@@ -143,7 +132,7 @@ def _joint_is_loose(draw: Draw) -> Fault:
     same = (
         Equivalent("slider", "direction", (k + 1,), why, "backlash"),
         Equivalent("leg", "joint_turning", (k + 1,), why, "joint_friction"),
-        _leg_too(k, "direction"),
+        leg_too(k, "direction"),
     )
     return Fault(Action("platform_joint", (k,), values), same)
 

@@ -9,19 +9,8 @@ import numpy as np
 from hexdbb.rig.geometry import Array
 from hexdbb_truth.forms.family import Draw, column, signed, slider, unit_vector
 from hexdbb_truth.forms.fault import Fault, Outside
-from hexdbb_truth.forms.labels import Equivalent
+from hexdbb_truth.forms.labels import Equivalent, leg_too, slider_too
 from hexdbb_truth.forms.ports import Action, Scene
-
-SAME_LEG = "one slider moves one leg: along the guideway or along the leg the platform feels nearly the same"
-
-
-def _leg_too(k: int, variable: str) -> Equivalent:
-    return Equivalent("leg", variable, (k + 1,), SAME_LEG)
-
-
-def _slider_too(k: int, variable: str) -> Equivalent:
-    return Equivalent("slider", variable, (k + 1,), SAME_LEG)
-
 
 # --- drives and guideways ---------------------------------------------------------------------------------------------
 
@@ -36,7 +25,7 @@ def _torque_turns_over(draw: Draw) -> Fault:
         soft = float(np.std(sampled.history.acceleration_mm_s2[sampled.rows, k])) * 0.1
         return column(sign * 1e-3 * size * np.tanh(acceleration[scene.rows] / soft))
 
-    return Fault(Action("slider", (k,), values), (_leg_too(k, "acceleration"), _slider_too(k, "position")))
+    return Fault(Action("slider", (k,), values), (leg_too(k, "acceleration"), slider_too(k, "position")))
 
 
 def _neighbour_disturbs(draw: Draw) -> Fault:
@@ -48,7 +37,7 @@ def _neighbour_disturbs(draw: Draw) -> Fault:
         largest = float(np.abs(sampled.history.velocity_mm_s[sampled.rows, k ^ 1]).max())
         return column(sign * 1e-3 * size * (other[scene.rows] / largest) ** 2)
 
-    return Fault(Action("slider", (k,), values), (_slider_too(k, "velocity"), _leg_too(k, "velocity")))
+    return Fault(Action("slider", (k,), values), (slider_too(k, "velocity"), leg_too(k, "velocity")))
 
 
 def _sticky_patch(draw: Draw) -> Fault:
@@ -60,7 +49,7 @@ def _sticky_patch(draw: Draw) -> Fault:
         return column(-1e-3 * size * way * np.exp(-0.5 * ((scene.place(k) - place) / width) ** 2))
 
     play = Equivalent("slider", "direction", (k + 1,), "play that is wider at one place", "backlash")
-    return Fault(Action("slider", (k,), values), (play, _leg_too(k, "joint_turning"), _leg_too(k, "direction")))
+    return Fault(Action("slider", (k,), values), (play, leg_too(k, "joint_turning"), leg_too(k, "direction")))
 
 
 def _carriage_gives(draw: Draw) -> Fault:
@@ -72,7 +61,7 @@ def _carriage_gives(draw: Draw) -> Fault:
         force = (scene.history.leg_force_n(scene.rows)[:, k] - whole.mean()) / np.ptp(whole)
         return column(1e-3 * size * force**power)
 
-    same = (_leg_too(k, "leg_force"), _slider_too(k, "position"), _leg_too(k, "joint_angle"))
+    same = (leg_too(k, "leg_force"), slider_too(k, "position"), leg_too(k, "joint_angle"))
     return Fault(Action("slider", (k,), values), same)
 
 
@@ -89,7 +78,7 @@ def _rail_joint(draw: Draw) -> Fault:
         return both
 
     why = "one of the sliders may pass the joint alone"
-    same = tuple(_slider_too(2 * guideway + j, "position") for j in range(2))
+    same = tuple(slider_too(2 * guideway + j, "position") for j in range(2))
     bow = Equivalent("guideway", "position", (guideway + 1,), why, "straightness")
     return Fault(Action("guideway", (guideway,), values), (*same, bow))
 
@@ -106,7 +95,7 @@ def _leg_whips(draw: Draw) -> Fault:
         largest = float(np.abs(sampled.history.acceleration_mm_s2[sampled.rows, k]).max())
         return column(-1e-3 * size * (acceleration[scene.rows] / largest) ** 2)
 
-    return Fault(Action("leg", (k,), values), (_slider_too(k, "acceleration"), _leg_too(k, "velocity")))
+    return Fault(Action("leg", (k,), values), (slider_too(k, "acceleration"), leg_too(k, "velocity")))
 
 
 def _leg_relaxes(draw: Draw) -> Fault:
@@ -116,7 +105,7 @@ def _leg_relaxes(draw: Draw) -> Fault:
     def values(scene: Scene, size: float) -> Array:
         return column(sign * 1e-3 * size * np.exp(-scene.history.since_run_began_s(scene.rows) / tau))
 
-    same = (_leg_too(k, "time"), _slider_too(k, "time"), _leg_too(k, "time_in_run"))
+    same = (leg_too(k, "time"), slider_too(k, "time"), leg_too(k, "time_in_run"))
     return Fault(Action("leg", (k,), values), same)
 
 
