@@ -46,12 +46,12 @@ ALLOWED: dict[str, set[str]] = {
         "samples": "errors files machine plan record kinematics model _core",
         "effects": "errors units machine plan kinematics learned model samples _core",
         "identifiability": "errors plan record kinematics model samples _core",
-        "diagnosis": "errors files units plan record kinematics model samples identifiability learned _core",
+        "diagnosis": "errors files threads units plan record kinematics model samples identifiability learned _core",
         "ledger": "errors files threads units record learned model samples diagnosis _core",
         # which variables of the samples predict a residual
         "predictors": "record kinematics model samples effects _core",
         # hypotheses on what is missing, decided by their evidence
-        "evidence": "errors units machine learned model samples diagnosis predictors _core",
+        "evidence": "errors threads units machine learned model samples diagnosis predictors _core",
         "discovery": (
             "errors files threads units plan record kinematics learned model samples effects diagnosis ledger "
             "predictors evidence _core"

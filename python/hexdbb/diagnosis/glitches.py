@@ -87,7 +87,7 @@ def bridged(samples: Samples, residual_mm: Floats, found: Mask) -> Floats:
 
 
 def glitches_sentence(samples: Samples, residual_mm: Floats, found: Mask) -> str:
-    """Say in a sentence how many readings differ from their neighbours by far more than noise, and by how much."""
+    """Return a sentence: how many readings differ from their neighbours by far more than noise, and by how much."""
     count, far_um = int(found.sum()), float(np.abs(residual_mm[found]).max()) * 1e3
     stands = "1 reading stands" if count == 1 else f"{count} readings stand"
     return (

@@ -6,7 +6,6 @@ improves where it was trained and not here explains noise, or the wrong thing.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from hexdbb.model import Model
 from hexdbb.samples import Prediction, Samples, predict
 from hexdbb.samples.distinct import distinct_rows
+from hexdbb.threads import fits_at_once
 
 MAX_FOLDS = 7
 """Groups of circles at most: the thesis' plan has seven circles, and more would each cost a fit and add little."""
@@ -78,7 +78,7 @@ def held_out(
         test, training = samples.part(group), samples.part(~group)
         return [predict(test, refit(training, model)) for model, refit in (before, after)]
 
-    with ThreadPoolExecutor(os.cpu_count() if len(samples) <= AT_ONCE_ROWS else 1) as pool:
+    with ThreadPoolExecutor(fits_at_once() if len(samples) <= AT_ONCE_ROWS else 1) as pool:
         left = list(pool.map(predicted, groups))
     before_all, after_all = (_joined(each) for each in zip(*left, strict=True))
     return HeldOut(

@@ -9,7 +9,6 @@ for what else is missing all have them.
 
 from __future__ import annotations
 
-import os
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -30,6 +29,7 @@ from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sums import Sums
 from hexdbb.learned import Learned
 from hexdbb.model import Model
+from hexdbb.threads import fits_at_once
 
 Floats = NDArray[np.float64]
 KEPT = 24
@@ -130,7 +130,7 @@ class Trials:
         callable
             Returns the next trial, as `of` does. The engine fits without Python's lock.
         """
-        new, at_once = list(every), os.cpu_count() or 1
+        new, at_once = list(every), fits_at_once()
         for first in range(0, len(new), at_once):
             few = new[first : first + at_once]
             with ThreadPoolExecutor(at_once) as pool:

@@ -1,4 +1,4 @@
-"""One thread for linear algebra: the matrices here have tens of columns.
+"""One thread for linear algebra, whose matrices have tens of columns; as many fits at once as there are cores.
 
 OpenBLAS divides each product among all cores, which wait for one another: on a computer that does other work beside,
 `discover` took nine times the CPU time and the wall time of one thread.
@@ -6,6 +6,7 @@ OpenBLAS divides each product among all cores, which wait for one another: on a 
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import cache, wraps
 from typing import ParamSpec, TypeVar
@@ -31,3 +32,12 @@ def one_thread(function: Callable[P, R]) -> Callable[P, R]:
 def _libraries() -> ThreadpoolController:
     """Return the libraries that are loaded: NumPy's is from the start, and a search for them takes milliseconds."""
     return ThreadpoolController()
+
+
+def fits_at_once() -> int:
+    """Return how many fits may run beside each other: the cores of this process, or fewer by ``OMP_NUM_THREADS``.
+
+    Dask sets it to one in its workers, of which there is one a core.
+    """
+    cores, wanted = len(os.sched_getaffinity(0)), os.environ.get("OMP_NUM_THREADS", "")
+    return min(cores, int(wanted)) if wanted.isdecimal() and int(wanted) > 0 else cores
