@@ -10,7 +10,7 @@ STEP := .ci/scripts/step.sh
 PIP_INSTALL := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 PRESET := $(if $(filter ON,$(HEXDBB_WERROR)),ci,release)
 
-CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
+CPP_SOURCES := $(shell find cpp/include cpp/src cpp/bindings cpp/start -name '*.[ch]pp' -o -name '*.h' -o -name CMakeLists.txt)
 CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
 CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) firmware_interfaces/linuxcnc -name '*.[ch]pp' -o -name '*.[ch]')
 PYTHON_SOURCES := python tests .ci/scripts firmware_interfaces cpp/bench docs/site

@@ -1,4 +1,4 @@
-"""Inspect a wheel: `check_wheel.py WHEEL`. Its files are those of the sources, its licences are in it, it needs no C++.
+"""Inspect a wheel: `check_wheel.py WHEEL`: files as in the sources, programs and licences in it, no C++ needed.
 
 What a wheel of Linux may ask of the system is what every installation of Python has: libc, libstdc++ and libgcc.
 """
@@ -16,6 +16,8 @@ from typing import Any
 ROOT = Path(__file__).parents[2]
 SYSTEM = {"libc.so.6", "libm.so.6", "libstdc++.so.6", "libgcc_s.so.1", "libpthread.so.0", "ld-linux-x86-64.so.2"}
 SYSTEM |= {"ld-linux-aarch64.so.1"}
+PROGRAMS = {"hexdbb", "hexdbb-run"}
+"""Compiled (cpp/start); installers put them beside the environment's Python."""
 
 
 def expected_files(root: Path) -> set[str]:
@@ -40,25 +42,31 @@ def faults(wheel: Path, root: Path = ROOT) -> Iterator[str]:
     with zipfile.ZipFile(wheel) as archive:
         names = {name for name in archive.namelist() if not name.endswith("/")}  # auditwheel enters folders too
         inside = {name for name in names if ".dist-info/" not in name}
+        programs = {
+            name for name in inside if Path(name).parent.match("*.data/scripts") and Path(name).name in PROGRAMS
+        }
         module = {name for name in inside if name.startswith("hexdbb/_core.") and name.endswith(".so")}
         files = expected_files(root)
         yield from (f"lacks {name}" for name in sorted(files - inside))
-        yield from (f"has {name}, which is no file of the packages" for name in sorted(inside - files - module))
+        yield from (
+            f"has {name}, which is no file of the packages" for name in sorted(inside - files - module - programs)
+        )
         held = {name.partition(".dist-info/licenses/")[2] for name in names}
         yield from (f"lacks the licence {name}" for name in sorted(licences(root) - held))
+        yield from (f"lacks the program {name}" for name in sorted(PROGRAMS - {Path(each).name for each in programs}))
         if len(module) != 1:
             yield f"has {len(module)} compiled modules (expected hexdbb/_core)"
         elif "linux" in wheel.name:
-            needed = _needed(archive.read(module.pop()))
+            needed = {name for binary in module | programs for name in _needed(archive.read(binary))}
             yield from (f"needs {name} of the system" for name in sorted(needed - SYSTEM))
 
 
-def _needed(module: bytes) -> set[str]:
-    """Return the shared libraries that a compiled module is linked with."""
+def _needed(binary: bytes) -> set[str]:
+    """Return the shared libraries that a compiled module or program is linked with."""
     from elftools.elf.dynamic import DynamicSection  # a tool of `make wheel` alone
     from elftools.elf.elffile import ELFFile
 
-    section = ELFFile(io.BytesIO(module)).get_section_by_name(".dynamic")
+    section = ELFFile(io.BytesIO(binary)).get_section_by_name(".dynamic")
     assert isinstance(section, DynamicSection)
     return {tag.needed for tag in section.iter_tags() if tag.entry.d_tag == "DT_NEEDED"}
 

@@ -1,6 +1,7 @@
-"""The programs' first lines: Ctrl-C during the second in which packages are imported ends them without a traceback.
+"""The programs' first lines: Ctrl-C while Python starts and packages are imported ends them without a traceback.
 
-It lies beside the package because to import anything within `hexdbb` imports what that needs first.
+The commands are compiled (`cpp/start`): they start Python with the signal held back, and it is let through here. It
+lies beside the package because to import anything within `hexdbb` imports what that needs first.
 """
 
 from __future__ import annotations
@@ -8,12 +9,22 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 
 INTERRUPTED = 130
 """Exit status of a program ended by Ctrl-C, as shells give it: 128 and the number of SIGINT."""
+
+
+def main() -> None:
+    """Run the command that is named by the first word, as the programs of `cpp/start` name themselves."""
+    programs = {"hexdbb": hexdbb, "hexdbb-run": hexdbb_run}
+    if len(sys.argv) < 2 or sys.argv[1] not in programs:
+        sys.exit(f"error: hexdbb-start is called by {' and '.join(programs)}: use these")
+    sys.argv = sys.argv[1:]
+    programs[sys.argv[0]]()
 
 
 def hexdbb() -> None:
@@ -58,8 +69,9 @@ def keeps_all() -> Iterator[None]:
 def _run(module: str) -> None:
     try:
         with ends_at_once(), keeps_all():
-            main = import_module(module).main
-        main()
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+            command = import_module(module).main
+        command()
     except KeyboardInterrupt:  # between the import and the command, or after it
         _end()
     finally:

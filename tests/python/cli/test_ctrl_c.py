@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 
 import pytest
@@ -11,6 +14,7 @@ from tests.programs import called
 
 from hexdbb.cli import convert
 
+INSTALLED = Path(sysconfig.get_path("scripts"))
 PROGRAMS = {
     "hexdbb": "from hexdbb_start import hexdbb; hexdbb()",
     "hexdbb-run": "from hexdbb_start import hexdbb_run as f; f()",
@@ -40,6 +44,38 @@ def test_while_packages_are_imported(program: str, module: str, words: list[str]
         [sys.executable, "-c", line, *words], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
     )
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "error: interrupted\n")
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
+def test_while_python_itself_starts(program: str, tmp_path: Path) -> None:
+    """`sitecustomize` is imported before any line of a program."""
+    (tmp_path / "sitecustomize.py").write_text(f"{OBEYED}\n{SIGNALLED}", encoding="utf-8")
+    link = tmp_path / "link"
+    link.symlink_to(INSTALLED / program)
+    done = subprocess.run(
+        [link, "--version"],
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "error: interrupted\n")
+
+
+def test_a_program_without_its_installation(tmp_path: Path) -> None:
+    moved = shutil.copy(INSTALLED / "hexdbb", tmp_path)
+    done = subprocess.run([moved, "--version"], capture_output=True, text=True, timeout=60, check=False)
+    missing = tmp_path.resolve() / "hexdbb-start"
+    line = f"error: hexdbb cannot start {missing}: No such file or directory (install hexdbb again)\n"
+    assert (done.returncode, done.stdout, done.stderr) == (127, "", line)
+
+
+@pytest.mark.parametrize("words", [[], ["diagnose"]])
+def test_the_script_of_the_programs_alone(words: list[str]) -> None:
+    done = subprocess.run([INSTALLED / "hexdbb-start", *words], capture_output=True, text=True, timeout=60, check=False)
+    line = "error: hexdbb-start is called by hexdbb and hexdbb-run: use these\n"
+    assert (done.returncode, done.stdout, done.stderr) == (1, "", line)
 
 
 def test_in_a_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

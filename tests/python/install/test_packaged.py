@@ -54,9 +54,9 @@ def test_licences_of_what_is_compiled_in(distribution: PathDistribution) -> None
     assert {Path(each).stem for each in named} == {"LICENSE", "ceres-solver", "eigen", "pybind11"}
 
 
-def test_commands_are_functions(distribution: PathDistribution) -> None:
+def test_the_script_of_the_programs_is_a_function(distribution: PathDistribution) -> None:
     commands = [each for each in distribution.entry_points if each.group == "console_scripts"]
-    assert {each.name for each in commands} == {"hexdbb", "hexdbb-run"}
+    assert {each.name for each in commands} == {"hexdbb-start"}
     assert all(_is_packaged(each) and callable(each.load()) for each in commands)
 
 
@@ -76,7 +76,12 @@ def test_a_wheel_that_lacks_or_adds_is_noticed(tmp_path: Path) -> None:
     wheel = tmp_path / "hexdbb-0-cp311-cp311-macosx_14_0_arm64.whl"
     files = sorted(check_wheel.expected_files(ROOT) - {"hexdbb/data/sp120.toml"})
     with zipfile.ZipFile(wheel, "w") as archive:
-        for name in [*files, "hexdbb/_core.cpython-311-darwin.so", "tests/test_this.py"]:
+        for name in [
+            *files,
+            "hexdbb/_core.cpython-311-darwin.so",
+            "hexdbb-0.data/scripts/hexdbb",
+            "tests/test_this.py",
+        ]:
             archive.writestr(name, b"")
         for name in check_wheel.licences(ROOT) - {"LICENSE"}:
             archive.writestr(f"hexdbb-0.dist-info/licenses/{name}", b"")
@@ -84,4 +89,5 @@ def test_a_wheel_that_lacks_or_adds_is_noticed(tmp_path: Path) -> None:
         "lacks hexdbb/data/sp120.toml",
         "has tests/test_this.py, which is no file of the packages",
         "lacks the licence LICENSE",
+        "lacks the program hexdbb-run",
     ]
