@@ -26,6 +26,8 @@ from hexdbb_truth.simulate import Pace
 RATES_HZ = {35_000: 20.0, 100_000: 57.0}
 """Readings a second that give about so many readings of the standard plan."""
 TOGGLES, DRAG_S = 12, 3.0
+SETTLED_MS = 800
+"""After a toggle, until its time is read: to ask the page meanwhile whether it has drawn takes time of its own."""
 EFFECT, VALUE = "leg_length", "leg_length:1 longer"
 PAINTED = """() => {
   const painted = performance.getEntriesByName('first-contentful-paint')[0];
@@ -75,9 +77,8 @@ def times_of(page: Page, address: str, readings: int) -> Times:
     for _ in range(TOGGLES):
         page.evaluate("window.drawnAt = []")
         marked(page, f"switch {EFFECT}").click()
-        page.wait_for_function("window.drawnAt.length > 0")
+        page.wait_for_timeout(SETTLED_MS)
         toggles_ms.append(page.evaluate("window.drawnAt[0] - window.pressedAt"))
-        page.wait_for_timeout(200)
     page.get_by_role("button", name=EFFECT).click()
     slider = marked(page, f"value {VALUE}")
     slider.wait_for()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from nicegui import ui
 
 from hexdbb.model import Parameter, Term
-from hexdbb.workbench.page.attributes import attribute, mark
+from hexdbb.workbench.page.effect_switch import EffectSwitch
 from hexdbb.workbench.page.running import refused
 from hexdbb.workbench.page.value_slider import ValueSlider
 from hexdbb.workbench.session import Session
@@ -16,7 +16,7 @@ class EffectsPanel:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._switches: dict[str, ui.switch] = {}
+        self._switches: dict[str, EffectSwitch] = {}
         self._values: list[ValueSlider] = []
         with ui.element("section").classes("wb-card").props('aria-labelledby="effects-title"'):
             with ui.row().classes("wb-title"):
@@ -36,7 +36,7 @@ class EffectsPanel:
         if anew:
             self._build()
         for effect, switch in self._switches.items():
-            switch.value = effect not in session.tried.off
+            switch.follow(effect not in session.tried.off)
         if self._values:
             shown = session.shown
             values = dict(zip((each.label for each in shown.parameters()), shown.values, strict=True))
@@ -61,14 +61,7 @@ class EffectsPanel:
         info = self._session.model.info(term.effect)
         parameters = [each for each in self._session.model.parameters() if each.effect == term.effect]
         with ui.element("div").classes("wb-effect"):
-            switch = (
-                ui.switch(value=True)
-                .props("dense")
-                .props(attribute("aria-label", term.effect))
-                .props(mark(f"switch {term.effect}"))
-            )
-            switch.on("update:model-value", lambda event, name=term.effect: self._switch(name, bool(event.args[0])))
-            self._switches[term.effect] = switch
+            self._switches[term.effect] = EffectSwitch(term.effect, self._switch)
             with ui.expansion(term.effect, caption=info.physics).props("dense") as inside:
                 opened = ui.element("div").classes("wb-values")
         inside.on_value_change(lambda event: self._fill(opened, parameters) if event.value else None)
@@ -92,6 +85,7 @@ class EffectsPanel:
 
     def _switch(self, effect: str, on: bool) -> None:
         refused(lambda: self._session.switch(effect, on))
+        self._switches[effect].follow(effect not in self._session.tried.off)  # as before, where it was refused
 
     def _drag(self, label: str, value: float) -> None:
         refused(lambda: self._session.set_value(label, value))
