@@ -7,7 +7,8 @@ engine or of what is built on it.
 
 `hexdbb_truth.forms`: faults with forms of their own, as real machines have them. A case is told by its name:
 
-    from hexdbb_truth.forms.cases import case, alone, outside, combined, clean, reachable
+    from hexdbb_truth.forms.cases import case
+    from hexdbb_truth.forms.lists import alone, outside, combined, clean, reachable
 
     one = case("backlash-d10-x3-judge-s7")
     one.record()       a hexdbb Record of about 10,000 readings; one.write(folder) writes the text form

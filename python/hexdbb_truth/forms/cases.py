@@ -12,10 +12,8 @@ half is another machine with another fault.
 
 from __future__ import annotations
 
-import itertools
 import re
 import zlib
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -35,7 +33,7 @@ from hexdbb_truth.forms.labels import VARIABLES, Label, equivalents
 from hexdbb_truth.forms.measure import Measured
 from hexdbb_truth.forms.outside import OUTSIDE, Outside
 from hexdbb_truth.forms.ports import Action
-from hexdbb_truth.forms.sizes import UnreachableSizeError, shown_deviation, size_of
+from hexdbb_truth.forms.sizes import shown_deviation, size_of
 
 HALVES = ("calibrate", "judge")
 TIMES_NOISE = (1.5, 3.0, 10.0, 30.0, 100.0)
@@ -301,53 +299,3 @@ def case(name: str) -> Case:
         if kind not in FAMILIES and kind not in OUTSIDE:
             raise InputError(f'case "{name}": kind "{kind}" (expected one of {", ".join([*FAMILIES, *OUTSIDE])})')
     return Case(kinds, int(match["percent"]) / 100.0, float(match["times"]), match["half"], int(match["seed"]), plan)
-
-
-def alone(
-    half: str,
-    kinds: Iterable[str] = CATALOGUED,
-    deviations: Iterable[float] = DEVIATIONS,
-    times_noise: Iterable[float] = TIMES_NOISE,
-    seeds: Iterable[int] = range(5),
-) -> Iterator[Case]:
-    """Return single catalogue faults; `UnreachableSizeError` where a case is asked for what it hides tells its end."""
-    for seed, kind, deviation, times in itertools.product(seeds, kinds, deviations, times_noise):
-        yield Case((kind,), deviation, times, half, seed)
-
-
-def outside(half: str, times_noise: Iterable[float] = TIMES_NOISE, seeds: Iterable[int] = range(5)) -> Iterator[Case]:
-    """Return faults that the catalogue does not have, one at a time."""
-    for seed, times in itertools.product(seeds, times_noise):
-        for kind in OUTSIDE:
-            yield Case((kind,), 0.0, times, half, seed)
-
-
-def combined(
-    half: str, number: int = 2, times_noise: float = 3.0, count: int = 40, deviation: float = 0.1
-) -> Iterator[Case]:
-    """Return combinations of catalogue faults that one plan can see, drawn evenly."""
-    draw = np.random.default_rng([zlib.crc32(f"{half}/{number}".encode())])
-    every = [
-        kinds
-        for kinds in itertools.combinations(CATALOGUED, number)
-        if sum(FAMILIES[kind].plan != "standard" for kind in kinds) < 2
-    ]
-    for seed in range(count):
-        yield Case(every[int(draw.integers(len(every)))], deviation, times_noise, half, seed)
-
-
-def clean(half: str, seeds: Iterable[int] = range(60)) -> Iterator[Case]:
-    """Return machines with errors of geometry and set-up alone, on plans in turn."""
-    names = tuple(plans.PLANS)
-    for seed in seeds:
-        yield Case((), 0.0, 0.0, half, seed, names[seed % len(names)])
-
-
-def reachable(cases: Iterable[Case]) -> Iterator[Case]:
-    """Return those cases whose faults a machine in use can have."""
-    for each in cases:
-        try:
-            each.hidden  # noqa: B018 - sizes are found here
-        except UnreachableSizeError:
-            continue
-        yield each

@@ -11,12 +11,9 @@ from hexdbb.errors import InputError
 from hexdbb.record import read_record
 from hexdbb_truth.forms import plans
 from hexdbb_truth.forms.cases import (
-    alone,
     case,
-    clean,
-    combined,
-    outside,
 )
+from hexdbb_truth.forms.lists import alone, clean, combined, outside
 
 
 def test_names_tell_cases():

@@ -12,9 +12,9 @@ from hexdbb.samples import Samples
 from hexdbb_truth.forms import plans
 from hexdbb_truth.forms.cases import (
     case,
-    reachable,
 )
 from hexdbb_truth.forms.fit import fitted, geometry_readings_mm, true_values
+from hexdbb_truth.forms.lists import reachable
 from hexdbb_truth.forms.measure import Measured
 from hexdbb_truth.forms.sizes import UnreachableSizeError, remaining
 

@@ -28,6 +28,7 @@ from hexdbb.studies.setting import Setting
 from hexdbb.studies.study import Case, Row
 from hexdbb.studies.verdicts.outcome import Named, outcome_of
 from hexdbb_truth.forms import cases as forms
+from hexdbb_truth.forms import lists
 from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.sizes import UnreachableSizeError
 from hexdbb_truth.simulate import Pace
@@ -63,21 +64,21 @@ def _series(half: str, first: int) -> Iterator[tuple[str, tuple[str, ...]]]:
     """Yield cases and the effects withheld, all kinds of one seed in random order, then those of the next."""
     for seed in itertools.count(first):
         single = [
-            *forms.alone(half, seeds=[seed]),
-            *forms.outside(half, seeds=[seed]),
-            *forms.clean(half, range(CLEAN * seed, CLEAN * (seed + 1))),
+            *lists.alone(half, seeds=[seed]),
+            *lists.outside(half, seeds=[seed]),
+            *lists.clean(half, range(CLEAN * seed, CLEAN * (seed + 1))),
             *_combined(half, 2, PAIRS, seed),
             *_combined(half, 3, TRIPLES, seed),
         ]
         every: list[tuple[str, tuple[str, ...]]] = [(each.name, ()) for each in single]
-        withheld = forms.alone(half, deviations=(WITHHELD_DEVIATION,), times_noise=WITHHELD_TIMES, seeds=[seed])
+        withheld = lists.alone(half, deviations=(WITHHELD_DEVIATION,), times_noise=WITHHELD_TIMES, seeds=[seed])
         every += [(each.name, each.kinds) for each in withheld]
         random.Random(seed).shuffle(every)
         yield from every
 
 
 def _combined(half: str, number: int, count: int, seed: int) -> Iterator[forms.Case]:
-    return itertools.islice(forms.combined(half, number, 3.0, count * (seed + 1)), count * seed, None)
+    return itertools.islice(lists.combined(half, number, 3.0, count * (seed + 1)), count * seed, None)
 
 
 def row(setting: Setting, case: Case) -> Row:
