@@ -5,7 +5,7 @@ from hexdbb.machine.dimensions import Base, Legs, Platform, Sliders
 from hexdbb.machine.file import MachineFile, load_machine, machine_beside, shipped_machine
 from hexdbb.machine.home import home_heights_mm
 from hexdbb.machine.limits_of_use import Joints, Workspace
-from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped
+from hexdbb.machine.shipped import SHIPPED_MACHINE, shipped, shipped_names, shipped_or_own
 from hexdbb.machine.tolerance import Tolerance
 from hexdbb.machine.watch import Watch
 
@@ -27,4 +27,6 @@ __all__ = [
     "machine_beside",
     "shipped",
     "shipped_machine",
+    "shipped_names",
+    "shipped_or_own",
 ]

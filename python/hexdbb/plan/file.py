@@ -13,10 +13,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, PrivateAttr, model_validator
 
-from hexdbb.errors import InputError
 from hexdbb.files.frames import html_table
 from hexdbb.files.validation import BadValueError, FileModel, load_toml
-from hexdbb.machine import MachineFile, machine_beside, shipped
+from hexdbb.machine import MachineFile, machine_beside, shipped_names, shipped_or_own
 from hexdbb.plan.circle import Circle, Direction, Directions, Feeds, Laps
 from hexdbb.plan.conditions import Conditions
 from hexdbb.plan.gauge import Gauge
@@ -165,7 +164,7 @@ def check_ids(mounts: Sequence[Mount], circles: Sequence[Circle]) -> None:
 
 def shipped_plans() -> list[str]:
     """Return the names of the plans shipped with the package, sorted."""
-    return sorted(path.stem for path in shipped("plans").glob("*.toml"))
+    return shipped_names("plans")
 
 
 def load_plan(name_or_path: Path | str) -> Plan:
@@ -185,9 +184,4 @@ def load_plan(name_or_path: Path | str) -> Plan:
     InputError
         One line naming file, key, value and what was expected.
     """
-    names, path = shipped_plans(), Path(name_or_path)
-    if str(name_or_path) in names:
-        path = shipped("plans", f"{name_or_path}.toml")
-    elif not path.exists():
-        raise InputError(f"{path}: no such file (expected a plan file, or a shipped plan: {', '.join(names)})")
-    return load_toml(path, Plan)
+    return load_toml(shipped_or_own(name_or_path, "plan", "plans"), Plan)

@@ -22,7 +22,7 @@ from hexdbb.files.validation import (
     load_toml,
     validation_line,
 )
-from hexdbb.machine import shipped
+from hexdbb.machine import shipped_names, shipped_or_own
 from hexdbb.rig.mechanisms import CATALOGUED
 from hexdbb.rig.truth import Spread
 
@@ -181,7 +181,7 @@ def changed(study: StudyFile, changes: Mapping[str, Any], origin: str) -> StudyF
 
 def shipped_studies() -> list[str]:
     """Return the names of the studies shipped with the package, sorted."""
-    return sorted(path.stem for path in shipped("studies").glob("*.toml"))
+    return shipped_names("studies")
 
 
 def load_study(name_or_path: Path | str) -> StudyFile:
@@ -192,9 +192,4 @@ def load_study(name_or_path: Path | str) -> StudyFile:
     InputError
         One line naming file, key, value and what was expected.
     """
-    names, path = shipped_studies(), Path(name_or_path)
-    if str(name_or_path) in names:
-        path = shipped("studies", f"{name_or_path}.toml")
-    elif not path.exists():
-        raise InputError(f"{path}: no such file (expected a study file, or a shipped study: {', '.join(names)})")
-    return load_toml(path, StudyFile)
+    return load_toml(shipped_or_own(name_or_path, "study", "studies"), StudyFile)
