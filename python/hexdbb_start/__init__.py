@@ -13,7 +13,7 @@ from contextlib import contextmanager, suppress
 from importlib import import_module
 
 SETTINGS = {
-    # Matrices have tens of columns, and fits run beside each other: threads of OpenBLAS would wait for work by spinning.
+    # Matrices have tens of columns, and fits run beside each other: threads of OpenBLAS would only wait, by spinning.
     "OPENBLAS_NUM_THREADS": "1",
     # Files are read alike on every computer; to look for plugins, the metadata of all installed packages are read.
     "PYDANTIC_DISABLE_PLUGINS": "__all__",
