@@ -14,6 +14,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
 
+SETTINGS = {
+    # Matrices have tens of columns, and fits run beside each other: threads of OpenBLAS would only wait, by spinning.
+    "OPENBLAS_NUM_THREADS": "1",
+    # Files are read alike on every computer; to look for plugins, the metadata of all installed packages are read.
+    "PYDANTIC_DISABLE_PLUGINS": "__all__",
+}
+"""Environment of the programs, where the user has not set it: libraries read it while they are imported."""
 INTERRUPTED = 130
 """Exit status of a program ended by Ctrl-C, as shells give it: 128 and the number of SIGINT."""
 
@@ -67,6 +74,8 @@ def keeps_all() -> Iterator[None]:
 
 
 def _run(module: str) -> None:
+    for name, value in SETTINGS.items():
+        os.environ.setdefault(name, value)
     try:
         with ends_at_once(), keeps_all():
             signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})

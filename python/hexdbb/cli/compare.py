@@ -13,6 +13,7 @@ from rich.progress import Progress
 from hexdbb.cli.consoles import message_console, output_console, say
 from hexdbb.cli.effects_option import effects_option
 from hexdbb.cli.existing_model import existing_model
+from hexdbb.cli.imports_beside import DRAWING, imported_beside
 from hexdbb.cli.read_samples import read_samples
 from hexdbb.cli.shared_options import json_option, model_option, print_pictures, records_argument, stem_of
 from hexdbb.comparison import Comparison, compare, compare_commanded
@@ -88,7 +89,8 @@ def command(
         refuse_existing(stem.with_name(stem.name + suffix), overwrite=True)
     messages = message_console()
     with Progress(console=messages, transient=True, disable=not messages.is_terminal) as progress:
-        comparison = _comparison(records, model_path, effects_path, not no_cause, progress)
+        beside = () if no_plot else DRAWING
+        comparison = _comparison(records, model_path, effects_path, not no_cause, beside, progress)
         written = [] if no_plot else _draw(comparison, stem, pages == "all", progress)
     if as_json:
         say(json.dumps(comparison.to_json(), indent=2, allow_nan=False))
@@ -99,16 +101,21 @@ def command(
 
 
 def _comparison(
-    paths: tuple[Path, ...], model_path: Path | None, effects_path: Path | None, find_cause: bool, progress: Progress
+    paths: tuple[Path, ...],
+    model_path: Path | None,
+    effects_path: Path | None,
+    find_cause: bool,
+    beside: tuple[str, ...],
+    progress: Progress,
 ) -> Comparison:
-    if model_path is None:
-        if effects_path is not None:
-            raise InputError(f"--effects {effects_path} without a model (expected -m MODEL with it)")
-        progress.add_task("comparing", total=None)
-        return compare_commanded(read_samples(paths, progress.console))
-    model = existing_model(model_path, effects_path)
+    """Read records and compare them, while the libraries `beside` are imported."""
+    if model_path is None and effects_path is not None:
+        raise InputError(f"--effects {effects_path} without a model (expected -m MODEL with it)")
+    model = None if model_path is None else existing_model(model_path, effects_path)
     progress.add_task("comparing", total=None)
-    return compare(read_samples(paths, progress.console), model, find_cause=find_cause)
+    samples = read_samples(paths, progress.console)
+    with imported_beside(beside):
+        return compare_commanded(samples) if model is None else compare(samples, model, find_cause=find_cause)
 
 
 def _draw(comparison: Comparison, stem: Path, is_all: bool, progress: Progress) -> list[Path]:

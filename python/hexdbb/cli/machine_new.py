@@ -13,6 +13,7 @@ from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.machine_check import assessed, check_picture, draw
 from hexdbb.cli.machine_questions import QUESTIONS, ask
 from hexdbb.cli.machine_tables import print_assessment
+from hexdbb.cli.prompts import prompted
 from hexdbb.cli.workspace_option import FORM, workspace_of, workspace_text
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, write_text
@@ -98,7 +99,7 @@ def new(
     assert space is not None  # set above
     bar_mm = bar_mm or next((each for each in BARS_MM if each <= space.radius_mm), BARS_MM[-1])
     if interactive and circles is None:
-        circles = click.prompt("Circles to propose, 0 for no plan", default=CIRCLES, type=click.IntRange(min=0))
+        circles = prompted("circles", "Circles to propose, 0 for no plan", default=CIRCLES, type=click.IntRange(min=0))
     circles = CIRCLES if circles is None else circles
     template = None if circles == 0 else plan_template(machine, space, bar_mm)
     _save(machine, output)
@@ -123,7 +124,7 @@ def _with_workspace(
     while True:
         if asked:
             text = "Where the platform is wanted: x,y,z of its centre, radius, height, tilt; mm and deg"
-            workspace = click.prompt(text, default=workspace_text(workspace), value_proc=workspace_of)
+            workspace = prompted("workspace", text, default=workspace_text(workspace), value_proc=workspace_of)
         assert workspace is not None  # given, suggested or asked for
         try:
             _, assessment = assessed(machine, workspace, origin)

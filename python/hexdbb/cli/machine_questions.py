@@ -10,10 +10,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-import click
 import tomlkit
 
 from hexdbb.cli.consoles import say
+from hexdbb.cli.prompts import prompted
 from hexdbb.errors import InputError
 from hexdbb.files.validation import format_value, parse_toml
 from hexdbb.machine import MachineFile, shipped_machine
@@ -244,8 +244,9 @@ def ask(given: Mapping[str, str | None], origin: str, interactive: bool) -> Mach
 def _asked(question: Question, answers: Answers, origin: str) -> Any:
     """Ask until the answer can be one: a wrong one would make the defaults of what is asked next."""
     while True:
+        text = prompted(question.option, question.text, default=question.default(answers), type=str)
         try:
-            answer = question.value(click.prompt(question.text, default=question.default(answers), type=str))
+            answer = question.value(text)
             _check(question, {**answers, question.option: answer}, origin)
             return answer
         except InputError as error:

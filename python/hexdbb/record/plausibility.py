@@ -36,6 +36,7 @@ QUIET = 0.2
 good gauges reach a third of theirs."""
 
 Rows = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -83,10 +84,12 @@ def doubts(record: Record) -> list[Doubt]:
     return [*found, *_too_fast(record)]
 
 
-def _inner(record: Record) -> Rows:
-    """Return the rows that have both neighbours in their sweep."""
+def _inner(record: Record) -> Mask:
+    """Mark the rows that have both neighbours in their sweep."""
     sweep = record.columns["sweep"]
-    return np.flatnonzero((sweep[1:-1] == sweep[:-2]) & (sweep[1:-1] == sweep[2:])) + 1
+    inner = np.zeros(len(sweep), np.bool_)
+    inner[1:-1] = (sweep[1:-1] == sweep[:-2]) & (sweep[1:-1] == sweep[2:])
+    return inner
 
 
 def _frozen(record: Record) -> Iterator[Doubt]:
@@ -102,32 +105,31 @@ def _frozen(record: Record) -> Iterator[Doubt]:
         yield Doubt(rows, f"reading_um stays {value:g} µm, as of a gauge that is stuck (expected {expected})")
 
 
-def _quiet(record: Record, inner: Rows) -> Iterator[Doubt]:
-    stated_um = record.gauge.noise_um
-    if not stated_um or len(inner) < MOST_REPEATS:
+def _quiet(record: Record, inner: Mask) -> Iterator[Doubt]:
+    stated_um, rows = record.gauge.noise_um, np.flatnonzero(inner)
+    if not stated_um or len(rows) < MOST_REPEATS:
         return
-    bend = _bend(record.columns["reading_um"], inner)
-    noise_um = float(np.median(np.abs(bend))) / (0.6745 * math.sqrt(1.5))
+    noise_um = float(np.median(np.abs(_bend(record.columns["reading_um"])[inner]))) / (0.6745 * math.sqrt(1.5))
     if noise_um < QUIET * stated_um:
         expected = f"{stated_um:g} µm as stated; with another gauge, state its gauge.noise_um"
-        yield Doubt(inner, f"reading_um has a noise of {noise_um:.2g} µm only (expected about {expected})")
+        yield Doubt(rows, f"reading_um has a noise of {noise_um:.2g} µm only (expected about {expected})")
 
 
-def _reading_spikes(record: Record, inner: Rows) -> Iterator[Doubt]:
+def _reading_spikes(record: Record, inner: Mask) -> Iterator[Doubt]:
     limit_um = max(SPIKE_UM, NOISE_SIGMAS * (record.gauge.noise_um or 0.0))
     rows = _spikes(record.columns["reading_um"], inner, limit_um)
     if len(rows):
-        off_um = float(_bend(record.columns["reading_um"], rows[:1])[0])
+        off_um = float(_bend(record.columns["reading_um"])[rows[0]])
         yield Doubt(
             rows, f"reading_um differs from both neighbours by {off_um:+.1f} µm (expected {limit_um:g} at most)"
         )
 
 
-def _slider_spikes(record: Record, inner: Rows) -> Iterator[Doubt]:
+def _slider_spikes(record: Record, inner: Mask) -> Iterator[Doubt]:
     for name in SLIDER_COLUMNS:
         rows = _spikes(record.columns[name], inner, SPIKE_MM)
         if len(rows):
-            off_mm = float(_bend(record.columns[name], rows[:1])[0])
+            off_mm = float(_bend(record.columns[name])[rows[0]])
             yield Doubt(
                 rows, f"{name} differs from both neighbours by {off_mm:+.3f} mm (expected {SPIKE_MM:g} at most)"
             )
@@ -139,25 +141,26 @@ def _too_fast(record: Record) -> Iterator[Doubt]:
     limit_mm_s = record.machine.can.limits.velocity_mm_s
     same = np.diff(record.columns["sweep"]) == 0
     passed_s = np.diff(record.columns["t_s"])
+    most_mm = 1.1 * limit_mm_s * passed_s + SPIKE_MM
     for name in SLIDER_COLUMNS:
         step_mm = np.abs(np.diff(record.columns[name]))
-        rows = np.flatnonzero(same & (step_mm > 1.1 * limit_mm_s * passed_s + SPIKE_MM)) + 1
+        rows = np.flatnonzero(same & (step_mm > most_mm)) + 1
         if len(rows):
             fast_mm_s = float(step_mm[rows[0] - 1] / passed_s[rows[0] - 1])
             yield Doubt(rows, f"{name} moves at {fast_mm_s:.0f} mm/s (expected {limit_mm_s:g} at most)")
 
 
-def _bend(values: NDArray[np.float64], rows: Rows) -> NDArray[np.float64]:
-    """Return by how much values differ from the mean of their neighbours."""
-    bend: NDArray[np.float64] = values[rows] - 0.5 * (values[rows - 1] + values[rows + 1])
+def _bend(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return by how much values differ from the mean of their neighbours, shape (n,); zero at both ends."""
+    bend = np.zeros(len(values))
+    bend[1:-1] = values[1:-1] - 0.5 * (values[:-2] + values[2:])
     return bend
 
 
-def _spikes(values: NDArray[np.float64], inner: Rows, limit: float) -> Rows:
+def _spikes(values: NDArray[np.float64], inner: Mask, limit: float) -> Rows:
     """Return rows that lie off the course of their neighbours: these seem off by half of it to the other side."""
-    bend = np.zeros(len(values))
-    bend[inner] = _bend(values, inner)
-    half = -0.25 * bend[inner] * np.sign(bend[inner])
-    others = np.maximum(bend[inner - 1] * np.sign(bend[inner]), bend[inner + 1] * np.sign(bend[inner]))
-    rows: Rows = inner[(np.abs(bend[inner]) > limit) & (others < half)]
+    bend = np.where(inner, _bend(values), 0.0)
+    far = np.flatnonzero(np.abs(bend) > limit)
+    side = np.sign(bend[far])
+    rows: Rows = far[np.maximum(bend[far - 1] * side, bend[far + 1] * side) < -0.25 * bend[far] * side]
     return rows

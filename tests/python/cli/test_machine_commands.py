@@ -12,7 +12,8 @@ from click.testing import CliRunner, Result
 from hexdbb.cli.machine import command
 from hexdbb.cli.machine_questions import QUESTIONS
 from hexdbb.cli.plan import command as plan_command
-from hexdbb.errors import InputError, RunError
+from hexdbb.cli.prompts import prompted
+from hexdbb.errors import InputError, InterruptError, RunError
 from hexdbb.machine import load_machine, shipped_machine
 from hexdbb.plan import load_plan
 
@@ -95,6 +96,31 @@ def test_bad_input_is_one_line_and_nothing_is_written(
     assert message in str(error.value)
     assert "\n" not in str(error.value)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("answers", "option"),
+    [([], "name"), (["bench", "240"], "guideway-angles"), ([""] * len(QUESTIONS), "workspace")],
+    ids=["none", "two", "those of the machine alone"],
+)
+def test_without_a_terminal_the_option_that_answers_is_named_and_nothing_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answers: list[str], option: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(InputError, match="the input has ended") as error:
+        run("new", "-o", "m.toml", answers="".join(f"{each}\n" for each in answers))
+    assert f"--{option} VALUE, or --defaults" in str(error.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ctrl_c_at_a_question_interrupts(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object, **__: object) -> str:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("click.termui.visible_prompt_func", interrupted)
+    monkeypatch.setattr("hexdbb.cli.prompts.say", lambda text: None)
+    with pytest.raises(InterruptError):
+        prompted("name", "Name of the machine", default="bench")
 
 
 def test_a_wrong_answer_is_asked_for_again_before_it_makes_defaults(tmp_path: Path) -> None:
