@@ -29,7 +29,7 @@ def rig_in_thread(*options: object, log: Path | None = None) -> Iterator[int]:
     chosen = command.make_context("rig", list(map(str, options))).params
     names = ("machine_path", "truth_path", "seed", "faults", "stall_tolerance_s")
     rig, _ = simulated(**{name: chosen[name] for name in names})
-    server = SocketcandServer(0, rig.receive, rig.poll, rig.controller_gone)
+    server = SocketcandServer(0, rig.receive_all, rig.poll, rig.controller_gone)
     rig.transmit, rig.on_bus_lost = server.transmit, server.disconnect_all
     thread = threading.Thread(target=server.serve, name="rig", daemon=True)
     with logged(log):

@@ -49,19 +49,29 @@ class Check:
         Returns a fault, or None.
     late_s : callable
         Returns the lateness (s) of this computer from which it explains such a fault; infinite where it never does.
+    of_status : bool
+        Whether the drives' statuswords and modes alone decide whether there is a fault.
     """
 
     name: str
     find: Callable[[Watch], Fault | None]
     late_s: Callable[[Watch], float] = never
+    of_status: bool = False
 
 
 def find_fault(watch: Watch) -> Fault | None:
-    """Run all checks in order and return the first fault with its cause (`hexdbb.capture.blame`), or None."""
-    for check in CHECKS:
+    """Run all checks in order and return the first fault with its cause (`hexdbb.capture.blame`), or None.
+
+    Statuswords and modes in which the last checks of them found no fault are not examined again until one changes.
+    """
+    feedback = watch.feedback
+    is_new = (feedback.statusword, feedback.mode) != watch.good_status
+    for check in CHECKS if is_new else CHECKS_BESIDE_STATUS:
         fault = check.find(watch)
         if fault is not None:
             return fault if check.find is _interrupted else blamed(fault, watch, check.late_s(watch))
+    if is_new:
+        watch.good_status = (list(feedback.statusword), list(feedback.mode))
     return None
 
 
@@ -283,14 +293,14 @@ CHECKS: list[Check] = [
     Check("answers", _answers, half_a_cycle),
     Check("SYNC of others", _foreign_sync),
     Check("lost reading", _lost_reading),
-    Check("drive states", _drive_states, controller_missed),
-    Check("modes", _modes),
+    Check("drive states", _drive_states, controller_missed, of_status=True),
+    Check("modes", _modes, of_status=True),
     Check("emergencies", _emergencies, controller_missed),
     Check("malformed frames", _malformed),
     Check("NMT states", _nmt_states, controller_missed),
     Check("heartbeats", _heartbeats, drives_time_out),
-    Check("status bits", _status_bits),
-    Check("lasting bits", _lasting_bits),
+    Check("status bits", _status_bits, of_status=True),
+    Check("lasting bits", _lasting_bits, of_status=True),
     Check("following error", _following),
     Check("jump of a position", _jump),
     Check("lag of a position", _shifted),
@@ -299,3 +309,5 @@ CHECKS: list[Check] = [
     Check("answers too many", _repeated),
 ]
 """Checks of every cycle, causes before consequences."""
+CHECKS_BESIDE_STATUS = [check for check in CHECKS if not check.of_status]
+"""Those of them that depend on more than statuswords and modes."""

@@ -28,7 +28,7 @@ class CycleTimes:
     longest_s : float
         Longest time between two SYNCs, s.
     latency : Latency
-        How late SYNCs were, and how soon answers came.
+        How late SYNCs were, and how soon answers came; in real time only, as in lockstep no time is due.
     """
 
     def __init__(self) -> None:

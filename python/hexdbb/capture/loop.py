@@ -126,10 +126,11 @@ class Loop:
         self._exchange.send_sync(with_targets=together)
         self.times.take(self._exchange.sync_s, self.last_missed)
         feedback = self._exchange.collect(self.clock.answer_timeout_s())
-        self.times.latency.late.take(self.clock.late_s)
-        if not feedback.missing:
-            self.times.latency.answered.take(time.monotonic() - self._exchange.sync_s)
-        if feedback.missing and not self.clock.real_time:
+        if self.clock.real_time:
+            self.times.latency.late.take(self.clock.late_s)
+            if not feedback.missing:
+                self.times.latency.answered.take(time.monotonic() - self._exchange.sync_s)
+        elif feedback.missing:
             self.while_waiting()
             if len(feedback.missing) == SLOTS:
                 self._wait_for_any(controlwords, counts)

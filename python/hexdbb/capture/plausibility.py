@@ -153,8 +153,9 @@ class Plausibility:
         if max(map(abs, self._position_steps), default=0) > limit:
             slot, step = next((slot, step) for slot, step in enumerate(self._position_steps) if abs(step) > limit)
             return slot, step / self.counts_per_mm, limit / scale
-        follows = self._follows() + DISTURBANCE_MM * scale + 2.0
-        if max(map(abs, self._error_steps), default=0) <= follows:
+        largest, disturbed = max(map(abs, self._error_steps), default=0), DISTURBANCE_MM * scale + 2.0
+        # What a disturbance may cause is within the limit in any motion.
+        if largest <= disturbed or largest <= (follows := self._follows() + disturbed):
             return None
         for slot, (step, moved) in enumerate(zip(self._error_steps, self._position_steps, strict=True)):
             # A slider that jams lags behind more and more; one that jumps moves.
@@ -172,9 +173,9 @@ class Plausibility:
             return None
         (_, first), (at, middle), (now, last) = self._errors
         scale = abs(self.counts_per_mm)
-        limit = SPIKE_SHARE * self._follows() + DISTURBANCE_MM * scale + 2.0
+        disturbed, largest = DISTURBANCE_MM * scale + 2.0, max(map(abs, map(sub, last, middle)))
         # What came back by so much has moved by three quarters of it in the last SYNC at least.
-        if max(map(abs, map(sub, last, middle))) <= 0.75 * limit:
+        if largest <= 0.75 * disturbed or largest <= 0.75 * (limit := SPIKE_SHARE * self._follows() + disturbed):
             return None
         for slot in range(len(middle)):
             off = middle[slot] - 0.5 * (first[slot] + last[slot])

@@ -87,6 +87,8 @@ class Watch:
         Whether a signal has asked the program to end.
     nodes_here : bool
         Whether the nodes are simulated on this computer: where it is busy, they answer late.
+    good_status : tuple of two lists of int, or None
+        Statuswords and modes in which the checks of them found no fault last.
     """
 
     feedback: Feedback
@@ -109,6 +111,7 @@ class Watch:
     late_s: Mapping[int, float] = field(default_factory=dict)
     interrupts: Interrupts = field(default_factory=Interrupts)
     nodes_here: bool = False
+    good_status: tuple[list[int], list[int]] | None = None
 
     @property
     def cycle_s(self) -> float:

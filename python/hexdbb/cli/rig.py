@@ -117,7 +117,7 @@ def _serve(rig: Rig, port: int, *, once: bool, exit_with_parent: bool) -> None:
         if once:
             server.stop()
 
-    server = SocketcandServer(port, rig.receive, poll, last_client_gone)
+    server = SocketcandServer(port, rig.receive_all, poll, last_client_gone)
     rig.transmit, rig.on_bus_lost = server.transmit, server.disconnect_all
     signal.signal(signal.SIGTERM, lambda *_: server.stop())
     # Ctrl-C also reaches the controller, which needs the bus to stop the axes.

@@ -16,6 +16,9 @@ from hexdbb.rig.frame import Frame
 MOST = 16
 """Texts that are known at most: a controller sends two or three kinds of them in every cycle, and memory does not grow
 with what others send."""
+MOST_FRAMES = 16
+"""Frames of a text that is known at most: twice those of a cycle. What waited while the rig was held up is read
+together and will hardly come so again."""
 BYTE = b"[0-9a-fA-F]{2}"
 
 
@@ -24,6 +27,7 @@ class ReceivedBursts:
 
     def __init__(self) -> None:
         self._known: dict[int, tuple[re.Pattern[bytes], list[int]]] = {}
+        self._seen: tuple[int, ...] = ()
 
     def frames_of(self, text: bytes) -> list[Frame] | None:
         """Return the frames of a text, or None where it is none of those that are known."""
@@ -35,9 +39,16 @@ class ReceivedBursts:
         return list(zip(known[1], data, strict=True))
 
     def learn(self, frames: Sequence[Frame | None], text: bytes) -> None:
-        """Know a text from now on that the general parser has read; of usual frames in usual form, and nothing else."""
+        """Know a text from now on that the general parser has read twice; of usual frames in usual form, and no other.
+
+        An expression takes milliseconds to compile: one for every text that comes once would hold the rig up.
+        """
         usual = [frame for frame in frames if frame is not None]
-        if len(usual) < 2 or len(usual) < len(frames) or (len(self._known) >= MOST and len(text) not in self._known):
+        if not 2 <= len(usual) <= MOST_FRAMES or len(usual) < len(frames):
+            return
+        can_ids = tuple([can_id for can_id, _ in usual])
+        if can_ids != self._seen or (len(self._known) >= MOST and len(text) not in self._known):
+            self._seen = can_ids
             return
         parts = [
             b"< send %03X %d (%s) >" % (can_id, len(data), b" ".join([BYTE] * len(data))) for can_id, data in usual

@@ -116,21 +116,31 @@ class Rig:
         setup = GaugeSetup(gauge.noise_um, gauge.resolution_um, gauge.range_um, truth.seed)
         return GaugeNode(can.gauge_node, machine.eds_path(can.gauge_eds), self._send, setup, stall_tolerance_s)
 
+    def receive_all(self, frames: Sequence[Frame]) -> None:
+        """Process frames from the bus that were read together, in order."""
+        now_s = time.monotonic()
+        for cob_id, data in frames:
+            if (handle := self._rpdo_handlers.get(cob_id)) is not None:
+                handle(data, now_s)
+            elif cob_id == SYNC:
+                self._on_sync(data)
+            else:
+                self._receive_other(cob_id, data)
+            if self._outbox:
+                self.flush()
+
     def receive(self, cob_id: int, data: bytes) -> None:
         """Process one frame from the bus."""
-        if (handle := self._rpdo_handlers.get(cob_id)) is not None:
-            handle(data, time.monotonic())
-        elif cob_id == SYNC:
-            self._on_sync(data)
-        elif cob_id == NMT:
+        self.receive_all([(cob_id, data)])
+
+    def _receive_other(self, cob_id: int, data: bytes) -> None:
+        if cob_id == NMT:
             self._on_nmt(data)
         elif HEARTBEAT_BASE < cob_id <= HEARTBEAT_BASE + 127:
             for listener in self.nodes.values():
                 listener.handle_heartbeat(cob_id - HEARTBEAT_BASE, time.monotonic())
         elif (node := self.nodes.get(cob_id - SDO_REQUEST_BASE)) is not None:
             node.handle_sdo(data)
-        if self._outbox:
-            self.flush()
 
     def flush(self) -> None:
         """Transmit the frames that the nodes have sent."""
@@ -191,7 +201,7 @@ class Rig:
 
     def _step_plant(self, dt_s: float) -> None:
         try:
-            self.plant.step(np.array([drive.axis.position_mm for drive in self.drives]), dt_s, self.gauge.mounted)
+            self.plant.step([drive.axis.position_mm for drive in self.drives], dt_s, self.gauge.mounted)
         except RunError as error:
             if not self._broken:
                 log.error("%s", error)

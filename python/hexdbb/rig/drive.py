@@ -195,9 +195,11 @@ class DriveNode(Node):
 
     def on_cycle(self, dt_s: float) -> None:
         """Obey the controlword, move, supervise the following error."""
-        self._obey_controlword()
-        if self._mode.value in (0, CYCLIC_SYNCHRONOUS_POSITION):
-            self._mode_display.value = self._mode.value
+        if self.state is not self._obeyed_in or self._controlword.value != self._previous_controlword:
+            self._obey_controlword()
+        mode = self._mode.value
+        if mode in (0, CYCLIC_SYNCHRONOUS_POSITION):
+            self._mode_display.value = mode
         if self._follows:
             self._follow(dt_s)
         else:
@@ -218,8 +220,6 @@ class DriveNode(Node):
     def _obey_controlword(self) -> None:
         word = int(self._controlword.value)
         changed = word != self._previous_controlword
-        if not changed and self.state is self._obeyed_in:
-            return
         rising, self._previous_controlword, self._obeyed_in = word & ~self._previous_controlword, word, None
         if self.state is DriveState.FAULT and rising & cia402.FAULT_RESET_BIT:
             self._enter(DriveState.SWITCH_ON_DISABLED)

@@ -21,6 +21,7 @@ from hexdbb.rig.geometry import Array, TrueGeometry
 from hexdbb.rig.mechanisms import Mechanism, Motion, Push
 from hexdbb.rig.pose_solver import Hexapod, NoPoseError, Poses, leg_forces_n, solve_poses
 from hexdbb.rig.single_pose import bar_mm
+from hexdbb.rig.undisplaced import Undisplaced
 
 Point = tuple[float, float, float]
 _ONES = np.ones(3)
@@ -79,6 +80,12 @@ class SetupErrors:
     def ball(self) -> Array:
         """`ball_offset_mm` as an array, shape (3,)."""
         return np.array(self.ball_offset_mm, dtype=float)
+
+    def true(self, mounted: Mounted) -> tuple[Point, Point, float]:
+        """Return where ball and cup are, and the length of the bar at which the gauge reads zero, mm."""
+        (a, b, c), (d, e, f) = mounted.ball_offset_mm, mounted.cup_mm
+        (u, v, w), (x, y, z) = self.ball_offset_mm, self.cup_mm.get(mounted.mount, (0.0, 0.0, 0.0))
+        return (a + u, b + v, c + w), (d + x, e + y, f + z), mounted.bar_length_mm + self.bar_length_mm
 
 
 @dataclass(frozen=True)
@@ -162,8 +169,6 @@ class Machine:
         errors = self.setup_errors
         ball, cup = mounted.ball + errors.ball, mounted.cup + errors.cups.get(mounted.mount, 0.0)
         nominal_mm = mounted.bar_length_mm + errors.bar_length_mm
-        if push is None and len(poses.position_mm) == 1:
-            return np.array([bar_mm(poses.position_mm[0], poses.rotation[0], ball, cup) - nominal_mm])
         if push is not None:
             ball, cup = ball + push.ball_mm, cup + push.cup_mm
         bar = poses.position_mm + (poses.rotation @ ball[..., None])[:, :, 0] - cup
@@ -186,17 +191,30 @@ class Plant:
         self.machine = machine
         self.time_s = 0.0
         self.poses = Poses(np.array(position_mm, dtype=float)[None], np.array(rotation, dtype=float)[None])
-        self._push: Push | None = Push(1) if machine.mechanisms else None
-        self._before = (self._push, self.poses, 0.0)
-        self._earlier = self.poses.position_mm
         self._read: tuple[Mounted, float] | None = None
 
-    def step(self, drive_mm: Array, dt_s: float, mounted: Mounted | None = None) -> None:
+    @property
+    def poses(self) -> Poses:
+        """The pose of the platform, at one instant."""
+        if self._alone is not None:
+            return Poses(np.array([self._alone.position]), np.array([self._alone.rotation]))
+        return self._poses
+
+    @poses.setter
+    def poses(self, poses: Poses) -> None:
+        # Without mechanisms nothing is ever displaced.
+        is_alone = not self.machine.mechanisms
+        self._alone = Undisplaced(self.machine.geometry, poses.position_mm[0], poses.rotation[0]) if is_alone else None
+        self._poses, self._push = poses, Push(1)
+        self._before = (self._push, poses, 0.0)
+        self._earlier = poses.position_mm
+
+    def step(self, drive_mm: Sequence[float], dt_s: float, mounted: Mounted | None = None) -> None:
         """Advance by one cycle.
 
         Parameters
         ----------
-        drive_mm : numpy.ndarray
+        drive_mm : sequence of float
             Drive positions at its end, mm, shape (6,).
         dt_s : float
             Cycle, s.
@@ -209,18 +227,23 @@ class Plant:
             The machine has no pose for these positions.
         """
         self.time_s += dt_s
-        mount = mounted.mount if mounted is not None else None
-        # Where the platform would be on the parabola through its last places: saves one of three iterations.
-        last, before, earlier = self.poses.position_mm, self._before[1].position_mm, self._earlier
-        guess = Poses(3.0 * (last - before) + earlier, self.poses.rotation)
-        self._before, self._earlier = (self._push, self.poses, dt_s), before
-        at_mm, self._read = np.asarray(drive_mm, dtype=float)[None], None
-        if self.machine.mechanisms:  # without, nothing is ever displaced
-            self._push = self.machine.displaced(Motion(np.array([self.time_s]), dt_s, at_mm, mount))
-        self.poses = self.machine.poses(at_mm, self._push, guess)
+        self._read = None
+        if self._alone is not None:
+            self._alone.step(drive_mm)
+        else:
+            self._step_displaced(np.array([drive_mm], dtype=float), dt_s, mounted)
         if mounted is not None:
             # Now, while the controller works on the answers of this cycle, and not when it waits for those of the next.
             self._read = mounted, self._reading_mm(mounted)
+
+    def _step_displaced(self, at_mm: Array, dt_s: float, mounted: Mounted | None) -> None:
+        mount = mounted.mount if mounted is not None else None
+        # Where the platform would be on the parabola through its last places: saves one of three iterations.
+        last, before, earlier = self._poses.position_mm, self._before[1].position_mm, self._earlier
+        guess = Poses(3.0 * (last - before) + earlier, self._poses.rotation)
+        self._before, self._earlier = (self._push, self._poses, dt_s), before
+        self._push = self.machine.displaced(Motion(np.array([self.time_s]), dt_s, at_mm, mount))
+        self._poses = self.machine.poses(at_mm, self._push, guess)
 
     def reading_mm(self, mounted: Mounted) -> float:
         """Return length minus nominal length of the mounted bar as the gauge shows it, without noise, mm."""
@@ -234,9 +257,12 @@ class Plant:
         A gauge read earlier or later than the encoders is extrapolated linearly through the readings of this cycle and
         the one before, because the next cycle has not happened yet.
         """
-        now = float(self.machine.reading_mm(mounted, self._push, self.poses)[0])
+        if self._alone is not None:
+            ball, cup, nominal_mm = self.machine.setup_errors.true(mounted)
+            return bar_mm(self._alone.position, self._alone.rotation, ball, cup) - nominal_mm
+        now = float(self.machine.reading_mm(mounted, self._push, self._poses)[0])
         push, poses, dt_s = self._before
-        if self._push is None or self._push.delay_s == 0.0 or dt_s == 0.0:
+        if self._push.delay_s == 0.0 or dt_s == 0.0:
             return now
         before = float(self.machine.reading_mm(mounted, push, poses)[0])
         return now + self._push.delay_s * (now - before) / dt_s

@@ -19,15 +19,8 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.rig.geometry import Array
-from hexdbb.rig.single_pose import Legs, orthonormal, turned
+from hexdbb.rig.single_pose import MAX_ITERATIONS, REUSE_STEP, STEP_TOLERANCE, ends_of, solved
 
-STEP_TOLERANCE = 1e-6
-"""Largest last step, mm and rad. The remaining error is this step times the one before it, over the leg length."""
-REUSE_STEP = 2e-3
-"""Largest step after which the Jacobian is used again, mm and rad: the next step is then below 1e-8, and the remaining
-error below 1e-13 mm, the rounding of a leg length."""
-MAX_ITERATIONS = 50
-"""Iterations after which there is no pose; a nearby guess needs two or three."""
 BLOCK = 512
 """Instants solved at once: their Jacobians (150 kB) fit into the processor's cache."""
 _IDENTITY, _ONES = np.eye(3), np.ones(3)
@@ -168,25 +161,12 @@ def _solve_block(hexapod: Hexapod, guess: Poses, first: int) -> tuple[Array, Arr
 
 def _solve_single(hexapod: Hexapod, guess: Poses) -> Poses:
     """Do what `_solve_block` does for one instant, in plain numbers."""
-    legs = Legs(hexapod.slider_joints_mm[0], hexapod.platform_joints_mm[0], hexapod.lengths_mm[0])
+    ends = ends_of(hexapod.slider_joints_mm[0], hexapod.platform_joints_mm[0], hexapod.lengths_mm[0])
     (x, y, z), (first, second, third) = guess.position_mm[0].tolist(), guess.rotation[0].tolist()
-    rotation = tuple(first), tuple(second), tuple(third)
-    inverse: NDArray[np.float64] | None = None
-    for _ in range(MAX_ITERATIONS):
-        try:
-            inverse = legs.inverse((x, y, z), rotation) if inverse is None else inverse
-        except np.linalg.LinAlgError:
-            break
-        u, v, w, *turn = (inverse @ legs.missing_mm((x, y, z), rotation)).tolist()
-        x, y, z, rotation = x + u, y + v, z + w, turned(rotation, turn)
-        largest = max(map(abs, (u, v, w, *turn)))
-        if largest < STEP_TOLERANCE:
-            return Poses(np.array([[x, y, z]]), np.array([orthonormal(rotation)]))
-        if not math.isfinite(largest):
-            break
-        if largest > REUSE_STEP:
-            inverse = None
-    raise NoPoseError(0)
+    found = solved(ends, (x, y, z), (tuple(first), tuple(second), tuple(third)))
+    if found is None:
+        raise NoPoseError(0)
+    return Poses(np.array([found[0]]), np.array([found[1]]))
 
 
 def _legs(hexapod: Hexapod, position: Array, rotation: Array) -> tuple[Array, Array, Array]:

@@ -19,55 +19,84 @@ Rotation = tuple[Vector, Vector, Vector]
 """Rows of the matrix."""
 
 
-class Legs:
-    """Six legs between points that do not move while the pose is sought.
+Ends = Sequence[tuple[Sequence[float], Sequence[float], float]]
+"""Slider joint (base frame), platform joint (platform frame) and length of each leg, mm."""
 
-    Parameters
-    ----------
-    slider_joints_mm : (6, 3) array
-        Base frame, mm.
-    platform_joints_mm : (6, 3) array
-        Platform frame, mm.
-    lengths_mm : (6,) array
+STEP_TOLERANCE = 1e-6
+"""Largest last step, mm and rad. The remaining error is this step times the one before it, over the leg length."""
+REUSE_STEP = 2e-3
+"""Largest step after which the Jacobian is used again, mm and rad: the next step is then below 1e-8, and the remaining
+error below 1e-13 mm, the rounding of a leg length."""
+MAX_ITERATIONS = 50
+"""Iterations after which there is no pose; a nearby guess needs two or three."""
+
+
+def ends_of(slider_joints_mm: Array, platform_joints_mm: Array, lengths_mm: Array) -> Ends:
+    """Return the ends of the legs between joints of shape (6, 3), and their lengths, shape (6,)."""
+    return [*zip(slider_joints_mm.tolist(), platform_joints_mm.tolist(), lengths_mm.tolist(), strict=True)]
+
+
+def solved(ends: Ends, position: Vector, rotation: Rotation) -> tuple[Vector, Rotation] | None:
+    """Return the pose that satisfies the leg lengths, from one nearby; None where there is none."""
+    inverse: Array | None = None
+    for _ in range(MAX_ITERATIONS):
+        if inverse is None:
+            try:
+                missing_mm, inverse = _linearised(ends, position, rotation)
+            except np.linalg.LinAlgError:
+                return None
+        else:
+            missing_mm = missing(ends, position, rotation)
+        u, v, w, *turn = (inverse @ missing_mm).tolist()
+        x, y, z = position
+        position, rotation = (x + u, y + v, z + w), turned(rotation, turn)
+        largest = max(u, v, w, *turn, -min(u, v, w, *turn))
+        if largest < STEP_TOLERANCE:
+            return position, orthonormal(rotation)
+        if not math.isfinite(largest):
+            return None
+        if largest > REUSE_STEP:
+            inverse = None
+    return None
+
+
+def missing(ends: Ends, position: Vector, rotation: Rotation) -> list[float]:
+    """Return the leg lengths minus the distances of their joints at a pose, mm."""
+    x, y, z = position
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
+    sqrt = math.sqrt
+    found = []
+    for (bx, by, bz), (qx, qy, qz), length in ends:
+        u = r00 * qx + r01 * qy + r02 * qz + x - bx
+        v = r10 * qx + r11 * qy + r12 * qz + y - by
+        w = r20 * qx + r21 * qy + r22 * qz + z - bz
+        found.append(length - sqrt(u * u + v * v + w * w))
+    return found
+
+
+def _linearised(ends: Ends, position: Vector, rotation: Rotation) -> tuple[list[float], Array]:
+    """Return what is `missing`, and the inverse (6, 6) of the distances' derivatives by position and rotation.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        The pose is singular.
     """
-
-    def __init__(self, slider_joints_mm: Array, platform_joints_mm: Array, lengths_mm: Array) -> None:
-        self._ends = [*zip(slider_joints_mm.tolist(), platform_joints_mm.tolist(), lengths_mm.tolist(), strict=True)]
-
-    def missing_mm(self, position: Vector, rotation: Rotation) -> list[float]:
-        """Return the leg lengths minus the distances of their joints at a pose."""
-        x, y, z = position
-        (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
-        sqrt = math.sqrt
-        found = []
-        for (bx, by, bz), (qx, qy, qz), length in self._ends:
-            u = r00 * qx + r01 * qy + r02 * qz + x - bx
-            v = r10 * qx + r11 * qy + r12 * qz + y - by
-            w = r20 * qx + r21 * qy + r22 * qz + z - bz
-            found.append(length - sqrt(u * u + v * v + w * w))
-        return found
-
-    def inverse(self, position: Vector, rotation: Rotation) -> Array:
-        """Return the inverse of the derivatives of the distances by position and rotation, (6, 6).
-
-        Raises
-        ------
-        numpy.linalg.LinAlgError
-            The pose is singular.
-        """
-        x, y, z = position
-        (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
-        rows = []
-        for (bx, by, bz), (qx, qy, qz), _ in self._ends:
-            a = r00 * qx + r01 * qy + r02 * qz
-            b = r10 * qx + r11 * qy + r12 * qz
-            c = r20 * qx + r21 * qy + r22 * qz
-            u, v, w = a + x - bx, b + y - by, c + z - bz
-            reach = math.sqrt(u * u + v * v + w * w)
-            u, v, w = u / reach, v / reach, w / reach
-            rows.append((u, v, w, b * w - c * v, c * u - a * w, a * v - b * u))
-        found: Array = np.linalg.inv(np.array(rows))
-        return found
+    x, y, z = position
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
+    sqrt = math.sqrt
+    found, rows = [], []
+    for (bx, by, bz), (qx, qy, qz), length in ends:
+        a = r00 * qx + r01 * qy + r02 * qz
+        b = r10 * qx + r11 * qy + r12 * qz
+        c = r20 * qx + r21 * qy + r22 * qz
+        u, v, w = a + x - bx, b + y - by, c + z - bz
+        reach = sqrt(u * u + v * v + w * w)
+        found.append(length - reach)
+        u, v, w = u / reach, v / reach, w / reach
+        rows.append((u, v, w, b * w - c * v, c * u - a * w, a * v - b * u))
+    inverse: Array = np.linalg.inv(np.array(rows))
+    return found, inverse
 
 
 def turned(rotation: Rotation, by_rad: Sequence[float]) -> Rotation:
@@ -84,32 +113,29 @@ def turned(rotation: Rotation, by_rad: Sequence[float]) -> Rotation:
 
 def orthonormal(rotation: Rotation) -> Rotation:
     """Return a rotation without the rounding of many samples (`pose_solver`)."""
-    columns = tuple(zip(*rotation, strict=True))
-    rest = [[-0.5 * (a * d + b * e + c * f) for d, e, f in columns] for a, b, c in columns]
-    for axis in range(3):
-        rest[axis][axis] += 1.5
-    (a, b, c), (d, e, f), (g, h, i) = rest
-    return _product(rotation, ((a, b, c), (d, e, f), (g, h, i)))
+    (a, b, c), (d, e, f), (g, h, i) = rotation
+    p, q, r = -0.5 * (a * b + d * e + g * h), -0.5 * (a * c + d * f + g * i), -0.5 * (b * c + e * f + h * i)
+    u = 1.5 - 0.5 * (a * a + d * d + g * g)
+    v = 1.5 - 0.5 * (b * b + e * e + h * h)
+    w = 1.5 - 0.5 * (c * c + f * f + i * i)
+    return _product(rotation, ((u, p, q), (p, v, r), (q, r, w)))
 
 
-def bar_mm(position_mm: Array, rotation: Array, ball_mm: Array, cup_mm: Array) -> float:
-    """Return the distance of ball and cup, mm.
-
-    Parameters
-    ----------
-    position_mm : (3,) array
-        Platform, base frame.
-    rotation : (3, 3) array
-    ball_mm, cup_mm : (3,) array
-        Platform frame; base frame.
-    """
-    qx, qy, qz = ball_mm.tolist()
-    ends = zip(rotation.tolist(), position_mm.tolist(), cup_mm.tolist(), strict=True)
-    u, v, w = [a * qx + b * qy + c * qz + at - cup for (a, b, c), at, cup in ends]
+def bar_mm(position: Vector, rotation: Rotation, ball: Vector, cup: Vector) -> float:
+    """Return the distance of the ball (platform frame) and the cup (base frame) at a pose, mm."""
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
+    x, y, z = ball
+    u = r00 * x + r01 * y + r02 * z + position[0] - cup[0]
+    v = r10 * x + r11 * y + r12 * z + position[1] - cup[1]
+    w = r20 * x + r21 * y + r22 * z + position[2] - cup[2]
     return math.sqrt(u * u + v * v + w * w)
 
 
 def _product(one: Rotation, other: Rotation) -> Rotation:
     (a, b, c), (d, e, f), (g, h, i) = other
-    first, second, third = [(u * a + v * d + w * g, u * b + v * e + w * h, u * c + v * f + w * i) for u, v, w in one]
-    return first, second, third
+    (u, v, w), (p, q, r), (x, y, z) = one
+    return (
+        (u * a + v * d + w * g, u * b + v * e + w * h, u * c + v * f + w * i),
+        (p * a + q * d + r * g, p * b + q * e + r * h, p * c + q * f + r * i),
+        (x * a + y * d + z * g, x * b + y * e + z * h, x * c + y * f + z * i),
+    )

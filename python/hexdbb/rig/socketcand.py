@@ -61,8 +61,8 @@ class SocketcandServer:
     ----------
     port : int
         TCP port on 127.0.0.1; 0 takes a free one.
-    on_frame : callable
-        Called with identifier and data of each frame a client sends.
+    on_frames : callable
+        Called with frames of a client that were read together, in order.
     on_poll : callable
         Called with the monotonic time every few milliseconds.
     on_last_client_gone : callable
@@ -77,11 +77,11 @@ class SocketcandServer:
     def __init__(
         self,
         port: int,
-        on_frame: Callable[[int, bytes], None],
+        on_frames: Callable[[list[Frame]], None],
         on_poll: Callable[[float], None],
         on_last_client_gone: Callable[[], None],
     ) -> None:
-        self._on_frame, self._on_poll, self._on_last_client_gone = on_frame, on_poll, on_last_client_gone
+        self._on_frames, self._on_poll, self._on_last_client_gone = on_frames, on_poll, on_last_client_gone
         self._clients: dict[socket.socket, _Client] = {}
         self._bursts = SentBursts()
         self._selector = selectors.DefaultSelector()
@@ -189,8 +189,7 @@ class SocketcandServer:
         frames = client.bursts.frames_of(text) if is_raw else None
         if frames is not None:
             client.buffer = b""
-            for frame in frames:
-                self._pass_on(client, *frame)
+            self._pass_on(client, frames)
             return
         *messages, client.buffer = text.split(b">")
         parsed = [parse_frame(message) if client.raw_since_s is not None else None for message in messages]
@@ -200,7 +199,7 @@ class SocketcandServer:
             if each is None:
                 self._obey(client, message.split())
             else:
-                self._pass_on(client, *each)
+                self._pass_on(client, [each])
         if len(client.buffer) > LONGEST_MESSAGE:
             self._drop(client)
 
@@ -228,13 +227,13 @@ class SocketcandServer:
         if len(data) != length or length > 8 or cob_id > 0x7FF:
             self._send(client, b"< error malformed frame >")
             return
-        self._pass_on(client, cob_id, data)
+        self._pass_on(client, [(cob_id, data)])
 
-    def _pass_on(self, client: _Client, cob_id: int, data: bytes) -> None:
+    def _pass_on(self, client: _Client, frames: list[Frame]) -> None:
         client.raw_since_s = 0.0
         if len(self._clients) > 1:
-            self._broadcast([(cob_id, data)], client)
-        self._on_frame(cob_id, data)
+            self._broadcast(frames, client)
+        self._on_frames(frames)
 
 
 def parse_frame(message: bytes) -> Frame | None:

@@ -79,8 +79,12 @@ def test_one_instant_has_the_pose_and_the_reading_that_it_has_among_others(p, rp
     both = machine.poses(np.tile(sliders, (2, 1)), None, guess)
     np.testing.assert_allclose(alone.position_mm[0], both.position_mm[1], rtol=0.0, atol=1e-11)
     np.testing.assert_allclose(alone.rotation[0], both.rotation[1], rtol=0.0, atol=1e-13)
-    readings = [machine.reading_mm(SETUP, None, poses)[-1] for poses in (alone, both)]
-    assert readings[0] == pytest.approx(readings[1], rel=0.0, abs=1e-11)
+    plant = Plant(machine, HOME, np.eye(3))
+    plant.step(sliders.tolist(), 0.004)
+    np.testing.assert_allclose(plant.poses.position_mm[0], both.position_mm[1], rtol=0.0, atol=1e-11)
+    np.testing.assert_allclose(plant.poses.rotation[0], both.rotation[1], rtol=0.0, atol=1e-13)
+    reading_mm = machine.reading_mm(SETUP, None, both)[-1]
+    assert plant.reading_mm(SETUP) == pytest.approx(reading_mm, rel=0.0, abs=1e-11)
 
 
 @settings(max_examples=30, deadline=None)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from hexdbb.rig.bursts import MOST_FRAMES, ReceivedBursts
+from hexdbb.rig.frame import Frame
 from hexdbb.rig.socketcand import parse_frame
 
 
@@ -43,3 +45,23 @@ def test_the_usual_form_is_parsed_at_once(message: bytes, frame: tuple[int, byte
 )
 def test_every_other_message_is_left_to_be_read_word_by_word(message: bytes) -> None:
     assert parse_frame(message) is None
+
+
+def text_of(frames: list[Frame]) -> bytes:
+    return b"".join(b"< send %03X %d %s >" % (can_id, len(data), data.hex(" ").encode()) for can_id, data in frames)
+
+
+def test_frames_that_come_together_twice_are_known_from_then_on_with_other_data_too() -> None:
+    known, frames, later = ReceivedBursts(), [(0x201, b"\x01\x02"), (0x080, b"")], [(0x201, b"\xfe\xff"), (0x080, b"")]
+    known.learn(frames, text_of(frames))
+    assert known.frames_of(text_of(later)) is None
+    known.learn(frames, text_of(frames))
+    assert known.frames_of(text_of(later)) == later
+    assert known.frames_of(text_of([(0x202, b"\xfe\xff"), (0x080, b"")])) is None
+
+
+def test_frames_that_were_read_together_because_the_rig_was_held_up_are_not_learned() -> None:
+    known, frames = ReceivedBursts(), [(0x201, b"\x01\x02")] * (MOST_FRAMES + 1)
+    for _ in range(3):
+        known.learn(frames, text_of(frames))
+    assert known.frames_of(text_of(frames)) is None
