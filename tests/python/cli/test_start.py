@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-LATER = ("scipy", "matplotlib", "pandas", "pyarrow.compute", "pyarrow.dataset")
+LATER = ("scipy", "matplotlib", "pandas", "pyarrow.compute", "pyarrow.dataset", "pyarrow.csv")
 """Each takes a tenth of a second or more to import."""
 NOT_DRAWN = (
     "scipy",
