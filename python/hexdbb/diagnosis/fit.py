@@ -31,8 +31,6 @@ covariance stays some orders below."""
 GLITCH_SIGMAS = 3.0
 """With a robust loss, residuals beyond this many standard deviations of the noise count linearly: one in 370 of normal
 noise, so that clean readings lose next to nothing."""
-NO_SWEEPS: NDArray[np.int32] = np.zeros(0, np.int32)
-"""Of a fit whose uncertainties are not used: its readings count as independent, and no correlation is computed."""
 PRIOR_DOMINATED = 0.99
 """Posterior over prior standard deviation above which readings say nothing of a value: less than 2 % of information."""
 
@@ -62,8 +60,8 @@ def evaluate_fit(
     hypothesis : bool
         A fit that only serves to compare models: it ends sooner, and its covariance is to first order.
     from_minimum : bool
-        Of a hypothesis: the start was fitted to nearly the same readings, and the minimum near it is wanted, no more
-        than its values.
+        Of a hypothesis: the start was fitted to nearly the same readings, and the values at the minimum near it are
+        wanted, without uncertainties: they stay those of the start.
 
     Raises
     ------
@@ -82,10 +80,10 @@ def evaluate_fit(
                 noise_mm=noise.sigma_mm,
                 free=[bool(each) for each in free],
                 robust_mm=GLITCH_SIGMAS * noise.sigma_mm if robust else 0.0,
-                # Neighbours that are correlated widen uncertainties, of which nobody asks here.
-                sweep=NO_SWEEPS if from_minimum else samples["sweep"],
+                sweep=samples["sweep"],
                 hypothesis=hypothesis,
                 from_minimum=from_minimum,
+                covariance=not from_minimum,
             )
         except ValueError as error:
             raise InputError(f"{samples.name}: {error}") from None
@@ -96,7 +94,8 @@ def evaluate_fit(
     if (free & model.shaped).any():
         return _with_spread(*fit_shapes(samples, model, free, noise, fit))
     result = fit(model, from_minimum)
-    return _with_spread(model.with_values(np.where(model.shaped, model.values, result.values)), result)
+    fitted = model.with_values(np.where(model.shaped, model.values, result.values))
+    return (fitted, result) if from_minimum else _with_spread(fitted, result)
 
 
 @dataclass(frozen=True, eq=False)

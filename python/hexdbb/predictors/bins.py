@@ -106,5 +106,6 @@ def _bins(variable: Variable, values: FloatArray, count: int) -> tuple[NDArray[n
         first, span = values.min(), float(np.ptp(values))
         most = max(min(int(np.ceil(span / PLACE_MM)), count // SAMPLES_PER_PLACE), most)
         return np.minimum(((values - first) / span * most).astype(np.intp), most - 1), most
-    edges = np.quantile(values, np.linspace(0.0, 1.0, most + 1)[1:-1])
+    # To sort first takes half the time: NumPy sorts by vector instructions, its selection of many places does not.
+    edges = np.quantile(np.sort(values), np.linspace(0.0, 1.0, most + 1)[1:-1])
     return np.searchsorted(edges, values), most
