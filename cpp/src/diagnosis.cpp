@@ -262,11 +262,12 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
 
   Model fitted = model;
   fitted.set_values(out.values);
-  const NormalEquations& after = at_or_throw(accumulator, fitted);
+  const NormalEquations& after = at_or_throw(accumulator, fitted, options.covariance ? Sums::kAll : Sums::kResidual);
   out.residual_mm = accumulator.residual_mm();
   out.rms_after_mm = rms(out.residual_mm);
   // Under Huber's loss the weighted rows keep glitches out of the noise.
   out.noise_mm = std::max(options.noise_mm, std::sqrt(after.squared / static_cast<double>(samples.size())));
+  if (!options.covariance) return out;
   if (options.sweep.size() != 0) out.correlation = autocorrelation_time(out.residual_mm, options.sweep);
   const double effective_mm = out.noise_mm * std::sqrt(out.correlation);
   Eigen::MatrixXd spread = first_order_spread(after.information, unknowns, effective_mm);

@@ -28,11 +28,17 @@ errors                `HexdbbError`: `InputError` (bad input), `RunError` (what 
 Units inside: mm, rad, s, N; the unit is part of every name. Terms: docs/glossary.md; packages: docs/architecture.md.
 """
 
-from importlib.metadata import version as _version
-
 import lazy_loader as _lazy
 
-__version__ = _version("hexdbb")
-
 # The names stand in __init__.pyi, once for type checkers and for loading.
-__getattr__, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)
+_load, __dir__, __all__ = _lazy.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> object:
+    """Load a name when it is first used; to look the version up takes as long as several of them."""
+    if name != "__version__":
+        return _load(name)
+    from importlib.metadata import version
+
+    globals()[name] = version("hexdbb")
+    return globals()[name]

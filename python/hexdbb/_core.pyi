@@ -896,6 +896,7 @@ def fit(
     sweep: typing.Annotated[numpy.typing.ArrayLike, numpy.int32, "[m, 1]"] = ...,
     hypothesis: bool = False,
     from_minimum: bool = False,
+    covariance: bool = True,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.
@@ -919,6 +920,8 @@ def fit(
         Full fit of a hypothesis: faster, its covariance to first order.
     from_minimum : bool
         Of a hypothesis: the start is the minimum of nearly the same readings.
+    covariance : bool
+        Whether covariance and correlation are wanted; else they are empty and 1.
 
     Raises
     ------

@@ -43,6 +43,9 @@ struct FitOptions {
   // A direction is identifiable where the readings alone determine it to at most this fraction of its prior standard
   // deviation. At one half they carry four times the information of the prior.
   double identified_fraction = 0.5;
+  // Without the covariance J'J of all readings is not summed once more at the end, half the time of a hypothesis from its
+  // minimum: `covariance` and `correlation` of the result are not filled.
+  bool covariance = true;
 };
 
 struct FitResult {

@@ -6,7 +6,6 @@ import importlib
 
 import click
 
-from hexdbb import __version__
 from hexdbb.cli.exits import Program, reports_errors
 from hexdbb_start import ends_at_once, keeps_all
 
@@ -57,7 +56,7 @@ class _LazyGroup(Program, click.Group):
 
 
 @click.group(cls=_LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(__version__, prog_name="hexdbb")
+@click.version_option(package_name="hexdbb", prog_name="hexdbb")
 def cli() -> None:
     """Find out why a HexGlider does not go where it is told, from double-ball-bar circular tests.
 

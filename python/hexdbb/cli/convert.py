@@ -10,7 +10,7 @@ from hexdbb.cli.consoles import message_console, say
 from hexdbb.cli.import_options import OF_CONVERT, import_options, wanted_mapping
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing
-from hexdbb.importing import load_mapping, read_measured, save_mapping
+from hexdbb.importing import Mapping, load_mapping, read_measured, save_mapping
 from hexdbb.record import write_record
 
 
@@ -50,7 +50,7 @@ def command(source: Path, target: Path, mapping_path: Path | None, overwrite: bo
       hexdbb convert test.b5r test.parquet --plan thesis --unit reading=um --start-angle 0 --arc 360
       hexdbb convert demo.parquet demo.xlsx
     """
-    wanted = wanted_mapping()
+    wanted = wanted_mapping() or Mapping()
     if mapping_path is not None:
         refuse_existing(mapping_path, overwrite)
         _require_apart(mapping_path, source, target)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from hexdbb.effects import UserEffect, load_effects
+if TYPE_CHECKING:
+    from hexdbb.effects import UserEffect
 
 effects_option = click.option(
     "--effects",
@@ -25,4 +27,8 @@ def own_effects(path: Path | None) -> list[UserEffect]:
     InputError
         What `load_effects` refuses, with file and line.
     """
-    return [] if path is None else load_effects(path)
+    if path is None:
+        return []
+    from hexdbb.effects import load_effects  # only who names a file loads it
+
+    return load_effects(path)

@@ -84,8 +84,8 @@ def import_options(options: tuple[Option, ...]) -> Decorator:
     return decorate
 
 
-def wanted_mapping() -> Mapping:
-    """Return the mapping that the command's options state, those of its mapping file behind them.
+def wanted_mapping() -> Mapping | None:
+    """Return the mapping that the command's options state, those of its mapping file behind them; None without any.
 
     Raises
     ------
@@ -93,6 +93,8 @@ def wanted_mapping() -> Mapping:
         A wrong value, or mapping file.
     """
     given: dict[str, Any] = dict(click.get_current_context().meta.get(KEY, {}))
+    if not given:
+        return None
     path = given.pop("mapping", None)
     for key, option in (("columns", "--column"), ("units", "--unit")):
         if key in given:

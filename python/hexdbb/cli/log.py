@@ -13,7 +13,7 @@ from hexdbb.cli.import_options import OF_RECORDS, import_options, pointing_to_co
 from hexdbb.cli.shared_options import json_option
 from hexdbb.cli.trend import command as trend_command
 from hexdbb.errors import RunError
-from hexdbb.importing import read_measured
+from hexdbb.importing import Mapping, read_measured
 from hexdbb.logbook import FOLDERS, SHORT, Entry, Logbook, check, content_of
 from hexdbb.logbook.json_form import log_json
 from hexdbb.record import Record, read_record
@@ -57,7 +57,7 @@ def add(folder: Path, files: tuple[Path, ...], date: str | None) -> None:
       hexdbb discover monday.parquet -m model.toml --json > verdict.json; hexdbb log add glider verdict.json
     """
     messages = message_console()
-    wanted = wanted_mapping()
+    wanted = wanted_mapping() or Mapping()
 
     def tell(line: str) -> None:
         messages.print(line, markup=False, highlight=False, soft_wrap=True)

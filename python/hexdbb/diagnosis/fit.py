@@ -60,7 +60,8 @@ def evaluate_fit(
     hypothesis : bool
         A fit that only serves to compare models: it ends sooner, and its covariance is to first order.
     from_minimum : bool
-        Of a hypothesis: the start was fitted to nearly the same readings, and the minimum near it is wanted.
+        Of a hypothesis: the start was fitted to nearly the same readings, and the values at the minimum near it are
+        wanted, without uncertainties: they stay those of the start.
 
     Raises
     ------
@@ -82,6 +83,7 @@ def evaluate_fit(
                 sweep=samples["sweep"],
                 hypothesis=hypothesis,
                 from_minimum=from_minimum,
+                covariance=not from_minimum,
             )
         except ValueError as error:
             raise InputError(f"{samples.name}: {error}") from None
@@ -92,7 +94,8 @@ def evaluate_fit(
     if (free & model.shaped).any():
         return _with_spread(*fit_shapes(samples, model, free, noise, fit))
     result = fit(model, from_minimum)
-    return _with_spread(model.with_values(np.where(model.shaped, model.values, result.values)), result)
+    fitted = model.with_values(np.where(model.shaped, model.values, result.values))
+    return (fitted, result) if from_minimum else _with_spread(fitted, result)
 
 
 @dataclass(frozen=True, eq=False)

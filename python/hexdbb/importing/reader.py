@@ -43,10 +43,9 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
         One line naming the file, row, column or key, the value and what was expected.
     """
     path = Path(path)
-    wanted = mapping or Mapping()
     if _is_own(path):
         record = read_own_record(path)
-        return record if wanted.mount is None else record.of_fixing(wanted.mount)
+        return record if mapping is None or mapping.mount is None else record.of_fixing(mapping.mount)
     from hexdbb.importing.foreign import (  # what our own records need not wait for: a tenth of the start
         READERS,
         imported,
@@ -58,7 +57,7 @@ def read_measured(path: Path | str, mapping: Mapping | None = None, tell: Tell =
         raise InputError(f"{path}: suffix {path.suffix!r} (expected {first}one of {known})")
     if not path.is_file():
         raise InputError(f"{path}: no such file")
-    return imported(path, wanted.over(_beside(path)), tell)
+    return imported(path, (mapping or Mapping()).over(_beside(path)), tell)
 
 
 def read_record(path: Path | str, mapping: Path | str | None = None, **choices: Any) -> Record:

@@ -67,7 +67,7 @@ class CanSetup(StrictModel):
     """Age beyond which a heartbeat counts as lost (1016h); more than `heartbeat_producer_ms`."""
     rpdo_timeout_ms: Milliseconds = DEFAULTS["rpdo_timeout_ms"]
     """Time without a target after which a drive stops on its own (1400h:05)."""
-    limits: Limits = Limits()
+    limits: Limits = Field(default_factory=Limits)  # an instance here would have all compiled on import
     """Limits of motion and readings."""
 
     @field_validator("drive_eds", mode="before")

@@ -28,7 +28,7 @@ ALIGNMENT = 8
 """Every message begins at a multiple of this many bytes (the same source)."""
 
 
-class BatchHeader(BaseModel):
+class BatchHeader(BaseModel, defer_build=True):
     """What a batch states about itself."""
 
     first_row: int

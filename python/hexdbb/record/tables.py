@@ -13,7 +13,6 @@ from typing import Any, Final, Literal, TypeVar
 import pyarrow as pa
 from pydantic import BaseModel, ValidationError
 
-from hexdbb import __version__
 from hexdbb.errors import InputError
 from hexdbb.files.validation import FileModel, dump_toml, format_location, format_value, parse_toml
 from hexdbb.machine import MachineFile
@@ -44,6 +43,8 @@ def to_table(record: Record) -> pa.Table:
 
 
 def _metadata(record: Record) -> dict[str, str]:
+    from hexdbb import __version__  # looked up for those who write
+
     header = RecordHeader(software=f"hexdbb {__version__}", complete=record.complete, metadata=record.metadata)
     return {
         KEY: header.model_dump_json(),

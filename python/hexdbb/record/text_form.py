@@ -12,7 +12,6 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import pyarrow as pa
-import pyarrow.csv
 
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import refuse_existing, replacing
@@ -61,13 +60,15 @@ def read_text_form(path: Path) -> Record:
 
 
 def _read_columns(path: Path) -> Columns:
+    from pyarrow import csv as arrow_csv  # what commands on Parquet records need not wait for
+
     names = _header(path)
     types = {name: pa.float64() for name in names if name in COLUMN_TYPES}
     try:
-        table = pa.csv.read_csv(
+        table = arrow_csv.read_csv(
             path,
-            read_options=pa.csv.ReadOptions(column_names=names, skip_rows=1),
-            convert_options=pa.csv.ConvertOptions(column_types=types, null_values=[""]),
+            read_options=arrow_csv.ReadOptions(column_names=names, skip_rows=1),
+            convert_options=arrow_csv.ConvertOptions(column_types=types, null_values=[""]),
         )
     except pa.ArrowInvalid as error:
         # Arrow's message names the fault, not its place.
@@ -117,6 +118,8 @@ def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
     RunError
         A file could not be written.
     """
+    from pyarrow import csv as arrow_csv  # see `_read_columns`
+
     measurement_path, machine_path = path.with_suffix(".toml"), path.with_suffix(".machine.toml")
     for file in (path, measurement_path, machine_path):
         refuse_existing(file, overwrite)
@@ -128,5 +131,5 @@ def write_text_form(record: Record, path: Path, overwrite: bool) -> None:
         )
     with replacing(path) as temporary, temporary.open("wb") as stream:
         stream.write(_line(record.columns).encode())
-        options = pa.csv.WriteOptions(include_header=False)
-        pa.csv.write_csv(pa.table({name: array_of(values) for name, values in record.columns.items()}), stream, options)
+        table = pa.table({name: array_of(values) for name, values in record.columns.items()})
+        arrow_csv.write_csv(table, stream, arrow_csv.WriteOptions(include_header=False))

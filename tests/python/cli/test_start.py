@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-LATER = ("scipy", "matplotlib", "pandas", "pyarrow.compute", "pyarrow.dataset")
+LATER = ("scipy", "matplotlib", "pandas", "pyarrow.compute", "pyarrow.dataset", "pyarrow.csv")
 """Each takes a tenth of a second or more to import."""
 NOT_DRAWN = (
     "scipy",
@@ -38,6 +38,11 @@ def test_a_comparison_loads_the_search_for_causes_only_to_search() -> None:
 
 
 @pytest.mark.parametrize("command", ["diagnose", "compare"])
+def test_effects_of_ones_own_are_loaded_where_a_file_is_named(command: str) -> None:
+    assert loaded_of(("hexdbb.effects.loading",), f"import hexdbb.cli.{command}") == "[]"
+
+
+@pytest.mark.parametrize("command", ["diagnose", "compare"])
 def test_what_json_holds_is_declared_where_it_is_printed(command: str) -> None:
     assert loaded_of(ONLY_JSON, f"import hexdbb.cli.{command}") == "[]"
 
@@ -48,6 +53,9 @@ def test_the_first_page_is_drawn_without() -> None:
 
 
 def test_what_no_file_is_read_with_is_not_compiled_for_reading() -> None:
-    lines = "from hexdbb.importing import Mapping; print(Mapping.__pydantic_complete__)"
+    lines = (
+        "from hexdbb.importing import Mapping; from hexdbb.machine import Limits;"
+        " print(Mapping.__pydantic_complete__, Limits.__pydantic_complete__)"
+    )
     shown = subprocess.run([sys.executable, "-c", lines], check=True, capture_output=True, text=True).stdout
-    assert shown.strip() == "False"
+    assert shown.strip() == "False False"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from hexdbb import _core
 from hexdbb.diagnosis import evaluate_fit, fit_free
 from hexdbb.diagnosis.heldout import folds
 from hexdbb.model import new_model
@@ -35,3 +36,23 @@ def test_a_fit_from_the_minimum_of_all_ends_where_one_from_nominal_does(samples:
     assert np.sqrt(apart @ np.linalg.solve(result.covariance[np.ix_(free, free)], apart)) < APART
     moved = (from_minimum.values - whole.model.values)[free]
     assert np.sqrt(moved @ np.linalg.solve(result.covariance[np.ix_(free, free)], moved)) > APART
+
+
+def test_a_fit_without_uncertainties_has_the_same_values(samples: Samples) -> None:
+    model = new_model(samples.machine).with_mounts(samples.mounts)
+    with_them, without = (
+        _core.fit(
+            samples.engine(model),
+            samples.block(model),
+            samples.reading_mm,
+            noise_mm=0.5e-3,
+            sweep=samples["sweep"],
+            hypothesis=True,
+            covariance=wanted,
+        )
+        for wanted in (True, False)
+    )
+    assert np.array_equal(without.values, with_them.values)
+    assert np.array_equal(without.residual_mm, with_them.residual_mm)
+    assert without.noise_mm == with_them.noise_mm
+    assert (without.covariance.size, without.correlation) == (0, 1.0)
