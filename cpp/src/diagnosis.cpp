@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "curvature.hpp"
+#include "kinks.hpp"
 #include "last_steps.hpp"
 #include "minimum.hpp"
 
@@ -105,10 +106,30 @@ void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& 
   out.values = unknowns.values(z.data());
 }
 
+/// Take the last steps to the minimum of all readings from one nearby: straight, between kinks, or, where these do not
+/// come to rest, along the geodesic from the best point found and between kinks from there.
+LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& of_all, FewReadings& few,
+                 const Eigen::VectorXd& near, const Eigen::VectorXd& bound, const EndOfSteps& limits) {
+  constexpr int kMost = 12;            // steps along the geodesic
+  constexpr double kDescended = 0.01;  // of chi-square: a tenth of a standard deviation, from which steps lead straight
+  const LastSteps straight = take_last_steps(of_all, few, near, bound, limits);
+  if (straight.is_at_rest) return straight;
+  const Eigen::VectorXd& best = std::isfinite(straight.cost) ? straight.z : near;
+  LastSteps out = settle_kinks(of_all, few, best, bound, limits);
+  out.steps += straight.steps;
+  if (out.is_at_rest) return out;
+  const auto of_all_sums = [&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); };
+  const Descent down = descend(of_all_sums, few, best, bound, kDescended, kMost);
+  if (!down.is_reachable) return out;
+  const int before = out.steps + down.steps;
+  out = settle_kinks(of_all, few, down.z, bound, limits);
+  out.steps += before;
+  return out;
+}
+
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
-/// some of its standard deviations away from that of all readings, to which the last steps lead. Where they do not come
-/// to rest, steps along the geodesic do from the best point found. `out` stays unusable where neither does, or all
-/// readings like the end less than the start, whose cost is `at_start`.
+/// some of its standard deviations away from that of all readings, to which the last steps lead. `out` stays unusable
+/// where these do not come to rest, or all readings like the end less than the start, whose cost is `at_start`.
 void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
                         const FitOptions& options, double at_start, FitResult& out) {
   constexpr double kCoarseTolerance = 1e-6;  // of the cost, some hundreds: far below the distance to the end
@@ -116,7 +137,6 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   // deviations away over all values together.
   constexpr double kLastFall = 1e-8;
   constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
-  constexpr int kMost = 12;        // steps along the geodesic
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
   const Minimum found =
@@ -127,23 +147,11 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   };
   const double chi_squared =
       std::max(2.0 * of_all(near, Sums::kGradient).cost, static_cast<double>(accumulator.residual_mm().size()));
-  const LastSteps end = take_last_steps(of_all, few, near, bound, {kLastFall, kFall * chi_squared});
-  Eigen::VectorXd z = end.z;
-  double cost = end.cost;
+  const LastSteps end = finish(of_all, few, near, bound, {kLastFall, kFall * chi_squared});
   out.iterations = end.steps;
-  out.usable = end.is_at_rest;
-  if (!out.usable) {
-    const Eigen::VectorXd& best = std::isfinite(end.cost) ? end.z : near;
-    const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, best, bound,
-                                  kFall * chi_squared, kMost);
-    z = other.z;
-    cost = other.cost;
-    out.iterations += other.steps;
-    out.usable = other.is_at_rest;
-  }
-  out.usable = out.usable && cost <= at_start;
+  out.usable = end.is_at_rest && end.cost <= at_start;
   out.termination = "Converged: no further step improves the fit.";
-  out.values = unknowns.values(z.data());
+  if (out.usable) out.values = unknowns.values(end.z.data());
 }
 
 /// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.

@@ -10,6 +10,7 @@ namespace {
 constexpr double kLinearFall = 1e-2;
 constexpr double kMostMixing = 1.0;  // |g|: a distance that halves with each step has 1, a slower one is not linear
 constexpr double kRounding = 1e-11;  // of the cost, relative: thousand times that of its sum
+constexpr double kStalled = 0.5;     // of the last fall: convergence is linear with less than a half
 constexpr double kSlow = 0.1;  // of the last fall: four to seven steps that each divide it by more lead to the end
 constexpr int kMost = 24;      // steps; sixteen were needed for 2,000,000 readings from the other sign of a value
 
@@ -69,12 +70,13 @@ LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, 
     }
     if (!(last.fall < kLinearFall)) part = few.at(z);
     if (!all.is_reachable || !part.is_reachable || is_worse) break;
-    const BoundedStep step(part.information, all.downhill, z, bound);
+    const BoundedStep step(part.information, all.downhill, z, -bound, bound);
     Point now{z, all.downhill, step.predicted_fall(), step.step()};
     out.cost = all.cost;
     out.z = z;
     out.is_at_rest = is_at_rest(last, now, end);
     if (out.is_at_rest) break;
+    if (last.fall < kLinearFall && now.fall > kStalled * last.fall) break;  // back and forth across a kink
     is_near_end = is_end_near(last, now, end);
     z += std::isinf(last.fall) ? bent(step, few, z, bound) : mixed(step, last, now, bound);
     last = std::move(now);

@@ -27,7 +27,7 @@ struct LastSteps {
   Eigen::VectorXd z;
   double cost = std::numeric_limits<double>::infinity();
   int steps = 0;
-  bool is_at_rest = false;  // false also where a step made all readings' cost worse
+  bool is_at_rest = false;  // false also where a step made all readings' cost worse, or steps do not get shorter
 };
 
 /// Where the way ends: where a step is predicted to lower chi-square by less, and where convergence is slow, by less than

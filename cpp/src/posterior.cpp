@@ -27,7 +27,7 @@ Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unkno
 }
 
 BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
-                         const Eigen::VectorXd& bound)
+                         const Eigen::VectorXd& lower, const Eigen::VectorXd& upper)
     : is_held_(z.size(), false), step_(Eigen::VectorXd::Zero(z.size())) {
   do {
     Eigen::MatrixXd free = matrix;
@@ -42,14 +42,15 @@ BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& d
     factor_.compute(free);
     const Eigen::VectorXd moved = solve(right);
     for (Eigen::Index j = 0; j < z.size(); ++j) step_[j] = is_held_[j] ? step_[j] : moved[j];
-  } while (hold_beyond_bounds(z, bound));
+  } while (hold_beyond_bounds(z, lower, upper));
   predicted_fall_ = step_.dot(2.0 * downhill - matrix * step_);
 }
 
-bool BoundedStep::hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& bound) {
+bool BoundedStep::hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
+                                     const Eigen::VectorXd& upper) {
   bool any = false;
   for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double there = std::clamp(z[j] + step_[j], -bound[j], bound[j]);
+    const double there = std::clamp(z[j] + step_[j], lower[j], upper[j]);
     if (is_held_[j] || there == z[j] + step_[j]) continue;
     step_[j] = there - z[j];
     is_held_[j] = any = true;

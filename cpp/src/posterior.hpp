@@ -30,7 +30,7 @@ Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unkno
 class BoundedStep {
  public:
   BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
-              const Eigen::VectorXd& bound);
+              const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
   const Eigen::VectorXd& step() const { return step_; }
   double predicted_fall() const { return predicted_fall_; }  // of chi-square, twice that of the cost
@@ -39,7 +39,7 @@ class BoundedStep {
   Eigen::VectorXd solve(Eigen::VectorXd right) const;
 
  private:
-  bool hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& bound);
+  bool hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
   std::vector<bool> is_held_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

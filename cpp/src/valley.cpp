@@ -50,7 +50,7 @@ Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewR
   for (; now.is_reachable && out.steps < most_steps && damping < kMostDamping; ++out.steps) {
     Eigen::MatrixXd damped = now.information;
     damped.diagonal().array() += damping;
-    const BoundedStep straight(damped, now.downhill, z, bound);
+    const BoundedStep straight(damped, now.downhill, z, -bound, bound);
     out.is_at_rest = straight.predicted_fall() < least_fall;
     if (out.is_at_rest) break;
     const double used = damping;

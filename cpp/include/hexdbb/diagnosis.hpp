@@ -12,8 +12,8 @@
 // Two optimisers. A diagnosis is minimized by Levenberg-Marquardt in Ceres with analytic derivatives, the full fit of a
 // hypothesis by Levenberg-Marquardt with geodesic acceleration (src/valley.hpp, with the measurement behind this).
 // Of many readings, Ceres takes a diagnosis to the minimum of about two thousand of them; the end is a few steps with the
-// gradient of all readings (src/last_steps.hpp), or with geodesic acceleration where these do not come to rest. Where
-// none do, Ceres starts again on all.
+// gradient of all readings (src/last_steps.hpp), between kinks of the cost where these go back and forth (src/kinks.hpp),
+// or with geodesic acceleration where they lead astray. Where none come to rest, Ceres starts again on all.
 // Ceres supports Huber's loss, on which a diagnosis of readings with glitches depends, and converges to 1e-9; the
 // geodesic method is three times faster on the incomplete models of which a discovery fits many. Neither is the more
 // robust: each ends in the worse minimum in about a sixth of the incomplete models.

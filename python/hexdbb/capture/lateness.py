@@ -20,6 +20,8 @@ from typing import NamedTuple
 PERIOD_S = 0.004
 """Time the thread sleeps, s: a cycle at 250 Hz. A stall that costs a SYNC at a higher rate is longer than half of its
 cycle and is seen all the same, since every sleep ends within it."""
+LOCKSTEP_PERIOD_S = 0.01
+"""The same in lockstep, s: a tenth of the shortest delay that is named there (`hexdbb.capture.blame`)."""
 NOTED_S = 0.0005
 """Lateness from which a wake-up is kept, s: above that of an idle computer, below half a cycle at 1 kHz."""
 KEPT = 512
@@ -45,6 +47,8 @@ class Lateness:
         Returns the monotonic time, s.
     used_s : callable, optional
         Returns the processor time that this program has used, s; default: the system's, 0 in a virtual machine.
+    period_s : float
+        Time it sleeps, s.
 
     Attributes
     ----------
@@ -57,8 +61,9 @@ class Lateness:
         sleep: Callable[[float], None] = time.sleep,
         now_s: Callable[[], float] = time.monotonic,
         used_s: Callable[[], float] | None = None,
+        period_s: float = PERIOD_S,
     ) -> None:
-        self._sleep, self._now_s = sleep, now_s
+        self._sleep, self._now_s, self._period_s = sleep, now_s, period_s
         self._used_s = used_s or ((lambda: 0.0) if is_virtual() else time.process_time)
         self._late: deque[WakeUp] = deque(maxlen=KEPT)
         self._due_s, self._used_at_s = float("inf"), 0.0
@@ -85,8 +90,8 @@ class Lateness:
     def wake_once(self) -> None:
         """Sleep once and keep the wake-up if it is late."""
         self._used_at_s = self._used_s()
-        self._due_s = self._now_s() + PERIOD_S
-        self._sleep(PERIOD_S)
+        self._due_s = self._now_s() + self._period_s
+        self._sleep(self._period_s)
         found = self._present()
         if found.late_s > NOTED_S:
             self._late.append(found)

@@ -23,7 +23,7 @@ from hexdbb.capture.clock import Clock
 from hexdbb.capture.exchange import Exchange
 from hexdbb.capture.interrupts import Interrupts
 from hexdbb.capture.latency import shown_ms
-from hexdbb.capture.lateness import NOTED_S, Lateness
+from hexdbb.capture.lateness import LOCKSTEP_PERIOD_S, NOTED_S, PERIOD_S, Lateness
 from hexdbb.capture.link import Link
 from hexdbb.capture.loop import Loop
 from hexdbb.capture.motion import VERIFY_SYNCS, AxisGroup, MotionFaultError
@@ -100,7 +100,7 @@ def measure(
             with link.threaded():
                 notes, sync_overflow = boot(link, devices, request.machine, request.cycle_s, clock.real_time)
                 progress.notes += notes
-            computer = Lateness()
+            computer = Lateness(period_s=PERIOD_S if clock.real_time else LOCKSTEP_PERIOD_S)
             with link.looped(), computer.measured():
                 run = _Run(request, programme, link, devices, clock, progress, interrupts, computer, sync_overflow)
                 return run.record()

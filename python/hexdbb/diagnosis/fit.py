@@ -18,7 +18,7 @@ from hexdbb.diagnosis.result import Diagnosis, unknown_directions
 from hexdbb.diagnosis.sanity import warnings_of
 from hexdbb.diagnosis.shaping import fit_shapes
 from hexdbb.diagnosis.smoothing import with_bands
-from hexdbb.diagnosis.sufficiency import assess_sufficiency
+from hexdbb.diagnosis.sufficiency import Sufficiency, assess_sufficiency
 from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
@@ -118,6 +118,8 @@ class Fit:
         Values that are as good with the other sign, in sentences.
     left_out : str or None
         How many readings stand alone, in a sentence.
+    alone : ndarray of bool, shape (n,), or None
+        Readings that stand alone in what the fit leaves, against `noise`; None where they were not looked for.
     """
 
     samples: Samples
@@ -128,6 +130,13 @@ class Fit:
     result: _core.FitResult
     either_sign: tuple[str, ...]
     left_out: str | None = None
+    alone: NDArray[np.bool_] | None = None
+
+    def assess_sufficiency(self) -> Sufficiency:
+        """Judge what the fit leaves, against the noise that models of these samples are judged by."""
+        judged = judging_noise(self.samples, self.noise)
+        alone = self.alone if judged.noise == self.noise else None
+        return assess_sufficiency(self.samples, self.model, self.result.residual_mm, noise=judged, alone=alone)
 
 
 def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
@@ -143,7 +152,7 @@ def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
     residual_mm = fit.result.residual_mm
     alone = glitches_in(samples, residual_mm, fit.noise.sigma_mm)
     if not alone.any():
-        return fit
+        return replace(fit, alone=alone)
     told = glitches_sentence(samples, residual_mm, alone)
     return replace(_fit(samples.part(~alone), known, robust), left_out=told)
 
@@ -198,7 +207,7 @@ def diagnose(
     after = (fitted, refitter(noise, robust))
     checked = held_out(samples, against or (known, as_it_is), after) if check_held_out else None
     expected = None if checked is None else expected_error(samples, fitted, result.noise_mm * 1e3)
-    enough = assess_sufficiency(samples, fitted, result.residual_mm, noise=judging_noise(samples, noise))
+    enough = fit.assess_sufficiency()
     parameters = known.parameters()
     judged = [column for column in result.free_columns if not parameters[column].is_coefficient]
     unknown = unknown_directions(result.covariance, known, judged)

@@ -61,12 +61,16 @@ def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     """
     off = np.zeros(len(residual_mm))
     alone = np.zeros(len(residual_mm), dtype=np.bool_)
+    angle_rad = samples["angle_rad"]
     for rows in samples.sweeps():
-        if len(rows) > 2 * NEIGHBOURS and _is_dense(samples["angle_rad"][rows]):
-            off[rows], usual_mm = _off_neighbours(residual_mm[rows], noise_mm)
-            doubtful = np.flatnonzero(np.abs(off[rows]) > AGAIN)
-            apart_mm = residual_mm[rows[doubtful]] - _medians(residual_mm[rows], doubtful)
-            alone[rows[doubtful]] = np.abs(apart_mm) > ALONE * usual_mm
+        if len(rows) > 2 * NEIGHBOURS and _is_dense(angle_rad[rows]):
+            own_mm = residual_mm[rows]
+            apart, usual_mm = _off_neighbours(own_mm, noise_mm)
+            off[rows] = apart
+            doubtful = np.flatnonzero(np.abs(apart) > AGAIN)
+            if len(doubtful):
+                apart_mm = own_mm[doubtful] - _medians(own_mm, doubtful)
+                alone[rows[doubtful]] = np.abs(apart_mm) > ALONE * usual_mm
     if alone.mean() > HOPELESS:
         return np.zeros_like(alone)
     for row in np.flatnonzero(alone):
@@ -97,7 +101,7 @@ def glitches_sentence(samples: Samples, residual_mm: Floats, found: Mask) -> str
 
 
 def _is_dense(angle_rad: Floats) -> bool:
-    return bool(np.median(np.abs(_wrapped(np.diff(angle_rad)))) <= DENSE_RAD)
+    return bool(median(np.abs(_wrapped(angle_rad[1:] - angle_rad[:-1]))) <= DENSE_RAD)
 
 
 def _off_neighbours(residual_mm: Floats, noise_mm: float) -> tuple[Floats, float]:
@@ -106,7 +110,7 @@ def _off_neighbours(residual_mm: Floats, noise_mm: float) -> tuple[Floats, float
     The second value is the standard deviation of one reading, as the sweep shows it: the noise at least.
     """
     apart_mm = _from_middle(residual_mm)
-    usual_mm = max(noise_mm, MEDIAN_TO_SIGMA * float(np.median(np.abs(apart_mm))) / OF_DIFFERENCE)
+    usual_mm = max(noise_mm, MEDIAN_TO_SIGMA * median(np.abs(apart_mm)) / OF_DIFFERENCE)
     return apart_mm / (OF_DIFFERENCE * usual_mm), usual_mm
 
 
@@ -117,10 +121,19 @@ def _from_middle(values: Floats) -> Floats:
     return apart
 
 
+def median(values: Floats) -> float:
+    """Return the median of finite values: `numpy.median` takes ten times longer for some hundreds of them."""
+    half = len(values) // 2
+    if len(values) % 2:
+        return float(np.partition(values, half)[half])
+    ordered = np.partition(values, (half - 1, half))
+    return float(0.5 * (ordered[half - 1] + ordered[half]))
+
+
 def _medians(values: Floats, places: NDArray[np.intp]) -> Floats:
     """Return the medians of the neighbourhoods of some places."""
-    ends = np.pad(values, NEIGHBOURS, mode="edge")
-    medians: Floats = np.median(np.lib.stride_tricks.sliding_window_view(ends, 2 * NEIGHBOURS + 1)[places], axis=1)
+    near = np.clip(places[:, None] + np.arange(-NEIGHBOURS, NEIGHBOURS + 1), 0, len(values) - 1)
+    medians: Floats = np.partition(values[near], NEIGHBOURS, axis=1)[:, NEIGHBOURS]
     return medians
 
 

@@ -64,10 +64,12 @@ def settle_signs(samples: Samples, fitted: Fitted, fit: Fit, noise_mm: float) ->
     """
     said: list[str] = []
     unsure: list[int] = []
+    stride = max(len(samples) // ROWS, 1)
+    some = samples.part(np.arange(0, len(samples), stride))
     for column in _signed(*fitted):
         model = fitted[0]
         turned = _turned(model, column)
-        if _is_turned_back(samples, fitted, turned, column, noise_mm):
+        if _is_turned_back(some, stride, fitted, turned, column, noise_mm):
             continue
         other = fit(turned)
         if other[0].values[column] * model.values[column] > 0.0:
@@ -98,11 +100,12 @@ def _turned(model: Model, column: int) -> Model:
     return model.with_values(values)
 
 
-def _is_turned_back(samples: Samples, fitted: Fitted, turned: Model, column: int, noise_mm: float) -> bool:
-    """Return whether a step from the turned value ends near the fitted one: the readings determine its sign."""
+def _is_turned_back(some: Samples, stride: int, fitted: Fitted, turned: Model, column: int, noise_mm: float) -> bool:
+    """Return whether a step from the turned value ends near the fitted one: the readings determine its sign.
+
+    `some` is every `stride`-th of the samples.
+    """
     model, result = fitted
-    stride = max(len(samples) // ROWS, 1)
-    some = samples.part(np.arange(0, len(samples), stride))
     there = linearise(some, turned)
     fitted_mm = some.reading_mm - result.residual_mm[::stride]
     free = result.free_columns

@@ -91,8 +91,10 @@ def _robust_sigma(values: Floats) -> float:
     if sigma == 0.0:  # coarsely rounded readings are mostly alike
         sigma = float(np.sqrt(np.mean(values**2)))
     for _ in range(ROUNDS):
-        kept = size[size <= CLIP * sigma]
+        kept, before = size[size <= CLIP * sigma], sigma
         sigma = float(np.sqrt(np.mean(kept**2) / KEPT_VARIANCE)) if len(kept) else 0.0
+        if sigma == before:
+            break
     return max(sigma, LEAST_NOISE_MM)
 
 

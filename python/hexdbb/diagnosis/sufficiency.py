@@ -103,6 +103,7 @@ def assess_sufficiency(
     noise: JudgingNoise | None = None,
     matters_um: float | None = None,
     test: FitTest | None = None,
+    alone: NDArray[np.bool_] | None = None,
 ) -> Sufficiency:
     """Judge what a fitted model leaves, but for readings that stand alone (`hexdbb.diagnosis.glitches`).
 
@@ -119,9 +120,12 @@ def assess_sufficiency(
         Unexplained RMS from which it matters; `default_matters_um` where not given.
     test : FitTest, optional
         Prepared for the samples and the noise.
+    alone : ndarray of bool, shape (n,), optional
+        Readings that stand alone in this residual, against this noise, where they were looked for already.
     """
     judged = noise or judging_noise(samples)
-    left_mm = bridged(samples, residual_mm, glitches_in(samples, residual_mm, judged.noise.sigma_mm))
+    found = glitches_in(samples, residual_mm, judged.noise.sigma_mm) if alone is None else alone
+    left_mm = bridged(samples, residual_mm, found)
     lack = (test or FitTest(samples, judged.noise)).of(left_mm, int(model.free.sum()))
     if matters_um is None:
         matters_um = default_matters_um(judged.noise.sigma_mm * 1e3, explained_um(samples, model, residual_mm))

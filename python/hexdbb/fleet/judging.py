@@ -21,7 +21,7 @@ import numpy as np
 from hexdbb import __version__
 from hexdbb.cluster import storage_of
 from hexdbb.comparison import UM_PER_MM, largest_quantities
-from hexdbb.diagnosis import assess_sufficiency, fit_free, judging_noise
+from hexdbb.diagnosis import fit_free
 from hexdbb.discovery import discover
 from hexdbb.errors import HexdbbError, InputError
 from hexdbb.files.results import number_or_none
@@ -160,8 +160,7 @@ def _judged(record: Record, start: _Start, command: str) -> list[Row]:
 def _diagnosed(samples: Samples, model: Model) -> list[Row]:
     """Return a row for every value of the machine's own that was fitted; sigma is null where not known alone."""
     found = fit_free(samples, model)
-    noise = judging_noise(found.samples, found.noise)
-    enough = assess_sufficiency(found.samples, found.model, found.result.residual_mm, noise=noise)
+    enough = found.assess_sufficiency()
     columns, parameters = found.model.columns(), found.model.parameters()
     common: Row = {
         "rms_before_um": found.first.rms_before_mm * UM_PER_MM,

@@ -20,9 +20,14 @@ def distinct_rows(*columns: NDArray[Any]) -> tuple[Ints, Ints]:
     member : ndarray of int, shape (n,)
         Combination of each row, from 0.
     """
-    member = np.zeros(len(columns[0]), np.intp)
+    # Neighbours are mostly alike: of each run of equal rows its first one stands for all.
+    changes = np.zeros(max(len(columns[0]) - 1, 0), np.bool_)
+    for column in columns:
+        changes |= column[1:] != column[:-1]
+    begins = np.concatenate([np.zeros(min(len(columns[0]), 1), np.intp), np.flatnonzero(changes) + 1])
+    member = np.zeros(len(begins), np.intp)
     first = np.zeros(min(len(member), 1), np.intp)
     for column in columns:
-        values, code = np.unique(column, return_inverse=True)
+        values, code = np.unique(column[begins], return_inverse=True)
         _, first, member = np.unique(member * len(values) + code, return_index=True, return_inverse=True)
-    return first, member
+    return begins[first], np.repeat(member, np.diff(begins, append=len(columns[0])))

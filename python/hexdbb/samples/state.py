@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
+from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.thermometer import smoothed
 
 Columns = dict[str, NDArray[Any]]
@@ -88,7 +89,7 @@ def _sweeps(records: Sequence[Record]) -> NDArray[Any]:
     parts: list[NDArray[Any]] = []
     before = 0
     for record in records:
-        _, number = np.unique(record.columns["sweep"], return_inverse=True)
+        _, number = distinct_rows(record.columns["sweep"])
         parts.append((before + number).astype(np.int32))
         before += int(number.max(initial=-1)) + 1
     return joined(parts)

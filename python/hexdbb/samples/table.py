@@ -55,6 +55,7 @@ class Samples:
         self._whole = whole
         self._rows = rows
         self._blocks: dict[tuple[MountKey, ...], tuple[frozenset[str], _core.Samples]] = {}
+        self._sweeps: tuple[NDArray[np.intp], ...] | None = None
 
     @classmethod
     def of(cls, records: Sequence[Record]) -> Samples:
@@ -186,7 +187,9 @@ class Samples:
 
     def sweeps(self) -> list[NDArray[np.intp]]:
         """Return the rows of each uninterrupted capture, in the order in which the captures begin."""
-        return rows_of_sweeps(self["sweep"])
+        if self._sweeps is None:
+            self._sweeps = tuple(rows_of_sweeps(self["sweep"]))
+        return list(self._sweeps)
 
     def block(self, model: Model) -> _core.Samples:
         """Return the engine's form of these samples, mounts numbered as a model numbers them.

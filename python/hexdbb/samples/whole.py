@@ -18,6 +18,7 @@ from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
 from hexdbb.samples.deflection import DEFLECTION, deflection_mm
+from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
@@ -137,10 +138,10 @@ def of_records(records: Sequence[Record]) -> Whole:
     keys: list[MountKey] = []
     set_up_rows, record_rows = [], []
     for index, record in enumerate(records):
-        circle_ids, member = np.unique(record.columns["circle"], return_inverse=True)
+        first, member = distinct_rows(record.columns["circle"])
         set_up_rows.append((len(set_ups) + member).astype(np.int32))
         record_rows.append(np.full(len(record), index, np.int32))
-        for circle in (record.circle(int(each)) for each in circle_ids):
+        for circle in (record.circle(int(each)) for each in record.columns["circle"][first]):
             keys.append(mount_key(record, circle.mount))
             cup_mm = record.mount(circle.mount).cup_mm
             set_ups.append(_set_up(cup_mm, circle.ball_offset_mm, record.gauge.bar_length_mm))
