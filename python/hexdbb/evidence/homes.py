@@ -87,9 +87,10 @@ class Homes:
         for space, basis, half in self._spaces:
             along = basis.T @ own
             explained = np.divide(np.sum(along**2, axis=0), total, out=np.zeros_like(total), where=shown)
-            for column in np.flatnonzero(explained >= self.criteria.near_form):
-                size = space.rms_mm(half @ along[:, column])
-                found[column].append(Home(space.hypothesis, float(explained[column]), size))
+            near = np.flatnonzero(explained >= self.criteria.near_form)
+            sizes = space.each_rms_mm(half @ along[:, near])
+            for column, size in zip(near, sizes, strict=True):
+                found[column].append(Home(space.hypothesis, float(explained[column]), float(size)))
         return found
 
     def _visible(self, signature: Floats) -> Floats:
