@@ -5,7 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "block_solver.hpp"
 #include "curvature.hpp"
+#include "hexdbb/tabulated_effect.hpp"
 #include "last_steps.hpp"
 #include "minimum.hpp"
 
@@ -119,9 +121,11 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   constexpr int kMost = 12;        // steps along the geodesic
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
-  const Minimum found =
-      minimize(model, few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, kCoarseTolerance, near);
-  if (!found.is_usable) return;
+  if (!is_thin(few, unknowns.size())) {
+    const Minimum found = minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), options.max_iterations,
+                                   kCoarseTolerance, near);
+    if (!found.is_usable) return;
+  }
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
   };
@@ -132,6 +136,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   double cost = end.cost;
   out.iterations = end.steps;
   out.usable = end.is_at_rest;
+  if (!out.usable && is_thin(few, unknowns.size())) return;  // what bends a step is not determined either
   if (!out.usable) {
     const Eigen::VectorXd& best = std::isfinite(end.cost) ? end.z : near;
     const Descent other = descend([&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); }, few, best, bound,
@@ -165,7 +170,8 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   };
   out.termination = "Converged: no further step improves the fit.";
   // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
-  if (options.from_minimum && samples.size() >= kLeastStride * kFewRows) {
+  const bool thin = is_thin(few, unknowns.size());
+  if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
     const LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall});
     out.usable = end.is_at_rest;
     out.iterations = end.steps;
@@ -209,7 +215,7 @@ void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd&
   FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm,
                   std::max(kFewRows, samples.size() / kMostStride));
   few.accumulator().start_from(accumulator, few.stride());
-  out.machine = machine_identifiability(model, few.accumulator(), few.stride(), unknowns, options);
+  out.machine = machine_identifiability(few.model(), few.accumulator(), few.stride(), unknowns, options);
   const double prior = unknowns.scaled_start().squaredNorm();
   const double at_start = 0.5 * (squared / (options.noise_mm * options.noise_mm) + prior);
   fit_coarse_to_fine(model, accumulator, few, unknowns, options, at_start, out);
@@ -231,6 +237,12 @@ Eigen::VectorXd prior_sigmas(const Model& model) {
 
 FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
               const FitOptions& options) {
+  if (samples.state.row.size() > 0 && has_table(model)) {
+    require_columns(model, samples);
+    Samples alone = samples;
+    alone.state.row.resize(0);
+    return fit(of_rows(model, samples.state.row), alone, measured_mm, options);
+  }
   samples.validate();
   if (samples.size() == 0) throw std::invalid_argument("there are no readings to fit");
   if (measured_mm.size() != samples.size()) {

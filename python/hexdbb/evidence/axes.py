@@ -1,4 +1,4 @@
-"""Learned functions among the values of a fit: their coefficients along the axes of their prior, as the engine has them.
+"""Learned functions among the values of a fit: their coefficients along the axes of their prior.
 
 A function is linear in its coefficients. The engine therefore needs a table of pushes, a column for each axis, only for
 the rows that are fitted; where a model is made linear, the sum of its functions suffices, a column for each port, and
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.evidence.readings import State
 from hexdbb.learned import Space
-from hexdbb.model import Tabulated
+from hexdbb.model import Model, Tabulated, Term
 
 Floats = NDArray[np.float64]
 Part = tuple[NDArray[np.intp], tuple[tuple[int, float], ...], Floats]
@@ -33,6 +33,14 @@ class LearnedAxes:
     space: Space
     factor: Floats
     size_mm: float
+
+    @classmethod
+    def of(cls, term: Term) -> LearnedAxes:
+        """Return a learned effect of a model in this form."""
+        learned = term.learned
+        assert learned is not None
+        factor: Floats = np.kron(np.eye(learned.space.hypothesis.components), learned.factor).astype(np.float64)
+        return cls(learned.space, factor, learned.prior_sigma_mm)
 
     @property
     def name(self) -> str:
@@ -136,3 +144,15 @@ class Standing:
     def tabulated(self, _: object) -> Tabulated:
         """Return its table, whatever the samples."""
         return self.table
+
+
+def learned_of(model: Model) -> dict[str, LearnedAxes]:
+    """Return the learned functions of a model by name."""
+    found = {}
+    for term in model.terms:
+        own = model.own(term.effect)
+        if isinstance(own, LearnedAxes):
+            found[term.effect] = own
+        elif term.learned is not None:
+            found[term.effect] = LearnedAxes.of(term)
+    return found

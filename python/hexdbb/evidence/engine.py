@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +12,10 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
-from hexdbb.evidence.axes import LearnedAxes, Standing
+from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
+from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
 from hexdbb.learned import Learned
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, Term, new_term
 from hexdbb.model.terms import started_term
@@ -30,10 +30,6 @@ FEW_ROWS = 100
 UNSEEN = 1e-3
 """Information, in values' worth, below which a direction of a learned function that the model has already is left out:
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
-ARCS = 20
-"""Arcs of a sweep: a left-out one lasts some seconds, less than what warms or settles takes."""
-ARC_GROUPS = 5
-"""Groups that arcs belong to in turn: each is predicted from four fifths of the readings."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +64,7 @@ class Engine:
         self.samples, self.noise, self.criteria = samples, noise, criteria
         self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
         self.residual_mm = result.residual_mm
-        begin, count = _blocks(samples["sweep"], criteria.max_rows)
+        begin, count = blocks_of(samples["sweep"], criteria.max_rows)
         chosen = begin + count // 2
         self.part = samples.part(chosen)
         averaged = np.add.reduceat(self.residual_mm, begin) / count
@@ -84,12 +80,12 @@ class Engine:
         """State, groups and noise of the rows."""
         part = self.part
         groups = {
-            "circle": _codes(part["circle"]),
-            "feed": _codes(part["feed_mm_s"]),
-            "direction": _codes(part["direction"]),
-            "lap": _codes(part["lap"]),
-            "sweep": _codes(part["sweep"]),
-            ARC: _arcs(_codes(part["sweep"])),
+            "circle": codes_of(part["circle"]),
+            "feed": codes_of(part["feed_mm_s"]),
+            "direction": codes_of(part["direction"]),
+            "lap": codes_of(part["lap"]),
+            "sweep": codes_of(part["sweep"]),
+            ARC: arcs_of(codes_of(part["sweep"])),
         }
         ports = _core.port_sensitivity(*self._plain(self.base)) / self.row_noise_mm[:, None]
         return Readings(self._state, groups, self.row_noise_mm, ports)
@@ -109,7 +105,7 @@ class Engine:
         ports = self.readings.ports
         for term in model.learned:
             if term.free.all():
-                axes = learned_axes(term)
+                axes = LearnedAxes.of(term)
                 push = axes.answer(self._state, ports) * axes.size_mm
                 seen, turned = np.linalg.eigh(push.T @ push)
                 kept = turned[:, seen > min(UNSEEN, 0.5 * float(seen[-1]))]
@@ -174,7 +170,7 @@ class Engine:
 
     def _jacobian(self, model: Model, plain: Floats, engine: _core.Model, block: _core.Samples) -> Floats:
         """Return the derivatives of the readings by all values, from those without learned functions, mm per unit."""
-        learned = _learned(model)
+        learned = learned_of(model)
         if not learned:
             return plain
         answers = _core.port_sensitivity(engine, block)
@@ -192,13 +188,13 @@ class Engine:
         return found
 
     def _plain(self, model: Model) -> tuple[_core.Model, _core.Samples]:
-        """Return the engine's form of a model and all rows: learned functions as they stand, without values of theirs."""
+        """Return the engine's form of a model and all rows: learned functions as they stand, without their values."""
         plain = self._without_learned(model)
         return plain.engine(partial(self._tabulate, self.part, self._state)), self._block(self.part, plain)
 
     def _without_learned(self, model: Model) -> Model:
         """Return a model in which one effect, the last, pushes what all its learned functions push."""
-        learned = _learned(model)
+        learned = learned_of(model)
         if not learned:
             return model
         pushes: dict[int, Floats] = {}
@@ -306,7 +302,7 @@ class Engine:
         return self._blocks[key]
 
     def _tabulate(self, part: Samples, state: State, effect: OwnEffect, values: Floats) -> Tabulated:
-        """Evaluate an effect for the rows of a part; learned functions of the base are kept, in every trial the same."""
+        """Evaluate an effect for the rows of a part; learned functions of the base, those of every trial, are kept."""
         if isinstance(effect, Standing):
             return effect.table
         if isinstance(effect, LearnedAxes):
@@ -319,54 +315,7 @@ class Engine:
         return replace(whole, per_unit=whole.per_unit[part.row_numbers])
 
 
-def _learned(model: Model) -> dict[str, LearnedAxes]:
-    """Return the learned functions of a model by name."""
-    found = {}
-    for term in model.terms:
-        own = model.own(term.effect)
-        if isinstance(own, LearnedAxes):
-            found[term.effect] = own
-        elif term.learned is not None:
-            found[term.effect] = learned_axes(term)
-    return found
-
-
-def learned_axes(term: Term) -> LearnedAxes:
-    """Return a learned effect of a model in the form of a hypothesis' functions."""
-    learned = term.learned
-    assert learned is not None
-    factor = np.kron(np.eye(learned.space.hypothesis.components), learned.factor)
-    return LearnedAxes(learned.space, factor, learned.prior_sigma_mm)
-
-
 def _held(model: Model, effect: str) -> Term:
     """Return a term of an effect that a model lacks, at its start, held."""
     info = model.info(effect)
     return replace(started_term(effect, model.own(effect), info), free=np.zeros(info.size, bool))
-
-
-def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
-    """Cut sweeps into blocks of neighbouring readings: first row and length of each."""
-    length = max(1, int(np.ceil(len(sweep) / max_rows)))
-    edges = np.concatenate([[0], np.flatnonzero(np.diff(sweep)) + 1, [len(sweep)]])
-    begin = np.concatenate(
-        [
-            np.linspace(first, last, max(1, round((last - first) / length)) + 1)[:-1].round()
-            for first, last in pairwise(edges)
-        ]
-    ).astype(np.intp)
-    return begin, np.diff(np.append(begin, len(sweep)))
-
-
-def _codes(values: NDArray[np.generic]) -> Ints:
-    codes: Ints = np.unique(values, return_inverse=True)[1].ravel()
-    return codes
-
-
-def _arcs(sweep: Ints) -> Ints:
-    """Return the group of the arc in which each row lies."""
-    found = np.empty(len(sweep), np.intp)
-    for each in np.unique(sweep):
-        rows = np.flatnonzero(sweep == each)
-        found[rows] = np.arange(len(rows)) * ARCS // len(rows) % ARC_GROUPS
-    return found

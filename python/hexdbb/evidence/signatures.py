@@ -50,13 +50,8 @@ class Signature:
 
     def rms_mm(self, coefficients: Floats) -> float:
         """Return the root mean square of the functions of some coefficients."""
-        return float(self.each_rms_mm(coefficients[:, None])[0])
-
-    def each_rms_mm(self, coefficients: Floats) -> Floats:
-        """Return the same for several functions, coefficients of shape (k, m); shape (m,)."""
-        parts = coefficients.reshape(self.hypothesis.components, len(self.square), coefficients.shape[1])
-        found: Floats = np.sqrt(np.sum(parts * (self.square @ parts), axis=(0, 1)))
-        return found
+        parts = coefficients.reshape(self.hypothesis.components, -1)
+        return float(np.sqrt(np.sum(parts * (parts @ self.square))))
 
 
 def signature_of(hypothesis: Learned, readings: Readings) -> Signature:

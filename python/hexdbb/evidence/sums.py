@@ -19,6 +19,8 @@ from hexdbb.evidence.readings import GROUPINGS, Linear, Readings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+ByCell = Sequence[Floats] | Floats
+"""Rows of every cell: of their own lengths, or padded to one, shape (cells, longest, k)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +93,7 @@ class Sums:
             self._without[key] = Training(self, np.setdiff1d(np.arange(len(self.keys)), cells))
         return self._without[key]
 
-    def _of_cells(self, columns: Floats) -> Sequence[Floats]:
+    def _of_cells(self, columns: Floats) -> ByCell:
         """Return the rows of every cell: as they are where they stand together, else padded to one length."""
         cells = self._cells
         if cells.slices is not None:
@@ -101,14 +103,15 @@ class Sums:
         return padded.reshape(*cells.shape, columns.shape[1])
 
 
-def _of(one: Sequence[Floats], other: Sequence[Floats]) -> Floats:
+def _of(one: ByCell, other: ByCell) -> Floats:
     """Return the products of two tables by cell, shape (cells, k, m)."""
     if isinstance(one, np.ndarray):
-        return np.matmul(one.transpose(0, 2, 1), other)
+        found: Floats = np.matmul(one.transpose(0, 2, 1), other)
+        return found
     return np.stack([first.T @ second for first, second in zip(one, other, strict=True)])
 
 
-def _joined(columns: Sequence[Floats], own: Sequence[Floats], residual: Sequence[Floats], below: Floats | None = None) -> Floats:
+def _joined(columns: ByCell, own: ByCell, residual: ByCell, below: Floats | None = None) -> Floats:
     """Return W'[J y] by cell; with y'[J y] below it where y'y is given."""
     cross = np.concatenate([_of(columns, own), _of(columns, residual)], axis=2)
     if below is None:
