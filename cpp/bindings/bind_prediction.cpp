@@ -8,8 +8,8 @@ namespace py = pybind11;
 
 namespace {
 
-void add_tabulated(Model& model, EffectInfo info, const std::vector<int>& values, const std::vector<int>& ports,
-                   const Eigen::MatrixXd& per_unit) {
+std::shared_ptr<TabulatedEffect> tabulated(EffectInfo info, const std::vector<int>& values,
+                                           const std::vector<int>& ports, const Eigen::MatrixXd& per_unit) {
   if (values.size() != ports.size() || per_unit.cols() != static_cast<Eigen::Index>(ports.size())) {
     throw std::invalid_argument("values has " + std::to_string(values.size()) + " entries, ports " +
                                 std::to_string(ports.size()) + ", per_unit " + std::to_string(per_unit.cols()) +
@@ -19,12 +19,22 @@ void add_tabulated(Model& model, EffectInfo info, const std::vector<int>& values
   for (std::size_t j = 0; j < values.size(); ++j) {
     links.push_back({values[j], ports[j], per_unit.col(static_cast<Eigen::Index>(j))});
   }
-  model.add(std::make_shared<TabulatedEffect>(std::move(info), std::move(links)));
+  return std::make_shared<TabulatedEffect>(std::move(info), std::move(links));
 }
 
 }  // namespace
 
 void bind_prediction(py::module_& module) {
+  py::class_<TabulatedEffect, std::shared_ptr<TabulatedEffect>>(
+      module, "TabulatedEffect",
+      "An effect given as numbers: its value values[j] pushes port ports[j] by per_unit[:, j].")
+      .def(py::init(&tabulated), py::arg("info"), py::kw_only(), py::arg("values"), py::arg("ports"),
+           py::arg("per_unit"),
+           "Keep the numbers of an effect.\n\n"
+           "Parameters\n----------\ninfo : EffectInfo\nvalues : sequence of int\n    Indices of the effect's values.\n"
+           "ports : sequence of int\n    Indices of ports, 0 to 54.\nper_unit : ndarray, shape (n, len(ports))\n"
+           "    Push per unit of the value, one row per sample, mm.\n\n"
+           "Raises\n------\nValueError\n    An index that does not exist, lengths that differ, a number not finite.");
   py::class_<Model>(module, "Model", "A machine and a list of effects with their values.")
       .def(py::init<const Machine&>(), py::arg("machine"))
       .def(
@@ -34,13 +44,9 @@ void bind_prediction(py::module_& module) {
           },
           py::arg("name"), py::arg("mounts"),
           "Append an effect with all values zero. ValueError where no effect has that name.")
-      .def("add_tabulated", &add_tabulated, py::arg("info"), py::kw_only(), py::arg("values"), py::arg("ports"),
-           py::arg("per_unit"),
-           "Append an effect given as numbers: its value values[j] pushes port ports[j] by per_unit[:, j].\n\n"
-           "Parameters\n----------\ninfo : EffectInfo\nvalues : sequence of int\n    Indices of the effect's values.\n"
-           "ports : sequence of int\n    Indices of ports, 0 to 54.\nper_unit : ndarray, shape (n, len(ports))\n"
-           "    Push per unit of the value, one row per sample, mm.\n\n"
-           "Raises\n------\nValueError\n    An index that does not exist, lengths that differ, a number not finite.")
+      .def(
+          "add_tabulated", [](Model& model, std::shared_ptr<TabulatedEffect> effect) { model.add(std::move(effect)); },
+          py::arg("effect"), "Append an effect given as numbers, with all values zero; models share its numbers.")
       .def_property("values", &Model::values,
                     [](Model& model, const Eigen::VectorXd& values) {
                       if (values.size() != model.size()) {

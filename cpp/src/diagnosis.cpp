@@ -5,7 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "block_solver.hpp"
 #include "curvature.hpp"
+#include "hexdbb/tabulated_effect.hpp"
 #include "kinks.hpp"
 #include "last_steps.hpp"
 #include "minimum.hpp"
@@ -114,6 +116,7 @@ LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& o
   constexpr double kDescended = 0.01;  // of chi-square: a tenth of a standard deviation, from which steps lead straight
   const LastSteps straight = take_last_steps(of_all, few, near, bound, limits);
   if (straight.is_at_rest) return straight;
+  if (is_thin(few, near.size())) return straight;  // what bends a step is not determined either
   const Eigen::VectorXd& best = std::isfinite(straight.cost) ? straight.z : near;
   LastSteps out = settle_kinks(of_all, few, best, bound, limits);
   out.steps += straight.steps;
@@ -139,9 +142,11 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
-  const Minimum found =
-      minimize(model, few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, kCoarseTolerance, near);
-  if (!found.is_usable) return;
+  if (!is_thin(few, unknowns.size())) {
+    const Minimum found = minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), options.max_iterations,
+                                   kCoarseTolerance, near);
+    if (!found.is_usable) return;
+  }
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
   };
@@ -173,7 +178,8 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   };
   out.termination = "Converged: no further step improves the fit.";
   // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
-  if (options.from_minimum && samples.size() >= kLeastStride * kFewRows) {
+  const bool thin = is_thin(few, unknowns.size());
+  if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
     const LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall});
     out.usable = end.is_at_rest;
     out.iterations = end.steps;
@@ -217,7 +223,7 @@ void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd&
   FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm,
                   std::max(kFewRows, samples.size() / kMostStride));
   few.accumulator().start_from(accumulator, few.stride());
-  out.machine = machine_identifiability(model, few.accumulator(), few.stride(), unknowns, options);
+  out.machine = machine_identifiability(few.model(), few.accumulator(), few.stride(), unknowns, options);
   const double prior = unknowns.scaled_start().squaredNorm();
   const double at_start = 0.5 * (squared / (options.noise_mm * options.noise_mm) + prior);
   fit_coarse_to_fine(model, accumulator, few, unknowns, options, at_start, out);
@@ -239,6 +245,12 @@ Eigen::VectorXd prior_sigmas(const Model& model) {
 
 FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
               const FitOptions& options) {
+  if (samples.state.row.size() > 0 && has_table(model)) {
+    require_columns(model, samples);
+    Samples alone = samples;
+    alone.state.row.resize(0);
+    return fit(of_rows(model, samples.state.row), alone, measured_mm, options);
+  }
   samples.validate();
   if (samples.size() == 0) throw std::invalid_argument("there are no readings to fit");
   if (measured_mm.size() != samples.size()) {

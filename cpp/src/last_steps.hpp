@@ -12,6 +12,8 @@
 // there, so that two steps tell the rest of the way: with f = step, D the change since the last point, the point is
 //   z + f - g (Dz + Df),   g = <Df, f> / <Df, Df>,
 // Anderson's mixing (1965) of depth one, products in the metric of J'J.
+// A model with hundreds of learned values, of which each moves few readings, is not determined by a part of them: its
+// J'J is then that of all readings, taken until convergence is linear and kept from there on (`is_thin`).
 // With millions of readings what J'J leaves out, which grows with their square root, exceeds the prior along the
 // directions that no reading determines: a step then divides the distance by less than two, and the way ends where what
 // is left of it is no longer worth a pass over all readings (`EndOfSteps::slow_fall`).
@@ -36,6 +38,9 @@ struct EndOfSteps {
   double fall;
   double slow_fall;
 };
+
+/// Return whether a part of the readings is too small for its J'J to lead to the minimum of all.
+bool is_thin(const FewReadings& few, Eigen::Index values);
 
 /// Step to the minimum of all readings. `all_at` returns their posterior; the last one is mostly asked with its
 /// information, so that an accumulator has it.

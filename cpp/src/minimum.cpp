@@ -57,7 +57,8 @@ Minimum minimize(const Model& model, Accumulator& accumulator, const Unknowns& u
   ceres::Problem problem;
   problem.AddResidualBlock(new CompressedCost(model, accumulator, unknowns, noise_mm), nullptr, z.data());
   ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
+  // The Jacobian is a triangular factor already: its product with itself is the information it came from.
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   solver.max_num_iterations = max_iterations;
   solver.function_tolerance = function_tolerance;
   solver.gradient_tolerance = 1e-9;

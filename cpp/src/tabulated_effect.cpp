@@ -1,5 +1,6 @@
 #include "hexdbb/tabulated_effect.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -36,6 +37,13 @@ TabulatedEffect::TabulatedEffect(EffectInfo info, std::vector<TabulatedLink> lin
   }
 }
 
+std::shared_ptr<const TabulatedEffect> TabulatedEffect::of_rows(const Eigen::VectorXi& rows) const {
+  std::vector<TabulatedLink> links;
+  links.reserve(links_.size());
+  for (const TabulatedLink& link : links_) links.push_back({link.value, link.port, link.per_unit(rows)});
+  return std::make_shared<TabulatedEffect>(info(), std::move(links));
+}
+
 void TabulatedEffect::require(const Samples& samples) const {
   const Eigen::VectorXi& row = samples.state.row;
   const bool fits = row.size() == 0 ? samples.size() == count_ : row.minCoeff() >= 0 && row.maxCoeff() < count_;
@@ -58,6 +66,20 @@ void TabulatedEffect::chain(const SampleBlock& block, Values, ConstPortBlock sen
   for (const TabulatedLink& link : links_) {
     jacobian.col(link.value).array() += sensitivity.col(link.port).array() * rows_of(block, link.per_unit);
   }
+}
+
+Model of_rows(const Model& model, const Eigen::VectorXi& rows) {
+  Model out = model;
+  for (Term& term : out.terms) {
+    if (const auto* table = dynamic_cast<const TabulatedEffect*>(term.effect.get())) term.effect = table->of_rows(rows);
+  }
+  return out;
+}
+
+bool has_table(const Model& model) {
+  return std::any_of(model.terms.begin(), model.terms.end(), [](const Term& term) {
+    return dynamic_cast<const TabulatedEffect*>(term.effect.get()) != nullptr;
+  });
 }
 
 }  // namespace hexdbb

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hexdbb/tabulated_effect.hpp"
+
 namespace hexdbb {
 
 namespace {
@@ -17,14 +19,22 @@ Eigen::VectorXd every(const Eigen::VectorXd& column, Eigen::Index stride) {
   return column(Eigen::seq(0, column.size() - 1, stride));
 }
 
+/// Return a model for a part of the samples that it is tabulated for, which then states no rows.
+Model of_part(const Model& model, Samples& part) {
+  if (!has_table(model)) return model;
+  Model out = of_rows(model, part.state.row);
+  part.state.row.resize(0);
+  return out;
+}
+
 }  // namespace
 
 FewReadings::FewReadings(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
                          const Unknowns& unknowns, double noise_mm, Eigen::Index rows)
-    : model_(model),
-      unknowns_(unknowns),
+    : unknowns_(unknowns),
       stride_(std::max<Eigen::Index>(1, samples.size() / rows)),
       samples_(samples.every(stride_)),
+      model_(of_part(model, samples_)),
       measured_mm_(every(measured_mm, stride_)),
       noise_mm_(noise_mm / std::sqrt(static_cast<double>(stride_))),
       accumulator_(samples_, measured_mm_, unknowns.columns) {}

@@ -37,6 +37,8 @@ class FewReadings {
 
   Eigen::Index stride() const { return stride_; }
   double noise_mm() const { return noise_mm_; }
+  const Eigen::VectorXd& measured_mm() const { return measured_mm_; }
+  const Model& model() const { return model_; }  // for these readings: tables have their rows alone
   Accumulator& accumulator() { return accumulator_; }
 
   Posterior at(const Eigen::VectorXd& z) { return posterior_at(model_, accumulator_, unknowns_, noise_mm_, z); }
@@ -45,10 +47,10 @@ class FewReadings {
   Eigen::VectorXd curvature(const Eigen::VectorXd& z, const Eigen::VectorXd& v);
 
  private:
-  const Model& model_;
   const Unknowns& unknowns_;
   Eigen::Index stride_;
   Samples samples_;
+  Model model_;
   Eigen::VectorXd measured_mm_;
   double noise_mm_;
   Accumulator accumulator_;

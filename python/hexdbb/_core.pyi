@@ -33,6 +33,7 @@ __all__: list[str] = [
     "SetUp",
     "StateColumn",
     "TABLE_VARIABLES",
+    "TabulatedEffect",
     "Zone",
     "autocorrelation_time",
     "chi_square_tail",
@@ -361,16 +362,11 @@ class EffectInfo:
         Thesis section, standard or paper.
         """
 
-class Model:
+class TabulatedEffect:
     """
-    A machine and a list of effects with their values.
+    An effect given as numbers: its value values[j] pushes port ports[j] by per_unit[:, j].
     """
-    def __init__(self, machine: Machine) -> None: ...
-    def add(self, name: str, mounts: typing.SupportsInt | typing.SupportsIndex) -> None:
-        """
-        Append an effect with all values zero. ValueError where no effect has that name.
-        """
-    def add_tabulated(
+    def __init__(
         self,
         info: EffectInfo,
         *,
@@ -379,7 +375,7 @@ class Model:
         per_unit: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     ) -> None:
         """
-        Append an effect given as numbers: its value values[j] pushes port ports[j] by per_unit[:, j].
+        Keep the numbers of an effect.
 
         Parameters
         ----------
@@ -395,6 +391,20 @@ class Model:
         ------
         ValueError
             An index that does not exist, lengths that differ, a number not finite.
+        """
+
+class Model:
+    """
+    A machine and a list of effects with their values.
+    """
+    def __init__(self, machine: Machine) -> None: ...
+    def add(self, name: str, mounts: typing.SupportsInt | typing.SupportsIndex) -> None:
+        """
+        Append an effect with all values zero. ValueError where no effect has that name.
+        """
+    def add_tabulated(self, effect: TabulatedEffect) -> None:
+        """
+        Append an effect given as numbers, with all values zero; models share its numbers.
         """
     @property
     def size(self) -> int: ...

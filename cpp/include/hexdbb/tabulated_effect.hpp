@@ -2,7 +2,10 @@
 // enters the engine this way, and is then fitted, ranked and reported like any other.
 #pragma once
 
+#include <memory>
+
 #include "hexdbb/effect.hpp"
+#include "hexdbb/prediction.hpp"
 
 namespace hexdbb {
 
@@ -20,6 +23,9 @@ class TabulatedEffect : public Effect {
   /// number is not finite.
   TabulatedEffect(EffectInfo info, std::vector<TabulatedLink> links);
 
+  /// Return the same for some rows of its table alone, in their order.
+  std::shared_ptr<const TabulatedEffect> of_rows(const Eigen::VectorXi& rows) const;
+
   void require(const Samples& samples) const override;
   void push(const SampleBlock& block, Values values, PortBlock ports) const override;
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
@@ -29,5 +35,12 @@ class TabulatedEffect : public Effect {
   std::vector<TabulatedLink> links_;
   Eigen::Index count_ = 0;
 };
+
+/// Return a model of some rows of a table, whose tabulated effects hold these rows alone: a pass over few of a table's
+/// rows reads as much memory as one over all. The samples then state no rows (Samples::state).
+Model of_rows(const Model& model, const Eigen::VectorXi& rows);
+
+/// Return whether a model has a tabulated effect.
+bool has_table(const Model& model);
 
 }  // namespace hexdbb

@@ -84,7 +84,7 @@ def place_uncertainty(
     rates, columns = _rates(model, sliders, np.array(circle.ball_offset_mm))
     turned = np.array([rotation_from_rpy(each) for each in rpy]) @ np.array(circle.ball_offset_mm)
     rates = _without_rigid_motion(rates, position + turned)
-    spread = np.einsum("ij,jk,ik->i", rates, covariance[np.ix_(columns, columns)], rates)
+    spread = np.sum((rates @ covariance[np.ix_(columns, columns)]) * rates, axis=1)
     return PlaceUncertainty(position, rpy, np.sqrt(spread.reshape(-1, 3).sum(axis=1)))
 
 

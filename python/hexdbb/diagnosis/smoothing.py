@@ -70,7 +70,7 @@ def _smoothed(space: Space, around: Projection) -> tuple[float, LearnedEffect]:
     best, found = -np.inf, LearnedEffect(space, 1.0, 1.0)
     for roughness in ROUGHNESS if space.hypothesis.variable.is_smooth else ROUGHNESS[:1]:
         factor = space.prior_factor(float(roughness))
-        rms = np.sqrt(np.einsum("ij,ik,kj->", factor, square, factor))  # of functions with unit prior
+        rms = np.sqrt(np.sum(factor * (square @ factor)))  # of functions with unit prior
         whole = np.kron(np.eye(space.hypothesis.components), factor / rms)
         evidence, size_mm = _largest(whole.T @ information @ whole, whole.T @ gradient)
         if evidence > best:

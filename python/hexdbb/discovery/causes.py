@@ -178,8 +178,11 @@ def _fitted(search: Search, trial: Trial, hypotheses: Sequence[Hypothesis]) -> t
     model = engine.base
     for each in known:
         model = model.with_effect(Choice(each.effect, each.elements))
-    there = {term.effect: term for term in trial.model.terms}
-    terms = tuple(replace(term, values=there[term.effect].values) for term in model.terms)
+    # Learned functions stand in a trial with fewer axes, and near where the base has them.
+    there = {term.effect: term.values for term in trial.model.terms}
+    terms = tuple(
+        term if term.learned is not None else replace(term, values=there[term.effect]) for term in model.terms
+    )
     start = replace(model, terms=terms)
     return evaluate_fit(engine.samples, start, start.free, engine.noise, hypothesis=True)
 

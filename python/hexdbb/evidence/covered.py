@@ -29,7 +29,15 @@ def is_covered(hypotheses: Iterable[object], readings: Readings, in_group: Bools
     readings : Readings
     in_group : ndarray of bool, shape (n,)
     """
-    return all(_is_covered(each, readings, in_group) for each in hypotheses if isinstance(each, Learned))
+    return all(_is_covered_once(each, readings, in_group) for each in hypotheses if isinstance(each, Learned))
+
+
+def _is_covered_once(learned: Learned, readings: Readings, in_group: Bools) -> bool:
+    """Return the same of one function, asked once: every set that holds it is."""
+    key = (learned, in_group.tobytes())
+    if key not in readings.covered:
+        readings.covered[key] = _is_covered(learned, readings, in_group)
+    return readings.covered[key]
 
 
 def _is_covered(learned: Learned, readings: Readings, in_group: Bools) -> bool:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
-from itertools import pairwise
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +12,12 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
+from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
-from hexdbb.learned import Learned, Space
-from hexdbb.model import Model, OwnEffect, Tabulated, Term, new_term
+from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
+from hexdbb.learned import Learned
+from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, Term, new_term
 from hexdbb.model.terms import started_term
 from hexdbb.samples import Samples, effect_pushes
 
@@ -26,10 +27,9 @@ Ints = NDArray[np.intp]
 
 FEW_ROWS = 100
 """Rows that tell where an effect pushes: several in every reversal and on every circle of a plan."""
-ARCS = 20
-"""Arcs of a sweep: a left-out one lasts some seconds, less than what warms or settles takes."""
-ARC_GROUPS = 5
-"""Groups that arcs belong to in turn: each is predicted from four fifths of the readings."""
+UNSEEN = 1e-3
+"""Information, in values' worth, below which a direction of a learned function that the model has already is left out:
+it stands in every hypothesis alike, and changes the evidence of one over another by less."""
 
 
 @dataclass(frozen=True)
@@ -38,66 +38,14 @@ class Fitted:
 
     model: Model
     linear: Linear
-    covariance: Floats
-    """Covariance of the free values, in prior standard deviations."""
     free: Ints
     """Places of the free values in the model's."""
 
-
-@dataclass(frozen=True, eq=False)
-class TabulatedLearned:
-    """A learned hypothesis as an effect of the engine: its coefficients in the prior's own axes.
-
-    `size_mm` is the prior standard deviation of each, `factor` T (`signatures.py`).
-    """
-
-    space: Space
-    factor: Floats
-    size_mm: float
-    state: State
-    rows: Ints
-    """Rows of the state in the whole table."""
-
-    @property
-    def name(self) -> str:
-        """Name in the model."""
-        return self.space.hypothesis.name
-
-    def info(self) -> _core.EffectInfo:
-        """Describe it as the engine's own are described."""
-        size = self.size_mm
-        values = [
-            _core.ParameterInfo(name=f"z{k}", unit="mm", prior_sigma=size, limit=1e3 * size)
-            for k in range(self.factor.shape[1])
-        ]
-        return _core.EffectInfo(
-            name=self.name,
-            physics="A function learned from readings.",
-            source="learned",
-            element_kind="machine",
-            elements=["1"],
-            parameters=values,
-            ports=[self.space.hypothesis.port],
-        )
-
-    def tabulated(self, samples: Samples) -> Tabulated:
-        """Evaluate it for a table of samples; rows other than its own stay zero."""
-        values: list[int] = []
-        ports: list[int] = []
-        tables: list[Floats] = []
-        hypothesis, functions = self.space.hypothesis, self.space.hypothesis.variable.columns
-        for component in range(hypothesis.components):
-            own = self.factor[component * functions : (component + 1) * functions]
-            kept = np.flatnonzero(np.any(own != 0.0, axis=0))
-            for element, pushes in hypothesis.pushes(component, samples.machine.base.guideway_angles_rad):
-                pushed = self.state.design(self.space, element) @ own[:, kept]
-                for port, weight in pushes:
-                    values += kept.tolist()
-                    ports += [port] * len(kept)
-                    tables.append(weight * pushed)
-        table = np.zeros((int(samples.row_numbers.max()) + 1, len(values)))
-        table[self.rows] = np.hstack(tables)
-        return Tabulated(self.info(), tuple(values), tuple(ports), table)
+    @cached_property
+    def spread(self) -> Floats:
+        """Standard deviations of the free values, in prior standard deviations."""
+        information = self.linear.normal[:-1, :-1] + np.eye(len(self.free))
+        return np.sqrt(np.diag(np.linalg.inv(information)))
 
 
 class Engine:
@@ -116,7 +64,7 @@ class Engine:
         self.samples, self.noise, self.criteria = samples, noise, criteria
         self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
         self.residual_mm = result.residual_mm
-        begin, count = _blocks(samples["sweep"], criteria.max_rows)
+        begin, count = blocks_of(samples["sweep"], criteria.max_rows)
         chosen = begin + count // 2
         self.part = samples.part(chosen)
         averaged = np.add.reduceat(self.residual_mm, begin) / count
@@ -124,21 +72,48 @@ class Engine:
         self.row_noise_mm = noise.sigma_mm / np.sqrt(count)
         self._fitted_rows = np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), criteria.fit_rows)).astype(int))
         self._fitted_part = samples.part(chosen[self._fitted_rows])
+        self._blocks: dict[tuple[int, tuple[MountKey, ...], frozenset[str]], _core.Samples] = {}
+        self._tables: dict[OwnEffect, Tabulated] = {}
 
     @cached_property
     def readings(self) -> Readings:
         """State, groups and noise of the rows."""
         part = self.part
         groups = {
-            "circle": _codes(part["circle"]),
-            "feed": _codes(part["feed_mm_s"]),
-            "direction": _codes(part["direction"]),
-            "lap": _codes(part["lap"]),
-            "sweep": _codes(part["sweep"]),
-            ARC: _arcs(_codes(part["sweep"])),
+            "circle": codes_of(part["circle"]),
+            "feed": codes_of(part["feed_mm_s"]),
+            "direction": codes_of(part["direction"]),
+            "lap": codes_of(part["lap"]),
+            "sweep": codes_of(part["sweep"]),
+            ARC: arcs_of(codes_of(part["sweep"])),
         }
-        ports = _core.port_sensitivity(self._engine(self.base), part.block(self.base)) / self.row_noise_mm[:, None]
-        return Readings(State(part, part.machine, part.unmeasured), groups, self.row_noise_mm, ports)
+        ports = _core.port_sensitivity(*self._plain(self.base)) / self.row_noise_mm[:, None]
+        return Readings(self._state, groups, self.row_noise_mm, ports)
+
+    @cached_property
+    def _state(self) -> State:
+        return State(self.part, self.part.machine, self.part.unmeasured)
+
+    @cached_property
+    def _fitted_state(self) -> State:
+        return self._state.rows(self._fitted_rows)
+
+    @cached_property
+    def start(self) -> Model:
+        """The base as fits begin from it: of its learned functions the axes that the readings see."""
+        model = self.base
+        ports = self.readings.ports
+        for term in model.learned:
+            if term.free.all():
+                axes = LearnedAxes.of(term)
+                push = axes.answer(self._state, ports) * axes.size_mm
+                seen, turned = np.linalg.eigh(push.T @ push)
+                kept = turned[:, seen > min(UNSEEN, 0.5 * float(seen[-1]))]
+                fewer = replace(axes, factor=axes.factor @ kept)
+                standing = replace(new_term(fewer.name, kept.shape[1]), values=kept.T @ term.values)
+                terms = tuple(standing if each is term else each for each in model.terms)
+                model = replace(model.knowing_effects([fewer]), terms=terms)
+        return model
 
     def fit(self, model: Model) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.
@@ -161,12 +136,11 @@ class Engine:
         fewer = self._fitted_rows
         part = self._fitted_part
         result = _core.fit(
-            self._engine(model),
-            part.block(model),
+            model.engine(partial(self._tabulate, part, self._fitted_state)),
+            self._block(part, model),
             self.reading_mm[fewer],
             noise_mm=float(np.mean(self.row_noise_mm)) * float(np.sqrt(len(fewer) / len(self.reading_mm))),
             free=[bool(each) for each in model.free],
-            sweep=part["sweep"],
             hypothesis=True,
         )
         if not result.usable:
@@ -180,20 +154,58 @@ class Engine:
 
     def linearised(self, model: Model) -> Fitted:
         """Linearise the rows about a model as it is."""
-        engine, block = self._engine(model), self.part.block(model)
+        engine, block = self._plain(model)
         prediction = _core.predict(engine, block, want_jacobian=True)
         free = np.flatnonzero(model.free)
         prior = model.prior_sigma[free]
-        start = np.array([each.start for each in model.parameters()])
-        weight = 1.0 / self.row_noise_mm[:, None]
-        own = prediction.jacobian[:, free] * prior * weight
+        own = self._jacobian(model, prediction.jacobian, engine, block)[:, free]
+        own *= prior
+        own /= self.row_noise_mm[:, None]
         linear = Linear(
             residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
             own=own,
-            standing=(model.values - start)[free] / prior,
+            standing=(model.values - model.start)[free] / prior,
         )
-        covariance: Floats = np.linalg.inv(own.T @ own + np.eye(len(free))).astype(np.float64)
-        return Fitted(model, linear, covariance, free)
+        return Fitted(model, linear, free)
+
+    def _jacobian(self, model: Model, plain: Floats, engine: _core.Model, block: _core.Samples) -> Floats:
+        """Return the derivatives of the readings by all values, from those without learned functions, mm per unit."""
+        learned = learned_of(model)
+        if not learned:
+            return plain
+        answers = _core.port_sensitivity(engine, block)
+        found = np.empty((len(plain), len(model.values)))
+        at = first = 0
+        for term in model.terms:
+            width = len(term.values)
+            own = found[:, at : at + width]
+            at += width
+            if term.effect in learned:
+                own[:] = learned[term.effect].answer(self._state, answers)
+            else:
+                own[:] = plain[:, first : first + width]
+                first += width
+        return found
+
+    def _plain(self, model: Model) -> tuple[_core.Model, _core.Samples]:
+        """Return the engine's form of a model and all rows: learned functions as they stand, without their values."""
+        plain = self._without_learned(model)
+        return plain.engine(partial(self._tabulate, self.part, self._state)), self._block(self.part, plain)
+
+    def _without_learned(self, model: Model) -> Model:
+        """Return a model in which one effect, the last, pushes what all its learned functions push."""
+        learned = learned_of(model)
+        if not learned:
+            return model
+        pushes: dict[int, Floats] = {}
+        for term in model.terms:
+            if term.effect in learned:
+                for port, pushed in learned[term.effect].pushes_mm(self._state, term.values).items():
+                    pushes[port] = pushes.get(port, 0.0) + pushed
+        standing = Standing.of(pushes)
+        others = tuple(term for term in model.terms if term.effect not in learned)
+        term = replace(new_term(standing.name, 1, free=False), values=np.ones(1))
+        return replace(model.knowing_effects([standing]), terms=(*others, term))
 
     def has_shape(self, effect: str) -> bool:
         """Check whether an effect has a shape parameter of the engine's (a time constant)."""
@@ -228,7 +240,8 @@ class Engine:
         if shape:
             absent = np.array([each.is_shape and each.effect not in present for each in full.parameters()])
             full = full.with_values(np.where(absent, shape * full.prior_sigma, full.values))
-        jacobian = _core.predict(self._engine(full), self.part.block(full), want_jacobian=True).jacobian
+        full = self._without_learned(full)
+        jacobian = _core.predict(*self._plain(full), want_jacobian=True).jacobian
         wanted = [
             (index, each)
             for index, each in enumerate(full.parameters())
@@ -270,49 +283,39 @@ class Engine:
 
     def with_learned(self, model: Model, hypothesis: Learned, factor: Floats, size_mm: float) -> Model:
         """Return the model with a learned hypothesis, its coefficients free, at zero."""
-        state = self.readings.state
-        own = TabulatedLearned(state.space(hypothesis), factor, size_mm, state, self.part.row_numbers)
+        own = LearnedAxes(self._state.space(hypothesis), factor, size_mm)
         wider = model.knowing_effects([own])
         return replace(wider, terms=(*wider.terms, new_term(own.name, factor.shape[1])))
 
-    def _engine(self, model: Model) -> _core.Model:
-        return model.engine(self._tabulate)
+    def _block(self, part: Samples, model: Model) -> _core.Samples:
+        """Return the engine's form of a part of the samples as if there were no others: tables have its rows alone."""
+        key = (len(part), model.mounts, model.needs)
+        if key not in self._blocks:
+            block = part.block(model)
+            self._blocks[key] = _core.Samples(
+                sliders_mm=block.sliders_mm,
+                set_up=block.set_up,
+                mount=block.mount,
+                set_ups=block.set_ups,
+                state={name: column for name, column in block.state.items() if name != "row"},
+            )
+        return self._blocks[key]
 
-    def _tabulate(self, effect: OwnEffect, values: Floats) -> Tabulated:
-        """Evaluate an effect for the whole table; a learned one belongs to one fit and is not kept."""
-        if isinstance(effect, TabulatedLearned):
-            return effect.tabulated(self.samples)
-        return self.samples.tabulated(effect, values)
+    def _tabulate(self, part: Samples, state: State, effect: OwnEffect, values: Floats) -> Tabulated:
+        """Evaluate an effect for the rows of a part; learned functions of the base, those of every trial, are kept."""
+        if isinstance(effect, Standing):
+            return effect.table
+        if isinstance(effect, LearnedAxes):
+            if self.start.own(effect.name) is not effect:
+                return effect.tabulated(state)
+            if effect not in self._tables:
+                self._tables[effect] = effect.tabulated(state)
+            return self._tables[effect]
+        whole = self.samples.tabulated(effect, values)
+        return replace(whole, per_unit=whole.per_unit[part.row_numbers])
 
 
 def _held(model: Model, effect: str) -> Term:
     """Return a term of an effect that a model lacks, at its start, held."""
     info = model.info(effect)
     return replace(started_term(effect, model.own(effect), info), free=np.zeros(info.size, bool))
-
-
-def _blocks(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
-    """Cut sweeps into blocks of neighbouring readings: first row and length of each."""
-    length = max(1, int(np.ceil(len(sweep) / max_rows)))
-    edges = np.concatenate([[0], np.flatnonzero(np.diff(sweep)) + 1, [len(sweep)]])
-    begin = np.concatenate(
-        [
-            np.linspace(first, last, max(1, round((last - first) / length)) + 1)[:-1].round()
-            for first, last in pairwise(edges)
-        ]
-    ).astype(np.intp)
-    return begin, np.diff(np.append(begin, len(sweep)))
-
-
-def _codes(values: NDArray[np.generic]) -> Ints:
-    codes: Ints = np.unique(values, return_inverse=True)[1].ravel()
-    return codes
-
-
-def _arcs(sweep: Ints) -> Ints:
-    """Return the group of the arc in which each row lies."""
-    found = np.empty(len(sweep), np.intp)
-    for each in np.unique(sweep):
-        rows = np.flatnonzero(sweep == each)
-        found[rows] = np.arange(len(rows)) * ARCS // len(rows) % ARC_GROUPS
-    return found

@@ -6,8 +6,8 @@ a fraction f of the effect's, f half-normal with `Criteria.form_sigma`; f is cho
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache, partial
 
 import numpy as np
@@ -27,6 +27,9 @@ from hexdbb.model import Parameter
 Floats = NDArray[np.float64]
 KEPT = 48
 """Signatures kept in memory, of a megabyte or two each: those of an effect's homes are asked for in every trial."""
+
+KEPT_SQUARES = 1024
+"""Products of two of them kept, some tens of kilobytes each: they are the same about every fit."""
 
 
 @dataclass(frozen=True)
@@ -49,9 +52,18 @@ class Beside:
 
     spaces: Sequence[Signature]
     factor: Floats
-    block: Block
+    square: Floats
     projected: Projected
     found: Marginal
+
+    def columns(self) -> Floats:
+        """Return what they do to the readings, per prior standard deviation at the best size."""
+        at, total = 0, np.zeros((len(self.spaces[0].table), self.factor.shape[1]))
+        for space in self.spaces:
+            width = space.table.shape[1]
+            total += space.table @ (self.factor[at : at + width] * self.found.size)
+            at += width
+        return total
 
 
 class Forms:
@@ -68,6 +80,7 @@ class Forms:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, str, str], list[Home]] = {}
         self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
+        self._square = lru_cache(KEPT_SQUARES)(self._product)
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
@@ -75,7 +88,7 @@ class Forms:
         best = self._chosen(linear, groups, size_mm) if groups and size_mm > 0.0 else None
         if best is None:
             return linear, Form(0.0, 0.0, ())
-        spaces, factor, found = best.spaces, best.factor, best.found
+        spaces, found = best.spaces, best.found
         functions = tuple(each.hypothesis.name for each in spaces)
         if found.size <= 0.0:
             return linear, Form(0.0, 0.0, functions)
@@ -84,27 +97,23 @@ class Forms:
             width = space.table.shape[1]
             squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
             at += width
-        seen = _seen(found.coefficients, best.projected.information, best.block.own[0])
+        seen = _seen(found.coefficients, best.projected.information, best.square)
         deviation = float(np.sqrt(sum(squares) * seen)) / size_mm
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
-        columns = np.hstack([each.table for each in spaces]) @ (factor * found.size)
+        columns = best.columns()
         form = Form(found.size, deviation, functions, columns.shape[1], linear.own.shape[1])
-        wider = replace(
-            linear,
-            own=np.hstack([linear.own, columns]),
-            standing=np.concatenate([linear.standing, np.zeros(columns.shape[1])]),
-        )
-        return wider, form
+        return linear.wider(columns), form
 
     def _chosen(self, linear: Linear, groups: Sequence[tuple[Learned, ...]], size_mm: float) -> Beside | None:
         """Choose functions by evidence, a variable at a time: one more only where the readings ask for it."""
         sums = Sums(linear, self.engine.readings, ())
+        cross = {each: sums.cross(self._signature(each).table) for group in groups for each in group}
         left, best = list(groups), None
         chosen: tuple[Learned, ...] = ()
         for _ in range(self.criteria.most_homes):
-            tried = [(group, self._beside(sums, (*chosen, *group), size_mm)) for group in left]
+            tried = [(group, self._beside(sums, cross, (*chosen, *group), size_mm)) for group in left]
             seen = [(group, each) for group, each in tried if each is not None]
             if not seen:
                 break
@@ -117,21 +126,30 @@ class Forms:
                 break
         return best
 
-    def _beside(self, sums: Sums, functions: Sequence[Learned], size_mm: float) -> Beside | None:
-        """Weigh the evidence for some functions beside an effect; None where nothing of them can be seen."""
+    def _beside(
+        self, sums: Sums, cross: Mapping[Learned, Floats], functions: Sequence[Learned], size_mm: float
+    ) -> Beside | None:
+        """Weigh the evidence for some functions beside an effect; None where nothing of them can be seen.
+
+        `cross` are the sums W'[J y] of each of them.
+        """
         spaces = [self._signature(each) for each in functions]
         roughness = self.criteria.roughness[1]
         parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
         factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
-        block = sums.block(np.hstack([each.table for each in spaces]))
-        projected = sums.whole.project(block)
-        factor = _visible(factor, projected.information, block.own[0], self.criteria.form_visible)
+        square = np.block([[self._square(one, other) for other in functions] for one in functions])
+        projected = sums.whole.project(Block(square[None], np.concatenate([cross[each] for each in functions], axis=1)))
+        factor = _visible(factor, projected.information, square, self.criteria.form_visible)
         if not factor.shape[1]:
             return None
         grid = np.array(self.criteria.form_grid)
         weights = np.exp(-0.5 * (grid / self.criteria.form_sigma) ** 2)  # half-normal
         found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
-        return Beside(spaces, factor, block, projected, found)
+        return Beside(spaces, factor, square, projected, found)
+
+    def _product(self, one: Learned, other: Learned) -> Floats:
+        found: Floats = self._signature(one).table.T @ self._signature(other).table
+        return found
 
     def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[tuple[Learned, ...]]]:
         """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy by variable."""

@@ -63,8 +63,13 @@ class Homes:
             visible = self._visible(space.table.astype(np.float64))
             values, vectors = np.linalg.eigh(visible.T @ visible)
             kept = values > 1e-9 * values[-1]
+            if not kept.any():  # the model's own values imitate it whole: it contains nothing
+                continue
             half = vectors[:, kept] / np.sqrt(values[kept])
             self._spaces.append((space, visible @ half, half))
+        widths = [basis.shape[1] for _, basis, _ in self._spaces]
+        self._first = np.cumsum([0, *widths[:-1]])
+        """First of each hypothesis' parts among those of all."""
 
     def of(self, signature: Floats) -> list[Home]:
         """Return the hypotheses that contain a signature, shape (n,), the simplest first."""
@@ -72,37 +77,42 @@ class Homes:
 
     def of_each(self, signatures: Floats) -> list[list[Home]]:
         """Return the hypotheses that contain each of some signatures, shape (n, m)."""
-        return [self._nearest(each, self.criteria.same_form) for each in self._found(signatures)]
+        explained, along = self._explained(signatures)
+        return [self._nearest(*each, self.criteria.same_form) for each in zip(explained.T, along.T, strict=True)]
 
     def around(self, signature: Floats) -> list[Home]:
         """Return the hypotheses in whose functions an effect's form may be wrong: those that nearly contain it."""
-        return self._nearest(self._found(signature[:, None])[0], self.criteria.form_home)
+        explained, along = self._explained(signature[:, None])
+        return self._nearest(explained[:, 0], along[:, 0], self.criteria.form_home)
 
-    def _found(self, signatures: Floats) -> list[list[Home]]:
+    def _explained(self, signatures: Floats) -> tuple[Floats, Floats]:
+        """Return how much of each signature every hypothesis contains, (hypotheses, m), and the parts of all in it."""
+        if not self._spaces:
+            return np.zeros((0, signatures.shape[1])), np.zeros((0, signatures.shape[1]))
         whole = signatures[self.rows]
         own = self._visible(whole)
         total = np.sum(own**2, axis=0)
         shown = total > 1e-9 * np.sum(whole**2, axis=0)
-        found: list[list[Home]] = [[] for _ in total]
-        for space, basis, half in self._spaces:
-            along = basis.T @ own
-            explained = np.divide(np.sum(along**2, axis=0), total, out=np.zeros_like(total), where=shown)
-            for column in np.flatnonzero(explained >= self.criteria.near_form):
-                size = space.rms_mm(half @ along[:, column])
-                found[column].append(Home(space.hypothesis, float(explained[column]), size))
-        return found
+        along: Floats = np.vstack([basis.T @ own for _, basis, _ in self._spaces])
+        squares = np.add.reduceat(along**2, self._first, axis=0)
+        return np.divide(squares, total, out=np.zeros_like(squares), where=shown), along
 
     def _visible(self, signature: Floats) -> Floats:
         left: Floats = signature - self._absorbed @ (self._absorbed.T @ signature)
         return left
 
-    def _nearest(self, found: Sequence[Home], same: float) -> list[Home]:
-        best = max((each.explained for each in found), default=0.0)
-        near = [each for each in found if each.explained >= min(same, best - (1.0 - same))]
+    def _nearest(self, explained: Floats, along: Floats, same: float) -> list[Home]:
+        least = max(min(same, float(explained.max(initial=0.0)) - (1.0 - same)), self.criteria.near_form)
+        near = [self._home(place, float(explained[place]), along) for place in np.flatnonzero(explained >= least)]
         # What is constant is a function of time too, and its form does not go wrong in time.
         constant = {each.hypothesis.place for each in near if each.hypothesis.variable.is_constant}
         near = [each for each in near if not (each.hypothesis.is_of_time and each.hypothesis.place in constant)]
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
+
+    def _home(self, place: np.intp, explained: float, along: Floats) -> Home:
+        space, basis, half = self._spaces[place]
+        first = self._first[place]
+        return Home(space.hypothesis, explained, space.rms_mm(half @ along[first : first + basis.shape[1]]))
 
 
 def discrepancy(homes: Sequence[Home]) -> list[tuple[Learned, ...]]:

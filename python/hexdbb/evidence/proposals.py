@@ -59,9 +59,8 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     few = thinned.linear(linear)
     few_s = thinned.readings.state["time_s"]
     temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
-    scans = [
-        (_Scan(few, thinned.readings, _answers(thinned.readings, *at), temper, criteria), *at) for at in _shifting()
-    ]
+    in_time = _InTime(few, thinned.readings, criteria)
+    scans = [(_Scan(in_time, _answers(thinned.readings, *at), temper, criteria), *at) for at in _shifting()]
     # One step tells which places shift; a second and further ones are sought at the best of them only.
     scans = sorted(scans, key=lambda each: -each[0].gains([]).max())[: criteria.full_fits]
     found = []
@@ -69,13 +68,33 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
         instants, log_prior, gain = scan.greedy(criteria.most_steps // scan.pushes.shape[1], criteria.detect_nats)
         if instants:
             found.append((gain + log_prior, place, element, instants, log_prior))
+    if not found:
+        return []
     found.sort(key=lambda each: -each[0])
-    chosen = []
+    chosen, in_time = [], _InTime(linear, readings, criteria)
     for _, place, element, instants, log_prior in found:
-        whole = _Scan(linear, readings, _answers(readings, place, element), temper, criteria)
+        whole = _Scan(in_time, _answers(readings, place, element), temper, criteria)
         refined = whole.refined(instants, float(np.median(np.diff(np.unique(few_s)))))
         chosen.append(Proposal(Learned(place, element, step(refined)), log_prior))
     return chosen
+
+
+class _InTime:
+    """Rows in order of time, the model's own values eliminated: white columns J L^-T of L L' = J'J + I."""
+
+    def __init__(self, linear: Linear, readings: Readings, criteria: Criteria) -> None:
+        time_s, circle = readings.state["time_s"], readings.groups["circle"]
+        self.order = np.argsort(time_s, kind="stable")
+        changes = np.flatnonzero(np.diff(circle[self.order]))
+        every = np.arange(len(self.order))
+        reach = criteria.change_part * len(self.order) / (len(changes) + 1.0)
+        self.at_change = np.abs(every[:, None] - changes - 1).min(axis=1, initial=len(self.order)) <= reach
+        """Rows at which one circle follows another."""
+        self.time_s, self.residual = time_s[self.order], linear.residual[self.order]
+        information = linear.normal[:-1, :-1] + np.eye(linear.own.shape[1])
+        inverse = np.linalg.inv(np.linalg.cholesky(information))
+        self.white = linear.own[self.order] @ inverse.T
+        self.fitted = inverse @ (linear.normal[:-1, -1] - linear.standing)
 
 
 class _Scan:
@@ -83,26 +102,19 @@ class _Scan:
 
     Parameters
     ----------
-    linear : Linear
-    readings : Readings
+    rows : _InTime
     pushes : ndarray, shape (n, c)
-        Of what shifts.
+        Of what shifts, in the readings' order.
     temper : float
         Variance that stands for the noise's one.
     criteria : Criteria
     """
 
-    def __init__(self, linear: Linear, readings: Readings, pushes: Floats, temper: float, criteria: Criteria) -> None:
+    def __init__(self, rows: _InTime, pushes: Floats, temper: float, criteria: Criteria) -> None:
         self.step_mm = criteria.step_mm
-        time_s, circle = readings.state["time_s"], readings.groups["circle"]
-        order = np.argsort(time_s, kind="stable")
-        changes = np.flatnonzero(np.diff(circle[order]))
-        every = np.arange(len(order))
-        reach = criteria.change_part * len(order) / (len(changes) + 1.0)
-        self.at_change = np.abs(every[:, None] - changes - 1).min(axis=1, initial=len(order)) <= reach
-        """Rows at which one circle follows another."""
-        self.time_s, self.pushes, self.temper = time_s[order], pushes[order], temper
-        self.own, self.residual, self.standing = linear.own[order], linear.residual[order], linear.standing
+        self.of, self.pushes, self.temper = rows, pushes[rows.order], temper
+        self.at_change, self.time_s = rows.at_change, rows.time_s
+        self._alone: tuple[Floats, Floats] | None = None
 
     def gains(self, instants: list[float], rows: slice = EVERY) -> Floats:
         """Return the log likelihood that a step gains beside steps found already, by the row from which it holds.
@@ -113,26 +125,45 @@ class _Scan:
         rows : slice
             Rows asked for, shape (m,) of them; the sums of those behind are taken once.
         """
-        added = [self.pushes * (self.time_s >= at)[:, None] * self.step_mm for at in instants]
-        own = np.hstack([self.own, *added])
-        standing = np.concatenate([self.standing, np.zeros(own.shape[1] - self.own.shape[1])])
-        inverse = np.linalg.inv(np.linalg.cholesky(own.T @ own + np.eye(own.shape[1])))
-        fitted = inverse @ (own.T @ self.residual - standing)
-        width = self.pushes.shape[1]
-        table = np.concatenate([self.pushes, own, self.residual[:, None]], axis=1)
-        behind = slice(rows.stop, None) if rows.stop is not None else slice(0, 0)
-        sums = np.cumsum((self.pushes[rows, :, None] * table[rows, None, :])[::-1], axis=0)[::-1]
-        sums = sums + self.pushes[behind].T @ table[behind]
-        count = len(sums)
-        cross = sums[:, :, width:-1].reshape(count * width, -1)
-        half = (cross @ inverse.T).reshape(count, width, -1)
-        information = sums[:, :, :width] - np.matmul(half, half.transpose(0, 2, 1))
-        gradient = sums[:, :, -1] - half @ fitted
-        known = information + np.eye(width) / self.step_mm**2
+        information, gradient = self._beside_none(rows)
+        if instants:
+            white, fitted = self._white(instants)
+            half = self._behind(white, rows)
+            information = information - np.matmul(half, half.transpose(0, 2, 1))
+            gradient = gradient - half @ fitted
+        known = information + np.eye(self.pushes.shape[1]) / self.step_mm**2
         gain: Floats = 0.5 * np.einsum("ni,ni->n", gradient, np.linalg.solve(known, gradient[..., None])[..., 0])
         # Rows of one instant step together: a step begins at the first of them.
         first = np.concatenate([[False], np.diff(self.time_s) > 0.0])[rows]
         return np.where(first, gain / self.temper, -np.inf)
+
+    def _beside_none(self, rows: slice) -> tuple[Floats, Floats]:
+        """Return A (m, c, c) and b (m, c) of a step from every row on; those of all rows are taken once."""
+        if rows == EVERY and self._alone is not None:
+            return self._alone
+        half = self._behind(self.of.white, rows)
+        sums = self._behind(np.column_stack([self.pushes, self.of.residual]), rows)
+        found = sums[:, :, :-1] - np.matmul(half, half.transpose(0, 2, 1)), sums[:, :, -1] - half @ self.of.fitted
+        if rows == EVERY:
+            self._alone = found
+        return found
+
+    def _white(self, instants: list[float]) -> tuple[Floats, Floats]:
+        """Return the white columns of steps beside the model's own, and what the readings say of them."""
+        steps = np.hstack([self.pushes * (self.time_s >= at)[:, None] * self.step_mm for at in instants])
+        cross = self.of.white.T @ steps
+        factor = np.linalg.cholesky(steps.T @ steps + np.eye(steps.shape[1]) - cross.T @ cross)
+        inverse = np.linalg.inv(factor)
+        white: Floats = (steps - self.of.white @ cross) @ inverse.T
+        fitted: Floats = inverse @ (steps.T @ self.of.residual - cross.T @ self.of.fitted)
+        return white, fitted
+
+    def _behind(self, columns: Floats, rows: slice) -> Floats:
+        """Return the sums of pushes times columns from each of some rows on, shape (m, c, columns)."""
+        behind = slice(rows.stop, None) if rows.stop is not None else slice(0, 0)
+        sums = np.cumsum((self.pushes[rows, :, None] * columns[rows, None, :])[::-1], axis=0)[::-1]
+        found: Floats = sums + self.pushes[behind].T @ columns[behind]
+        return found
 
     def greedy(self, most: int, worth: float) -> tuple[list[float], float, float]:
         """Return instants, the log prior of their choice, and the gain of all."""

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +52,7 @@ class State:
         self._known: dict[str, Floats] = {}
         self._spaces: dict[Learned, Space] = {}
         self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
-        self._designs: dict[tuple[Variable, int, float, float], NDArray[np.float32]] = {}
+        self._designs: dict[tuple[Variable, int, *tuple[float, ...]], NDArray[np.float32]] = {}
 
     def __getitem__(self, name: str) -> Floats:
         """Return a column, shape (n,), (n, 3) or (n, 6)."""
@@ -83,7 +84,8 @@ class State:
 
     def design(self, space: Space, element: int) -> NDArray[np.float32]:
         """Return a space's functions in every row, shape (n, columns), kept: places share their variables."""
-        key = (space.hypothesis.variable, element, space.low, space.high)
+        limits = (space.low, space.high, space.sign_width, space.middle_s, space.span_s, space.warp_width)
+        key = (space.hypothesis.variable, element, *limits)
         if key not in self._designs:
             self._designs[key] = space.design(self, element).astype(np.float32)
         return self._designs[key]
@@ -117,6 +119,8 @@ class Cells:
         Place of each of these in a table of `shape` (cells, longest cell).
     shape : tuple of int
     counts : ndarray of int, shape (cells,)
+    slices : list of slice or None
+        Rows of every cell where they stand together; None where those of any do not.
     """
 
     keys: Ints
@@ -124,6 +128,7 @@ class Cells:
     at: Ints
     shape: tuple[int, int]
     counts: Ints
+    slices: list[slice] | None
 
     @classmethod
     def of(cls, groups: Sequence[Ints], rows: int) -> Cells:
@@ -135,7 +140,10 @@ class Cells:
         width = int(counts.max())
         begin = np.cumsum(counts) - counts
         at = (np.arange(rows) - np.repeat(begin, counts)) + width * np.repeat(np.arange(len(keys)), counts)
-        return cls(keys, np.argsort(cell, kind="stable"), at, (len(keys), width), counts)
+        order = np.argsort(cell, kind="stable")
+        stand_together = np.count_nonzero(np.diff(cell)) + 1 == len(keys)
+        slices = [slice(first, first + count) for first, count in zip(order[begin], counts, strict=True)]
+        return cls(keys, order, at, (len(keys), width), counts, slices if stand_together else None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,6 +167,8 @@ class Readings:
     groups: Mapping[str, Ints]
     noise_mm: Floats
     ports: Floats
+    covered: dict[tuple[Learned, bytes], bool] = field(default_factory=dict, repr=False)
+    """Whether a function can be learned in a group of rows from the others (`covered.py`), as far as it was asked."""
     _cells: dict[tuple[str, ...], Cells] = field(default_factory=dict, repr=False)
 
     def cells(self, groupings: tuple[str, ...]) -> Cells:
@@ -197,9 +207,47 @@ class Linear:
     own: Floats
     standing: Floats
 
+    @cached_property
+    def normal(self) -> Floats:
+        """[J y]'[J y], shape (p + 1, p + 1)."""
+        found = np.empty((self.own.shape[1] + 1, self.own.shape[1] + 1))
+        found[:-1, :-1] = self.own.T @ self.own
+        found[-1, :-1] = found[:-1, -1] = self.own.T @ self.residual
+        found[-1, -1] = self.residual @ self.residual
+        return found
+
+    def wider(self, columns: Floats) -> Linear:
+        """Return the same with further values that stand at zero, shape (n, k), and its sums from those known."""
+        found = Linear(
+            residual=self.residual,
+            own=np.hstack([self.own, columns]),
+            standing=np.concatenate([self.standing, np.zeros(columns.shape[1])]),
+        )
+        size = self.own.shape[1]
+        normal = np.empty((found.own.shape[1] + 1, found.own.shape[1] + 1))
+        kept = np.r_[:size, -1]
+        normal[np.ix_(kept, kept)] = self.normal
+        normal[size:-1, size:-1] = columns.T @ columns
+        normal[size:-1, :size] = columns.T @ self.own
+        normal[size:-1, -1] = columns.T @ self.residual
+        normal[:size, size:-1] = normal[size:-1, :size].T
+        normal[-1, size:-1] = normal[size:-1, -1]
+        vars(found)["normal"] = normal
+        return found
+
+    def moved(self, change: Floats) -> Linear:
+        """Return the same about other values, to first order: `change` in prior standard deviations, shape (p,)."""
+        found = Linear(self.residual - self.own @ change, self.own, self.standing + change)
+        normal = self.normal.copy()
+        normal[-1, :-1] -= self.normal[:-1, :-1] @ change
+        normal[:-1, -1] = normal[-1, :-1]
+        normal[-1, -1] = found.residual @ found.residual
+        vars(found)["normal"] = normal
+        return found
+
     @property
     def log_evidence(self) -> float:
         """Log marginal likelihood of the fitted model (Laplace; MacKay 1992), but for a constant of the readings."""
-        information = self.own.T @ self.own + np.eye(self.own.shape[1])
-        fit = float(self.residual @ self.residual) + float(self.standing @ self.standing)
+        information = self.normal[:-1, :-1] + np.eye(self.own.shape[1])
+        fit = float(self.normal[-1, -1]) + float(self.standing @ self.standing)
         return -0.5 * (fit + float(np.linalg.slogdet(information)[1]))

@@ -115,7 +115,7 @@ class Screen:
         evidence = []
         for each in hypotheses:
             signature = self.thinned.signature(each)
-            projected = sums.whole.project(sums.block(signature.table.astype(np.float64)))
+            projected = sums.whole.project(self.thinned.block(each, sums))
             factors = [signature.prior_factor(self.criteria.ranking_roughness)]
             found = marginal(projected.information, projected.gradient, factors, self.sizes_mm, temper=self.temper)
             evidence.append(found.log_evidence)

@@ -75,7 +75,7 @@ class Search:
     """All sets tried."""
 
     def __post_init__(self) -> None:
-        fitted = self.engine.linearised(self.engine.base)
+        fitted = self.engine.linearised(self.engine.start)
         geometry = self.engine.geometry(fitted)
         # An effect that the model has already has its home too: what its own values take away is not geometry's.
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
@@ -93,7 +93,7 @@ class Search:
     @cached_property
     def kin(self) -> dict[str, set[str]]:
         """Names of the learned hypotheses that are an effect's element in other words, by the element's name."""
-        signatures, whose = self.engine.signatures(self.engine.base, self.known)
+        signatures, whose = self.engine.signatures(self.engine.start, self.known)
         found: dict[str, set[str]] = {}
         for (effect, element, _, _), homes in zip(whose, self.homes.of_each(signatures), strict=True):
             name = Known(effect, (element,), self.is_whole(effect)).name
@@ -103,7 +103,7 @@ class Search:
     @cached_property
     def present(self) -> dict[str, list[Learned]]:
         """Learned hypotheses that contain the effects which the model has already, by the element's name."""
-        fitted = self.engine.linearised(self.engine.base)
+        fitted = self.engine.linearised(self.engine.start)
         geometry, parameters = self.engine.geometry(fitted), fitted.model.parameters()
         found: dict[str, list[Learned]] = {}
         for place in np.flatnonzero(~geometry):

@@ -51,7 +51,7 @@ class Signature:
     def rms_mm(self, coefficients: Floats) -> float:
         """Return the root mean square of the functions of some coefficients."""
         parts = coefficients.reshape(self.hypothesis.components, -1)
-        return float(np.sqrt(np.einsum("ci,ij,cj->", parts, self.square, parts)))
+        return float(np.sqrt(np.sum(parts * (parts @ self.square))))
 
 
 def signature_of(hypothesis: Learned, readings: Readings) -> Signature:

@@ -8,6 +8,7 @@ those of any training set are sums of cells. The model's own values are eliminat
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,6 +19,8 @@ from hexdbb.evidence.readings import GROUPINGS, Linear, Readings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+ByCell = Sequence[Floats] | Floats
+"""Rows of every cell: of their own lengths, or padded to one, shape (cells, longest, k)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,18 +53,24 @@ class Sums:
 
     def __init__(self, linear: Linear, readings: Readings, groupings: tuple[str, ...] = GROUPINGS) -> None:
         self.linear, self.readings, self.groupings = linear, readings, groupings
-        cells = readings.cells(groupings)
-        self.keys, self._order, self._at, self._shape = cells.keys, cells.order, cells.at, cells.shape
-        self._padded = self._pad(np.column_stack([linear.own, linear.residual]))
-        self.base = np.matmul(self._padded.transpose(0, 2, 1), self._padded)
+        self._cells = readings.cells(groupings)
+        self.keys = self._cells.keys
+        own, residual = self._of_cells(linear.own), self._of_cells(linear.residual[:, None])
+        self._own, self._residual = own, residual
+        whole = len(self.keys) == 1
+        self.base: Floats = linear.normal[None] if whole else _joined(own, own, residual, _of(residual, residual))
         """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
-        self.rows = cells.counts.astype(np.float64)
+        self.rows = self._cells.counts.astype(np.float64)
+        self._without: dict[bytes, Training] = {}
 
     def block(self, signature: Floats) -> Block:
         """Return the sums of a signature, shape (n, k)."""
-        padded = self._pad(signature)
-        turned = padded.transpose(0, 2, 1)
-        return Block(np.matmul(turned, padded), np.matmul(turned, self._padded))
+        columns = self._of_cells(signature)
+        return Block(_of(columns, columns), _joined(columns, self._own, self._residual))
+
+    def cross(self, signature: Floats) -> Floats:
+        """Return W'[J y] of a signature, shape (n, k), by cell: (cells, k, p + 1)."""
+        return _joined(self._of_cells(signature), self._own, self._residual)
 
     def joined(self, blocks: list[Floats]) -> Block:
         """Return the sums of several signatures side by side."""
@@ -78,15 +87,37 @@ class Sums:
         return Training(self, np.arange(len(self.keys)))
 
     def without(self, cells: Ints) -> Training:
-        """Return the training set that lacks some cells."""
-        return Training(self, np.setdiff1d(np.arange(len(self.keys)), cells))
+        """Return the training set that lacks some cells, made once."""
+        key = cells.tobytes()
+        if key not in self._without:
+            self._without[key] = Training(self, np.setdiff1d(np.arange(len(self.keys)), cells))
+        return self._without[key]
 
-    def _pad(self, columns: Floats) -> Floats:
-        if len(self.keys) == 1:
-            return columns[None]
-        padded = np.zeros((self._shape[0] * self._shape[1], columns.shape[1]))
-        padded[self._at] = columns[self._order]
-        return padded.reshape(*self._shape, columns.shape[1])
+    def _of_cells(self, columns: Floats) -> ByCell:
+        """Return the rows of every cell: as they are where they stand together, else padded to one length."""
+        cells = self._cells
+        if cells.slices is not None:
+            return [columns[rows] for rows in cells.slices]
+        padded = np.zeros((cells.shape[0] * cells.shape[1], columns.shape[1]))
+        padded[cells.at] = columns[cells.order]
+        return padded.reshape(*cells.shape, columns.shape[1])
+
+
+def _of(one: ByCell, other: ByCell) -> Floats:
+    """Return the products of two tables by cell, shape (cells, k, m)."""
+    if isinstance(one, np.ndarray):
+        found: Floats = np.matmul(one.transpose(0, 2, 1), other)
+        return found
+    return np.stack([first.T @ second for first, second in zip(one, other, strict=True)])
+
+
+def _joined(columns: ByCell, own: ByCell, residual: ByCell, below: Floats | None = None) -> Floats:
+    """Return W'[J y] by cell; with y'[J y] below it where y'y is given."""
+    cross = np.concatenate([_of(columns, own), _of(columns, residual)], axis=2)
+    if below is None:
+        return cross
+    last = np.concatenate([cross[:, :, -1:].transpose(0, 2, 1), below], axis=2)
+    return np.concatenate([cross, last], axis=1)
 
 
 class Training:
@@ -130,8 +161,7 @@ class Training:
     def expected_error(self, sums: Sums, cells: Ints) -> float:
         """Return the sum of squared errors that the fit to this set expects of itself on other cells."""
         base = sums.base[cells].sum(axis=0)[:-1, :-1]
-        half = self._half(self._half(base).T)
-        return float(sums.rows[cells].sum() + np.trace(half))
+        return float(sums.rows[cells].sum() + np.sum(self._inverse * self._half(base)))
 
     def _half(self, columns: Floats) -> Floats:
         found: Floats = self._inverse @ columns

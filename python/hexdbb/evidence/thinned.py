@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.signatures import Signature, signature_of
+from hexdbb.evidence.sums import Block, Sums
 from hexdbb.learned import Learned
 
+Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 
 
@@ -34,6 +36,7 @@ class Thinned:
             readings.ports[self.rows],
         )
         self._kept: dict[Learned, Signature] = {}
+        self._squares: dict[Learned, Floats] = {}
 
     def linear(self, linear: Linear) -> Linear:
         """Return the rows of a linearisation."""
@@ -45,3 +48,10 @@ class Thinned:
             found = signature_of(hypothesis, self.readings)
             self._kept[hypothesis] = replace(found, table=found.table.astype(np.float32))
         return self._kept[hypothesis]
+
+    def block(self, hypothesis: Learned, sums: Sums) -> Block:
+        """Return the sums of a hypothesis' signature with a linearisation of these rows; those with itself are kept."""
+        table = self.signature(hypothesis).table.astype(np.float64)
+        if hypothesis not in self._squares:
+            self._squares[hypothesis] = table.T @ table
+        return Block(self._squares[hypothesis][None], sums.cross(table))

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, partial
 
 import numpy as np
@@ -160,9 +160,9 @@ class Trials:
     @cached_property
     def explained_before(self) -> float:
         """Mean square of what the effects in the model explain that its other values do not, in noise variances."""
-        fitted = self.engine.linearised(self.engine.base)
+        fitted = self.engine.linearised(self.engine.start)
         names = {(each.effect, each.elements[0]) for each in self._present}
-        every = [self.engine.base.parameters()[column] for column in fitted.free]
+        every = [self.engine.start.parameters()[column] for column in fitted.free]
         own = np.array([(each.effect, each.element) in names for each in every])
         return _beyond(fitted.linear.own, fitted.linear.standing, own, ~own)
 
@@ -191,9 +191,8 @@ class Trials:
         prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in every if form is not None)
         whole = Sums(linear, self.engine.readings, ()).whole
         change = whole.own_values()
-        residual = linear.residual - linear.own @ change
         gain = 0.5 * float(whole.own @ whole.own)
-        self._linear[_key(members)] = replace(linear, residual=residual, standing=linear.standing + change)
+        moved = self._linear[_key(members)] = linear.moved(change)
         if len(self._linear) > KEPT:
             self._linear.popitem(last=False)
         return Trial(
@@ -202,7 +201,7 @@ class Trials:
             log_evidence=linear.log_evidence + gain + penalty + prior,
             forms=tuple(forms),
             refused=refused,
-            left=float(np.mean(residual**2)),
+            left=float(np.mean(moved.residual**2)),
             present=tuple(present),
         )
 
@@ -222,7 +221,7 @@ class Trials:
     def _fitted(self, members: Sequence[Member]) -> Fitted:
         """Fit the model of some members, from where it was fitted with all but the last if it was."""
         before = self._known.get(_key(members[:-1])) if len(members) > 1 else None
-        model, added = (self.engine.base, members) if before is None else (before.model, members[-1:])
+        model, added = (self.engine.start, members) if before is None else (before.model, members[-1:])
         for member in added:
             if isinstance(member.hypothesis, Known):
                 model = self.engine.with_effect(model, member.hypothesis.effect, member.hypothesis.elements)

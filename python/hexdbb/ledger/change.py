@@ -6,6 +6,8 @@ fit that was stale. Circles held out of both fits say whether it holds where it 
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +20,10 @@ from hexdbb.samples.unmeasured import require_judged
 from hexdbb.threads import one_thread
 
 Floats = NDArray[np.float64]
+AsItIs = tuple[Model, Floats, Refit]
+
+_last: WeakKeyDictionary[Samples, tuple[Model, bool, AsItIs]] = WeakKeyDictionary()
+"""The model that the last change to some samples began from, with its fit."""
 
 
 @one_thread
@@ -89,13 +95,37 @@ def _require_addable(samples: Samples, model: Model, added: Choice) -> None:
     require_judged(samples.unmeasured, model, added.effect, samples.name)
 
 
-def _fitted_as_it_is(samples: Samples, model: Model, robust: bool) -> tuple[Model, Floats, Refit]:
-    """Fit a model without the change: the model, its residual, and how it is fitted to some of the circles.
+def _fitted_as_it_is(samples: Samples, model: Model, robust: bool) -> AsItIs:
+    """Fit a model without the change, or return the fit where the last change to these samples began from it too.
+
+    Of several functions that may describe a form each is added to the same model, to see which predicts.
+    """
+    last = _last.get(samples)
+    if last is None or last[0] is not model or last[1] != robust:
+        last = _last[samples] = model, robust, _as_it_is(samples, model, robust)
+    return last[2]
+
+
+def _as_it_is(samples: Samples, model: Model, robust: bool) -> AsItIs:
+    """Fit a model: the model, its residual, and how it is fitted to some of the circles.
 
     A model with nothing free stays as it is.
     """
     if model.free.any():
         base = diagnose(samples, model, robust=robust, check_held_out=False)
-        return base.model, base.residual_mm, refitter(noise_of(samples), robust)
+        return base.model, base.residual_mm, _once(refitter(noise_of(samples), robust))
     known = model.with_mounts(samples.mounts)
     return known, predict(samples, known).residual_mm, as_it_is
+
+
+def _once(refit: Refit) -> Refit:
+    """Return a function that fits a model to the same part of the samples once."""
+    known: dict[tuple[int, bytes], tuple[Model, Model]] = {}
+
+    def refitted(samples: Samples, model: Model) -> Model:
+        key = id(model), samples.row_numbers.tobytes()
+        if key not in known:
+            known[key] = model, refit(samples, model)  # the model is kept, lest another gets its id
+        return known[key][1]
+
+    return refitted

@@ -134,5 +134,5 @@ class LearnedEffect:
         columns, sigma = basis.shape[1], []
         for component in range(self.space.hypothesis.components):
             own = slice(component * columns, (component + 1) * columns)
-            sigma += np.sqrt(np.einsum("ij,jk,ik->i", basis, covariance[own, own], basis)).tolist()
+            sigma += np.sqrt(np.sum((basis @ covariance[own, own]) * basis, axis=1)).tolist()
         return replace(self, sigma_mm=tuple(sigma), samples=tuple(map(float, counts)))

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Protocol, TypeGuard
 
 import numpy as np
@@ -40,7 +41,14 @@ class Tabulated:
 
     def add_to(self, engine: _core.Model) -> None:
         """Append it, values zero, to a model that is to predict the samples it was tabulated for, or a part of them."""
-        engine.add_tabulated(self.info, values=list(self.values), ports=list(self.ports), per_unit=self.per_unit)
+        engine.add_tabulated(self._effect)
+
+    @cached_property
+    def _effect(self) -> _core.TabulatedEffect:
+        """The engine's form, which models of the same samples share: to copy the table takes as long as to predict."""
+        return _core.TabulatedEffect(
+            self.info, values=list(self.values), ports=list(self.ports), per_unit=self.per_unit
+        )
 
 
 class OwnEffect(Protocol):
