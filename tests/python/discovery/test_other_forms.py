@@ -19,6 +19,8 @@ from hexdbb_truth.forms.cases import case
         ("torque_turns_over-d0-x30-calibrate-s0", "learned:slider:2:acceleration"),
         ("neighbour_disturbs-d0-x10-calibrate-s0", "learned:slider:5:neighbour_velocity"),
         ("joint_seat_warms-d0-x10-calibrate-s0", "learned:platform_joint:4:time"),
+        ("leg_bows-d0-x10-calibrate-s0", "learned:leg:1:inclination"),
+        ("carriages_float-d0-x3-calibrate-s0", "learned:vertical:1:velocity"),
     ],
 )
 def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
