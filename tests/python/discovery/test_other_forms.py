@@ -59,6 +59,15 @@ def test_laps_that_differ_since_a_screw_warms_repeat_once_that_is_known() -> Non
     assert discover(samples, added).verdict == "none"
 
 
+def test_laps_that_differ_since_a_drift_has_another_form_repeat_but_for_that_form() -> None:
+    record = case("bar_drift-d20-x100-calibrate-s2").record()
+    samples = Samples.of([record])
+    added = add_effect(samples, new_model(record.machine).with_mounts(samples.mounts), "bar_drift").model
+    found = discover(samples, added)
+    assert found.verdict == "none"
+    assert found.sufficiency.matters
+
+
 def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
     """Rails that meet with a step in height, called a bow."""
     line = line_of(case("rail_joint-d0-x100-calibrate-s0"), ())
