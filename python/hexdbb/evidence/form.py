@@ -21,7 +21,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import Signature, signature_of
 from hexdbb.evidence.sums import Block, Projected, Sums
-from hexdbb.learned import Learned
+from hexdbb.learned import ALL, Learned
 from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
@@ -67,6 +67,7 @@ class Forms:
     def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, str, str], list[Home]] = {}
+        self._ports: dict[str, frozenset[str]] = {}
         self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
@@ -146,10 +147,11 @@ class Forms:
             # Columns of the discrepancies stand behind those of the free values.
             homes = self._homes_of(parameter, fitted.linear.own[:, place])
             if homes:
-                square += (homes[0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
-                groups += [each for each in discrepancy(homes) if each not in groups]
+                places = self._places(parameter, homes)
+                square += (places[0][0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
+                groups += [group for place in places for group in discrepancy(place)]
         assert len(readings) > 0
-        return float(np.sqrt(square)), groups
+        return float(np.sqrt(square)), list(dict.fromkeys(groups))
 
     def _homes_of(self, parameter: Parameter, signature: Floats) -> list[Home]:
         """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""
@@ -159,6 +161,25 @@ class Forms:
         if key not in self._homes:
             self._homes[key] = self.homes.around(signature)
         return self._homes[key]
+
+    def _places(self, parameter: Parameter, homes: list[Home]) -> list[list[Home]]:
+        """Return the homes at an effect's own port by element, its own first; all together where none is there.
+
+        At another port the same formula may read the same, as of a gauge that drifts and legs that grow alike; its form
+        goes wrong where it is. Other elements count where they say exactly the same: joints of a pair off their places.
+        """
+        effect = parameter.effect
+        if effect not in self._ports:
+            self._ports[effect] = self.engine.ports(effect)
+        is_whole = len(self.engine.base.info(effect).elements) == 1
+        at = str(ALL) if is_whole else parameter.element
+        there: dict[str, list[Home]] = {at: []}
+        for each in homes:
+            element = str(each.hypothesis.element)
+            says_the_same = element == at or each.explained >= self.criteria.same_form
+            if each.hypothesis.port in self._ports[effect] and says_the_same:
+                there.setdefault(element, []).append(each)
+        return [place for place in there.values() if place] or [homes]
 
 
 def _seen(coefficients: Floats, projected: Floats, whole: Floats) -> float:

@@ -68,6 +68,13 @@ def test_laps_that_differ_since_a_drift_has_another_form_repeat_but_for_that_for
     assert found.sufficiency.matters
 
 
+def test_a_form_goes_wrong_at_the_effects_own_place() -> None:
+    """Two joints of a pair read alike where they are off their places, not where they move as they turn."""
+    line = line_of(case("joint_offset-d20-x10-calibrate-s5"), ())
+    assert line["outcome"] == "right"
+    assert [each["name"] for each in line["found"]] == ["joint_offset:4"]
+
+
 def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
     """Rails that meet with a step in height, called a bow."""
     line = line_of(case("rail_joint-d0-x100-calibrate-s0"), ())
