@@ -175,8 +175,11 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
 def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) -> bool:
     """Check that a cause alone explains nearly as much as the learned function at its place alone, beside the others.
 
-    A function that explains more by far is the cause, and the effect a part of its form.
+    A function that explains more by far is the cause, and the effect a part of its form. One function that pushes
+    across a guideway in both of its directions is two learned ones, of which each may explain any part.
     """
+    if isinstance(cause, Learned) and cause.variable == learned.variable:
+        return True
     rest = tuple(each for each in node.members if each.hypothesis not in (cause, learned))
     of = {each.hypothesis: each for each in node.members}
     excess = search.root.trial.left - 1.0
@@ -194,6 +197,7 @@ def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
     rivals, alike, margin = [], [], float("inf")
+    is_sure = is_for_sure(search, node)
     # The best first: what lies behind the margin found need not be held out.
     for other in sorted(search.nodes, key=lambda each: -each.score):
         if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
@@ -203,6 +207,9 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
         # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
         is_rival = is_rival and (len(other.members) <= len(node.members) or lead < -search.criteria.margin_nats)
         if is_rival and (search.checked(other).reasons or _bent(search, other)):
+            continue
+        # What would not be named for sure itself makes nothing less sure that is.
+        if is_rival and is_sure and not is_for_sure(search, other):
             continue
         if isinstance(cause, Known) and any(
             isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses

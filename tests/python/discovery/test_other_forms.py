@@ -75,6 +75,14 @@ def test_a_form_goes_wrong_at_the_effects_own_place() -> None:
     assert [each["name"] for each in line["found"]] == ["joint_offset:4"]
 
 
+def test_what_bends_to_fit_together_is_no_rival() -> None:
+    """Joints off their places that do not predict other circles stand beside a bow that does."""
+    line = line_of(case("straightness-d10-x10-calibrate-s1"), ["straightness"])
+    (found,) = line["found"]
+    assert found["name"] == "learned:lateral:2:fine_position"
+    assert not found["rivals"]
+
+
 def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
     """Rails that meet with a step in height, called a bow."""
     line = line_of(case("rail_joint-d0-x100-calibrate-s0"), ())
