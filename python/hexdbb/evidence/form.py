@@ -148,7 +148,10 @@ class Forms:
             homes = self._homes_of(parameter, fitted.linear.own[:, place])
             if homes:
                 places = self._places(parameter, homes)
-                square += (places[0][0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
+                nearest = max(places[0], key=lambda each: each.explained)
+                # The simplest function that says the same may be larger, by what geometry takes of it: so may a form.
+                rms_mm = max(nearest.rms_mm, homes[0].rms_mm)
+                square += (rms_mm * float(model.values[column]) / sigmas[column]) ** 2
                 groups += [group for place in places for group in discrepancy(place)]
         assert len(readings) > 0
         return float(np.sqrt(square)), list(dict.fromkeys(groups))
@@ -167,19 +170,21 @@ class Forms:
 
         At another port the same formula may read the same, as of a gauge that drifts and legs that grow alike; its form
         goes wrong where it is. Other elements count where they say exactly the same: joints of a pair off their places.
+        What all legs share stays with all homes: a function of each leg's own beside it may imitate anything.
         """
         effect = parameter.effect
         if effect not in self._ports:
             self._ports[effect] = self.engine.ports(effect)
-        is_whole = len(self.engine.base.info(effect).elements) == 1
-        at = str(ALL) if is_whole else parameter.element
-        there: dict[str, list[Home]] = {at: []}
+        there: dict[str, list[Home]] = {parameter.element: []}
         for each in homes:
-            element = str(each.hypothesis.element)
-            says_the_same = element == at or each.explained >= self.criteria.same_form
+            # The ball is one place, whichever fixing of it an element stands for.
+            is_one_place = each.hypothesis.kind == "machine"
+            element = parameter.element if is_one_place else str(each.hypothesis.element)
+            says_the_same = element == parameter.element or each.explained >= self.criteria.same_form
             if each.hypothesis.port in self._ports[effect] and says_the_same:
                 there.setdefault(element, []).append(each)
-        return [place for place in there.values() if place] or [homes]
+        is_there = bool(there[parameter.element]) and str(ALL) not in there
+        return [place for place in there.values() if place] if is_there else [homes]
 
 
 def _seen(coefficients: Floats, projected: Floats, whole: Floats) -> float:
