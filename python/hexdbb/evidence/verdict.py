@@ -11,6 +11,7 @@ from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.form import Form
+from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
@@ -121,10 +122,16 @@ def is_for_sure(search: Search, node: Node) -> bool:
     """Check that causes together explain enough to be named for sure.
 
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
-    excused so together were put together to fit: each takes what the others leave.
+    excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
+    several, whose formulas explain little of what the functions of their forms do.
     """
-    checked = search.checked(node)
-    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.excused)
+    checked, is_one = search.checked(node), len(node.members) == 1
+    if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
+        return False
+    if is_one and not checked.excused:
+        return True
+    left = left_by_formulas(node.trial, search.trials.linear(node.trial))
+    return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
 
 
 def _is_form(search: Search) -> bool:
