@@ -37,7 +37,8 @@ bool needs(const Effect& effect, const std::string& column) {
 bool needs_platform(const TableSet& tables) {
   using Variable = TableVariable;
   return (tables.legs(Variable::kPlatformJointAngle) | tables.legs(Variable::kPlatformJointRate) |
-          tables.legs(Variable::kSwingAngle) | tables.legs(Variable::kSwingRate)) != 0u;
+          tables.legs(Variable::kSwingAngle) | tables.legs(Variable::kSwingRate) |
+          tables.legs(Variable::kLegInclination)) != 0u;
 }
 
 }  // namespace

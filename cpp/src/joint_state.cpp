@@ -69,6 +69,12 @@ class Legs {
     return std::acos(std::clamp(along(leg).dot(normal_) / nominal_.machine.leg_length_mm[leg], -1.0, 1.0));
   }
 
+  /// To the vertical.
+  double inclination_rad(int leg) const {
+    const Vector3 reach = along(leg);
+    return std::atan2(std::hypot(reach.x(), reach.y()), reach.z());
+  }
+
   /// From the guideway's outward axis, z x d, towards z.
   double swing_rad(int guideway) const {
     const Vector3 d = nominal_.direction.col(2 * guideway), r = outward(guideway);
@@ -185,7 +191,8 @@ void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6
                  const Vector6& velocity_mm_s, const TableSet& tables, TableState& state) noexcept {
   using Variable = TableVariable;
   const unsigned at_sliders = union_of(tables, Variable::kSliderJointAngle, Variable::kSliderJointRate);
-  const unsigned angles = union_of(tables, Variable::kPlatformJointAngle, Variable::kSwingAngle);
+  const unsigned angles =
+      union_of(tables, Variable::kPlatformJointAngle, Variable::kSwingAngle) | tables.legs(Variable::kLegInclination);
   const unsigned rates = union_of(tables, Variable::kPlatformJointRate, Variable::kSwingRate);
   if ((at_sliders | angles | rates) == 0u) return;
   std::array<LegPair, kGuideways> pairs;
@@ -198,6 +205,7 @@ void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6
   const auto fill = [&](Variable variable, auto value) { for_legs(tables.legs(variable), state[variable], value); };
   const Legs legs(nominal, pose, sliders_mm);
   fill(Variable::kPlatformJointAngle, [&](int leg) { return legs.platform_angle_rad(leg); });
+  fill(Variable::kLegInclination, [&](int leg) { return legs.inclination_rad(leg); });
   fill(Variable::kSwingAngle, [&](int leg) { return legs.swing_rad(guideway_of(leg)); });
   if (rates == 0u) return;
   const PlatformMotion motion(nominal, legs, pairs);

@@ -1208,4 +1208,5 @@ TABLE_VARIABLES: tuple = (
     "swing_rate_rad_s",
     "since_reversal_mm",
     "acceleration_mm_s2",
+    "leg_inclination_rad",
 )

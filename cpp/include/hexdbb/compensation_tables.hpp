@@ -54,6 +54,7 @@ enum class TableVariable : int {
   kSwingRate,
   kSinceReversal,
   kAcceleration,
+  kLegInclination,
   kCount
 };
 
@@ -79,7 +80,8 @@ constexpr std::array<TableVariableInfo, static_cast<std::size_t>(TableVariable::
      {TableVariable::kSwingAngle, "swing_angle_rad", 3.2},
      {TableVariable::kSwingRate, "swing_rate_rad_s", 0.3},
      {TableVariable::kSinceReversal, "since_reversal_mm", 1000.0},
-     {TableVariable::kAcceleration, "acceleration_mm_s2", 500.0}}};
+     {TableVariable::kAcceleration, "acceleration_mm_s2", 500.0},
+     {TableVariable::kLegInclination, "leg_inclination_rad", 3.2}}};
 
 /// Return the variable of a column's name, nullptr where a controller does not know it.
 const TableVariableInfo* find_table_variable(const std::string& column) noexcept;

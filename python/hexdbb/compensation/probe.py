@@ -52,6 +52,7 @@ def ranges(machine: MachineFile) -> dict[str, tuple[float, float]]:
         "swing_rate_rad_s": (-turning, turning),
         "since_reversal_mm": (SHORTEST_MM, max(high - low for low, high in travels_mm)),
         "acceleration_mm_s2": (-quickest, quickest),
+        "leg_inclination_rad": (0.0, np.pi),
     }
     return {name: found[name] for name in _core.TABLE_VARIABLES}
 

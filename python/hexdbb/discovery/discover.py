@@ -31,6 +31,7 @@ from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.sufficiency import repeats_but_for_forms
 from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
@@ -105,11 +106,12 @@ def discover(
     search = Search(engine, names, criteria, learns=not known_only)
     verdict = judge(search, enough.matters_um)
     outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
+    repeats = verdict.grade == "none" and repeats_but_for_forms(search.root.trial, search.trials, begun.judging)
     if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
         residual_mm = predict(samples, outcome.model).residual_mm
         structure = unexplained_structure(samples, outcome.model, residual_mm, noise)
         outcome = replace(outcome, structure=structure)
-    return _with_remarks(outcome, begun)
+    return _with_remarks(outcome, begun, repeats=repeats)
 
 
 @dataclass(frozen=True)
@@ -171,16 +173,17 @@ def _outcome(found: Told, engine: Engine, enough: Sufficiency) -> Discovery:
     )
 
 
-def _with_remarks(found: Discovery, begun: _Begun) -> Discovery:
+def _with_remarks(found: Discovery, begun: _Begun, *, repeats: bool = False) -> Discovery:
     """Add what was left out or not measured, and what laps tell of the noise.
 
-    A machine that does not repeat does not lack nothing, unless the model explains why (a screw that warms).
+    A machine that does not repeat does not lack nothing, unless the model explains why (a screw that warms), or it
+    repeats but for the forms of the model's effects.
     """
     engine, judging = begun.engine, begun.judging
     left_out = () if begun.left_out is None else (begun.left_out,)
     remarks = (*found.remarks, *left_out, *not_measured_sentences(engine.samples.records))
     found = replace(found, remarks=remarks)
-    explained = not judging.is_steady and explains_changes(engine.samples, engine.residual_mm, judging)
+    explained = not judging.is_steady and (repeats or explains_changes(engine.samples, engine.residual_mm, judging))
     if judging.remark is None or explained:
         return found
     found = replace(found, remarks=(*found.remarks, judging.remark))

@@ -118,6 +118,10 @@ class Criteria:
         Part of the unexplained from which an effect that does not predict circles left out may still be the cause with
         another form: a form 20 % off, the largest that the calibration has, leaves 4 % of it, twice that where no
         function beside the effect holds the difference. Where an effect stood in for another it was 80 %.
+    formula_explains : float
+        Part of the unexplained that the formulas of several effects, or of one so excused, must explain to be named for
+        sure: of one 20 % off, the largest that the calibration has, it was 0.38 and more where geometry takes most of
+        it, of sets that stood in for others down to 0.05.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float
@@ -200,6 +204,7 @@ class Criteria:
     complete: float = 0.02
     leaves_structure: float = 1.3
     form_explains: float = 0.9
+    formula_explains: float = 1.0 / 3.0
     most_refinements: int = 8
     refined_by: float = 0.1
     refinement_rounds: int = 2

@@ -21,7 +21,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import Signature, signature_of
 from hexdbb.evidence.sums import Block, Projected, Sums
-from hexdbb.learned import Learned
+from hexdbb.learned import ALL, Learned
 from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
@@ -79,6 +79,7 @@ class Forms:
     def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, str, str], list[Home]] = {}
+        self._ports: dict[str, frozenset[str]] = {}
         self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
         self._square = lru_cache(KEPT_SQUARES)(self._product)
 
@@ -164,10 +165,14 @@ class Forms:
             # Columns of the discrepancies stand behind those of the free values.
             homes = self._homes_of(parameter, fitted.linear.own[:, place])
             if homes:
-                square += (homes[0].rms_mm * float(model.values[column]) / sigmas[column]) ** 2
-                groups += [each for each in discrepancy(homes) if each not in groups]
+                places = self._places(parameter, homes)
+                nearest = max(places[0], key=lambda each: each.explained)
+                # The simplest function that says the same may be larger, by what geometry takes of it: so may a form.
+                rms_mm = max(nearest.rms_mm, homes[0].rms_mm)
+                square += (rms_mm * float(model.values[column]) / sigmas[column]) ** 2
+                groups += [group for place in places for group in discrepancy(place)]
         assert len(readings) > 0
-        return float(np.sqrt(square)), groups
+        return float(np.sqrt(square)), list(dict.fromkeys(groups))
 
     def _homes_of(self, parameter: Parameter, signature: Floats) -> list[Home]:
         """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""
@@ -177,6 +182,27 @@ class Forms:
         if key not in self._homes:
             self._homes[key] = self.homes.around(signature)
         return self._homes[key]
+
+    def _places(self, parameter: Parameter, homes: list[Home]) -> list[list[Home]]:
+        """Return the homes at an effect's own port by element, its own first; all together where none is there.
+
+        At another port the same formula may read the same, as of a gauge that drifts and legs that grow alike; its form
+        goes wrong where it is. Other elements count where they say exactly the same: joints of a pair off their places.
+        What all legs share stays with all homes: a function of each leg's own beside it may imitate anything.
+        """
+        effect = parameter.effect
+        if effect not in self._ports:
+            self._ports[effect] = self.engine.ports(effect)
+        there: dict[str, list[Home]] = {parameter.element: []}
+        for each in homes:
+            # The ball is one place, whichever fixing of it an element stands for.
+            is_one_place = each.hypothesis.kind == "machine"
+            element = parameter.element if is_one_place else str(each.hypothesis.element)
+            says_the_same = element == parameter.element or each.explained >= self.criteria.same_form
+            if each.hypothesis.port in self._ports[effect] and says_the_same:
+                there.setdefault(element, []).append(each)
+        is_there = bool(there[parameter.element]) and str(ALL) not in there
+        return [place for place in there.values() if place] if is_there else [homes]
 
 
 def _seen(coefficients: Floats, projected: Floats, whole: Floats) -> float:

@@ -7,14 +7,27 @@ differs is no new cause.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from hexdbb.diagnosis import Noise, Sufficiency
+from hexdbb.diagnosis import JudgingNoise, Noise, Sufficiency, explains_changes
 from hexdbb.diagnosis.lack_of_fit import FitTest
 from hexdbb.diagnosis.sufficiency import default_matters_um, explained_um
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.trial import Trial, Trials
 from hexdbb.samples import predict
+
+
+def repeats_but_for_forms(trial: Trial, trials: Trials, judging: JudgingNoise) -> bool:
+    """Check that what differs from lap to lap is explained where the forms of the effects in the model are.
+
+    A drift off its formula leaves a part of itself that no lap shares with the next, and is known all the same.
+    """
+    engine = trials.engine
+    noise_mm = float(np.mean(engine.row_noise_mm))
+    residual_mm = trials.linear(trial).residual * engine.row_noise_mm
+    return explains_changes(engine.part, residual_mm, replace(judging, noise=replace(judging.noise, sigma_mm=noise_mm)))
 
 
 def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: float | None = None) -> Sufficiency:

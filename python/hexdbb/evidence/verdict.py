@@ -11,6 +11,7 @@ from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.form import Form
+from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
@@ -121,10 +122,16 @@ def is_for_sure(search: Search, node: Node) -> bool:
     """Check that causes together explain enough to be named for sure.
 
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
-    excused so together were put together to fit: each takes what the others leave.
+    excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
+    several, whose formulas explain little of what the functions of their forms do.
     """
-    checked = search.checked(node)
-    return checked.share >= search.criteria.explained_min and not (len(node.members) > 1 and checked.excused)
+    checked, is_one = search.checked(node), len(node.members) == 1
+    if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
+        return False
+    if is_one and not checked.excused:
+        return True
+    left = left_by_formulas(node.trial, search.trials.linear(node.trial))
+    return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
 
 
 def _is_form(search: Search) -> bool:
@@ -175,8 +182,11 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
 def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) -> bool:
     """Check that a cause alone explains nearly as much as the learned function at its place alone, beside the others.
 
-    A function that explains more by far is the cause, and the effect a part of its form.
+    A function that explains more by far is the cause, and the effect a part of its form. One function that pushes
+    across a guideway in both of its directions is two learned ones, of which each may explain any part.
     """
+    if isinstance(cause, Learned) and cause.variable == learned.variable:
+        return True
     rest = tuple(each for each in node.members if each.hypothesis not in (cause, learned))
     of = {each.hypothesis: each for each in node.members}
     excess = search.root.trial.left - 1.0
@@ -194,6 +204,7 @@ def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
     rivals, alike, margin = [], [], float("inf")
+    is_sure = is_for_sure(search, node)
     # The best first: what lies behind the margin found need not be held out.
     for other in sorted(search.nodes, key=lambda each: -each.score):
         if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
@@ -203,6 +214,9 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
         # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
         is_rival = is_rival and (len(other.members) <= len(node.members) or lead < -search.criteria.margin_nats)
         if is_rival and (search.checked(other).reasons or _bent(search, other)):
+            continue
+        # What would not be named for sure itself makes nothing less sure that is.
+        if is_rival and is_sure and not is_for_sure(search, other):
             continue
         if isinstance(cause, Known) and any(
             isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses

@@ -209,6 +209,9 @@ PLATFORM_ANGLE = Variable(
 )
 SWING = Variable("swing_rate", "swing_rate_rad_s", "rad/s", "swing rate of the leg about its guideway", 12, signed=True)
 SWING_ANGLE = Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of the leg about its guideway", 12)
+INCLINATION = Variable(
+    "inclination", "leg_inclination_rad", "rad", "inclination of the leg to the vertical", 12, least=LEAST_TILT
+)
 ANGLE = Variable("angle", "angle_rad", "rad", "polar angle", 24, period=TURN)
 ANGLE_DIRECTION = Variable(
     "angle_direction", "angle_rad", "rad", "polar angle, by direction of the circle", 24, times="direction", period=TURN
@@ -237,6 +240,7 @@ OF_LEG = (
         PLATFORM_ANGLE,
         SWING,
         SWING_ANGLE,
+        INCLINATION,
         ROLL,
         PITCH,
         YAW,
@@ -245,7 +249,7 @@ OF_LEG = (
 OF_GUIDEWAY = (
     Variable("position", "sliders_mm", "mm", "position of the slider", 24),
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
-    TIME_POSITION,
+    *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION),
 )
 OF_BALL = (TIME, FINE_TIME, ROLL, PITCH, YAW)
 OF_PLATFORM_JOINT = (

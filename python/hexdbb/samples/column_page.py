@@ -21,6 +21,7 @@ OWN = {
     "reading_mm": ("sample", "mm", "ball-bar length minus nominal length"),
     "swing_angle_rad": ("leg", "rad", "angle of the leg about its guideway, from the guideway's sideways axis"),
     "swing_rate_rad_s": ("leg", "rad/s", "rate of the leg's swing about its guideway"),
+    "leg_inclination_rad": ("leg", "rad", "angle of the leg to the vertical, nominal machine"),
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),

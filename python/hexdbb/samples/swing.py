@@ -18,7 +18,7 @@ from hexdbb.machine import MachineFile
 
 Floats = NDArray[np.float64]
 
-DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "bar_angle_rad", "time_in_sweep_s")
+DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "time_in_sweep_s")
 DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep")
 """Columns that these follow from."""
 STEP_S = 1e-3
@@ -29,7 +29,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6), (n, 6), (n,) and (n,); rad, rad/s, rad and s.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) twice; rad, rad/s, rad, rad and s.
 
     Parameters
     ----------
@@ -40,10 +40,13 @@ def derived_columns(
         That the column ``set_up`` counts.
     """
     sliders_mm, way_mm = columns["sliders_mm"], STEP_S * np.nan_to_num(columns["velocity_mm_s"])
-    later, earlier = _swing(machine, sliders_mm + way_mm), _swing(machine, sliders_mm - way_mm)
+    (swing, inclination), (later, _), (earlier, _) = (
+        _stance(machine, sliders_mm + way) for way in (np.zeros(1), way_mm, -way_mm)
+    )
     return {
-        "swing_angle_rad": _swing(machine, sliders_mm),
+        "swing_angle_rad": swing,
         "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
+        "leg_inclination_rad": inclination,
         "bar_angle_rad": _bar_angle(machine, sliders_mm, columns["set_up"], set_ups),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
     }
@@ -70,10 +73,11 @@ def _begin_s(time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
     return found
 
 
-def _swing(machine: MachineFile, sliders_mm: Floats) -> Floats:
+def _stance(machine: MachineFile, sliders_mm: Floats) -> tuple[Floats, Floats]:
+    """Return the swing of each leg about its guideway, and its inclination to the vertical, each shape (n, 6)."""
     position_mm, rotation, _ = forward(machine, sliders_mm)
     nominal = engine_machine(machine)
-    swing = np.empty(sliders_mm.shape)
+    swing, inclination = np.empty(sliders_mm.shape), np.empty(sliders_mm.shape)
     for leg in range(6):
         guideway = leg // 2
         axes = _core.guideway_axes(nominal, guideway)
@@ -81,4 +85,5 @@ def _swing(machine: MachineFile, sliders_mm: Floats) -> Floats:
         foot = _core.guideway_vertex(nominal, guideway) + sliders_mm[:, [leg]] * along
         reach = position_mm + rotation @ _core.platform_joint(nominal, guideway) - foot
         swing[:, leg] = np.arctan2(reach @ axes[:, 2], reach @ axes[:, 0])
-    return swing
+        inclination[:, leg] = np.arctan2(np.hypot(reach[:, 0], reach[:, 1]), reach[:, 2])
+    return swing, inclination

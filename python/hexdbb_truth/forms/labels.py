@@ -2,8 +2,8 @@
 
 Ports: as in `ports`; `guideway` is the joints of both sliders across the guideway.
 Variables: `position` (of the slider), `direction` (of travel, with its hysteresis), `since_reversal`, `velocity`,
-`acceleration`, `time`, `time_in_run` (since a run began), `feed`, `joint_angle`, `joint_turning`, `leg_force`, `angle`
-(of the bar), `tilt` and `yaw` (of the platform), `deflection`, `constant`.
+`acceleration`, `time`, `time_in_run` (since a run began), `feed`, `joint_angle`, `joint_turning`, `inclination` (of the
+leg), `leg_force`, `angle` (of the bar), `tilt` and `yaw` (of the platform), `deflection`, `constant`.
 """
 
 from __future__ import annotations

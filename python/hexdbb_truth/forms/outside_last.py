@@ -202,7 +202,7 @@ TABLE: dict[str, Outside] = {
     "carriages_float": Outside("um", 15.0, 1500.0, ("velocity",), _carriages_float),
     "leg_sings": Outside("um", 8.0, 500.0, ("time",), _leg_sings),
     "joint_is_loose": Outside("um", 10.0, 1000.0, ("direction",), _joint_is_loose),
-    "leg_bows": Outside("um", 30.0, 3000.0, ("joint_angle",), _leg_bows),
+    "leg_bows": Outside("um", 30.0, 3000.0, ("inclination", "joint_angle"), _leg_bows),
     "gauge_wanders": Outside("um", 5.0, 500.0, ("time",), _gauge_wanders),
     "stem_leans": Outside("um", 5.0, 500.0, ("direction", "angle"), _stem_leans),
 }

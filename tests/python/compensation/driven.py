@@ -21,6 +21,8 @@ MACHINE = shipped_machine()
 STEP_S = 0.004
 RPY = np.array([0.05, -0.03, 0.1])
 WARMING_K = 3.0
+UP_DOWN_MM = 10.0
+"""On a level path no leg changes its inclination."""
 
 
 class Table:
@@ -42,10 +44,10 @@ class Table:
 
 
 def path(machine: MachineFile = MACHINE) -> Floats:
-    """A lap and a half of 90 mm at 3000 mm/min in the middle of the machine's workspace; shape (n, 3)."""
+    """A lap and a half of 90 mm at 3000 mm/min in the middle of the machine's workspace, up and down; shape (n, 3)."""
     z_mm = 285.0 if machine.workspace is None else machine.workspace.centre_mm[2]
     angle = np.arange(0.0, 3.0 * np.pi, 50.0 / 90.0 * STEP_S)
-    return np.column_stack([90.0 * np.cos(angle), 90.0 * np.sin(angle), np.full(len(angle), z_mm)])
+    return np.column_stack([90.0 * np.cos(angle), 90.0 * np.sin(angle), z_mm + UP_DOWN_MM * np.sin(2.0 * angle)])
 
 
 def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table, _core.Samples]:

@@ -87,6 +87,9 @@ def model_of(name: str, nominal: Table, beside: tuple[str, ...] = ("leg_length",
         "learned:leg:2:platform_joint_angle",
         "learned:leg:all:swing_rate",
         "learned:leg:4:swing_angle",
+        "learned:leg:6:inclination",
+        "learned:vertical:2:velocity",
+        "learned:lateral:3:leg_force",
         "learned:slider:5:acceleration",
         "learned:slider:1:warming",
         "learned:platform_joint:4:joint_angle",
@@ -112,6 +115,7 @@ def test_the_machine_as_learned_takes_the_commanded_poses(name: str, nominal: Ta
         "learned:leg:2:platform_turning_rate",
         "learned:leg:5:platform_joint_angle",
         "learned:leg:all:swing_rate",
+        "learned:leg:3:inclination",
     ],
 )
 def test_so_does_a_machine_that_is_not_alike_on_all_sides(name: str, unlike: Table) -> None:

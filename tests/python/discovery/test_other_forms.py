@@ -19,6 +19,8 @@ from hexdbb_truth.forms.cases import case
         ("torque_turns_over-d0-x30-calibrate-s0", "learned:slider:2:acceleration"),
         ("neighbour_disturbs-d0-x10-calibrate-s0", "learned:slider:5:neighbour_velocity"),
         ("joint_seat_warms-d0-x10-calibrate-s0", "learned:platform_joint:4:time"),
+        ("leg_bows-d0-x10-calibrate-s0", "learned:leg:1:inclination"),
+        ("carriages_float-d0-x3-calibrate-s0", "learned:vertical:1:velocity"),
     ],
 )
 def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
@@ -55,6 +57,31 @@ def test_laps_that_differ_since_a_screw_warms_repeat_once_that_is_known() -> Non
     assert not judging_noise(samples).is_steady
     added = add_effect(samples, before, "screw_thermal:4").model
     assert discover(samples, added).verdict == "none"
+
+
+def test_laps_that_differ_since_a_drift_has_another_form_repeat_but_for_that_form() -> None:
+    record = case("bar_drift-d20-x100-calibrate-s2").record()
+    samples = Samples.of([record])
+    added = add_effect(samples, new_model(record.machine).with_mounts(samples.mounts), "bar_drift").model
+    found = discover(samples, added)
+    assert found.verdict == "none"
+    assert found.sufficiency.matters
+
+
+def test_a_form_goes_wrong_at_the_effects_own_place() -> None:
+    """Two joints of a pair read alike where they are off their places, not where they move as they turn."""
+    line = line_of(case("joint_offset-d20-x10-calibrate-s5"), ())
+    assert line["outcome"] == "right"
+    assert line["grade"] == "effect"
+    assert [each["name"].partition(":")[0] for each in line["found"]] == ["joint_offset"]
+
+
+def test_what_bends_to_fit_together_is_no_rival() -> None:
+    """Joints off their places that do not predict other circles stand beside a bow that does."""
+    line = line_of(case("straightness-d10-x10-calibrate-s1"), ["straightness"])
+    (found,) = line["found"]
+    assert found["name"] == "learned:lateral:2:fine_position"
+    assert not found["rivals"]
 
 
 def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:

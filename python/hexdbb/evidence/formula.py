@@ -1,0 +1,31 @@
+"""What the formulas of a set of effects explain alone, without the functions of their forms beside them.
+
+Geometry may take most of an effect, and then a form that is a small part of its push can be most of what the readings
+show of it: functions beside an effect's formula, or beside several that undo each other, imitate what is none of it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.trial import Trial
+
+
+def left_by_formulas(trial: Trial, linear: Linear) -> float:
+    """Return the mean square (noise variances) that a trial leaves where its effects have no form but their own.
+
+    Parameters
+    ----------
+    trial : Trial
+    linear : Linear
+        Its linearisation, in whose residual the functions of forms are explained.
+    """
+    beside = np.zeros(len(linear.standing), bool)
+    for form in trial.forms:
+        if form is not None:
+            beside[form.first : form.first + form.columns] = True
+    residual = linear.residual + linear.own[:, beside] @ linear.standing[beside]
+    own, standing = linear.own[:, ~beside], linear.standing[~beside]
+    change = np.linalg.solve(own.T @ own + np.eye(own.shape[1]), own.T @ residual - standing)
+    return float(np.mean((residual - own @ change) ** 2))
