@@ -181,7 +181,8 @@ def _machine_rocks(draw: Draw) -> Fault:
         return np.asarray(history.acceleration_mm_s2[scene.rows] @ history.nominal.directions @ way)
 
     def values(scene: Scene, size: float) -> Array:
-        return 1e-3 * size * column(kick(scene) / np.abs(kick(scene.sampled)).max()) * way
+        largest = float(np.abs(kick(scene.sampled)).max())
+        return np.asarray(1e-3 * size * column(kick(scene) / largest) * way)
 
     why = "cup and ball move alike while the platform is not turned"
     return Fault(Action("cup", (), values), (Equivalent("ball", "acceleration", None, why),))
