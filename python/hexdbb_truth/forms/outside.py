@@ -3,7 +3,14 @@
 More are added as one more module with a `TABLE`, joined here.
 """
 
-from hexdbb_truth.forms import outside_drives, outside_last, outside_later, outside_measuring, outside_structure
+from hexdbb_truth.forms import (
+    outside_blind,
+    outside_drives,
+    outside_last,
+    outside_later,
+    outside_measuring,
+    outside_structure,
+)
 from hexdbb_truth.forms.fault import Fault, Outside
 
 __all__ = ["OUTSIDE", "Fault", "Outside"]
@@ -14,5 +21,6 @@ OUTSIDE: dict[str, Outside] = {
     **outside_measuring.TABLE,
     **outside_later.TABLE,
     **outside_last.TABLE,
+    **outside_blind.TABLE,
 }
 """Kinds by name."""

@@ -1,4 +1,4 @@
-"""Faults outside the catalogue that were written last, after every rule of the verdicts: none was changed for them."""
+"""Faults outside the catalogue of drives, guideways, legs, platform, set-up and gauge."""
 
 from __future__ import annotations
 
