@@ -1,4 +1,4 @@
-"""Faults outside the catalogue that were written after the criteria were frozen: no constant was chosen with them."""
+"""Faults outside the catalogue of drives, structure and measuring, added after those of the other files."""
 
 from __future__ import annotations
 
