@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.heldout import HeldOut, heldout
 from hexdbb.evidence.readings import ARC
@@ -25,6 +27,8 @@ class Checked:
     """Whether something that is not predicted was put down to its form."""
     claimed: tuple[str, ...] = ()
     """Groupings that the hypotheses claim to predict."""
+    missed: float = 0.0
+    """Error of the grouping predicted worst, beyond what the fit expects of it, over the RMS explained where fitted."""
 
 
 def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
@@ -60,7 +64,14 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
-    return Checked(predicted, share, tuple(reasons), excused, claimed=tuple(predicted))
+    missed = max((_missed(held, trial, base) for held in claimed), default=0.0)
+    return Checked(predicted, share, tuple(reasons), excused, tuple(predicted), missed)
+
+
+def _missed(held: HeldOut, trial: Trial, base: Trial) -> float:
+    """Return the error of what was left out beyond what is expected, over what is explained where fitted."""
+    beyond = held.after**2 - held.expected**2 * max(trial.left, 1.0)
+    return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 
 
 def _not_between(predicted: Mapping[str, HeldOut], share: float, criteria: Criteria) -> tuple[str, ...]:

@@ -123,10 +123,13 @@ def is_for_sure(search: Search, node: Node) -> bool:
 
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
     excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
-    several, whose formulas explain little of what the functions of their forms do.
+    several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
+    as much as all that it explains where fitted stands in for something else, however much worse geometry alone errs.
     """
     checked, is_one = search.checked(node), len(node.members) == 1
     if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
+        return False
+    if not checked.excused and checked.missed > search.criteria.missed_most:
         return False
     if is_one and not checked.excused:
         return True
