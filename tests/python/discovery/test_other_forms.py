@@ -69,10 +69,13 @@ def test_laps_that_differ_since_a_drift_has_another_form_repeat_but_for_that_for
 
 
 def test_a_form_goes_wrong_at_the_effects_own_place() -> None:
-    """Two joints of a pair read alike where they are off their places, not where they move as they turn."""
+    """Two joints of a pair read alike where they are off their places, not where they move as they turn.
+
+    It is not named for sure: geometry bends after its form, and errs on circles left out.
+    """
     line = line_of(case("joint_offset-d20-x10-calibrate-s5"), ())
     assert line["outcome"] == "right"
-    assert line["grade"] == "effect"
+    assert line["grade"] == "unknown"
     assert [each["name"].partition(":")[0] for each in line["found"]] == ["joint_offset"]
 
 
@@ -116,9 +119,24 @@ def test_a_gauge_that_compresses_is_found_though_geometry_bends_after_it() -> No
     assert line["heldout"]["circle"]["after"] < 1.3
 
 
+@pytest.mark.parametrize("seed", [0, 2])
+def test_what_errs_elsewhere_by_all_that_it_explains_is_not_named_for_sure(seed: int) -> None:
+    """A platform that warms, read as legs that grow: geometry alone errs by more on circles left out."""
+    line = line_of(case(f"plate_warms-d0-x10-calibrate-s{seed}"), ())
+    assert line["grade"] == "unknown"
+    assert line["heldout"]["circle"]["share"] > 0.9
+
+
+def test_a_form_far_off_is_a_function_of_its_own() -> None:
+    """A drive that lags in one direction alone is no lag as the catalogue has it."""
+    line = line_of(case("drive_pulls_weaker-d0-x10-calibrate-s0"), ())
+    assert line["outcome"] == "right"
+    assert [each["name"] for each in line["found"]] == ["learned:slider:5:velocity"]
+
+
 def test_legs_of_another_form_are_not_named_for_sure_beside_a_screw_that_explains_more_than_their_formula() -> None:
     line = line_of(case("screw_thermal-d10-x10-calibrate-s1"), ["screw_thermal"])
-    assert line["grade"] == "ambiguous"
+    assert line["grade"] == "unknown"
     (found,) = line["found"]
     assert found["name"] == "leg_thermal"
     assert "learned:slider:4:time_position" in found["rivals"]
