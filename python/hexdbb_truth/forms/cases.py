@@ -254,7 +254,8 @@ class Case:
     def _outside(self, kind: str, outside: Outside) -> Hidden:
         fault = outside.drawn(self._draw(kind))
         size = size_of(fault.action, self.measured, self.times_noise, outside.start, outside.limit)
-        elements = () if len(fault.action.elements) == 6 else tuple(each + 1 for each in fault.action.elements)
+        every = 3 if fault.action.port == "guideway" else 6
+        elements = () if len(fault.action.elements) == every else tuple(each + 1 for each in fault.action.elements)
         label = Label(kind, False, fault.action.port, elements, outside.variables, fault.equivalents)
         return Hidden(label, fault.action, size, outside.unit, kind, None)
 

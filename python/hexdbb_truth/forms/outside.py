@@ -5,6 +5,7 @@ More are added as one more module with a `TABLE`, joined here.
 
 from hexdbb_truth.forms import (
     outside_blind,
+    outside_blind_two,
     outside_drives,
     outside_last,
     outside_later,
@@ -22,5 +23,6 @@ OUTSIDE: dict[str, Outside] = {
     **outside_later.TABLE,
     **outside_last.TABLE,
     **outside_blind.TABLE,
+    **outside_blind_two.TABLE,
 }
 """Kinds by name."""

@@ -1,7 +1,4 @@
-"""Faults outside the catalogue, written without knowledge of the verdicts' rules and after the last of them was fixed.
-
-No rule was changed for them.
-"""
+"""Faults outside the catalogue that wear, warmth, load and shaking make: at drives, guideways, legs, set-up, gauge."""
 
 from __future__ import annotations
 

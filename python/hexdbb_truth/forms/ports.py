@@ -4,7 +4,7 @@ Port, columns of one element, unit of `values`:
 
     slider          1   mm along the guideway
     leg             1   mm
-    guideway        4   mm: lateral and vertical at the first slider's joint, the same at the second's
+    guideway        4   mm: lateral (outward) and vertical at the first slider's joint, the same at the second's
     platform_joint  3   mm, platform frame
     ball            3   mm, platform frame
     cup             3   mm, base frame
@@ -136,10 +136,11 @@ def add(action: Action, values: Array, scene: Scene, push: Push) -> None:
     elif action.port == "leg":
         push.leg_mm[:, elements] += values
     elif action.port == "guideway":
-        (guideway,) = elements
-        frame = rotation_z(2.0 * math.pi / 3.0 * guideway)
-        for j in range(2):
-            push.slider_joint_mm[:, 2 * guideway + j] += values[:, 2 * j : 2 * j + 2] @ frame[:, [0, 2]].T
+        for i, guideway in enumerate(elements):
+            frame = rotation_z(2.0 * math.pi / 3.0 * guideway)
+            for j in range(2):
+                first = 4 * i + 2 * j
+                push.slider_joint_mm[:, 2 * guideway + j] += values[:, first : first + 2] @ frame[:, [0, 2]].T
     elif action.port == "platform_joint":
         push.platform_joint_mm[:, elements] += values.reshape(len(values), -1, 3)
     elif action.port == "ball":

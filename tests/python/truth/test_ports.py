@@ -63,7 +63,9 @@ def test_a_fault_moves_the_element_of_its_label_alone(kind):
     attribute = {"guideway": "slider_joint_mm", "compliance": "compliance_mm_n"}.get(action.port, f"{action.port}_mm")
     assert moved == {attribute}
     if action.elements:
-        joints = (2 * action.elements[0], 2 * action.elements[0] + 1) if action.port == "guideway" else action.elements
+        joints = (
+            [2 * g + j for g in action.elements for j in range(2)] if action.port == "guideway" else action.elements
+        )
         array = getattr(push, attribute)
         others = [k for k in range(6) if k not in joints]
         assert not np.any(array[:, others])
