@@ -91,7 +91,7 @@ def _carriages_skew(draw: Draw) -> Fault:
 
 
 def _carriage_nods(draw: Draw) -> Fault:
-    """A rail waves between its bolts: both carriages nod as they pass, and their joints, standing high, go back and forth.
+    """A rail waves between its bolts: both carriages nod as they pass, and their joints, standing high, sway.
 
     The rise itself is some times smaller than what a joint as high as the carriage is long makes of its slope.
     """
