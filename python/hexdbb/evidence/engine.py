@@ -19,7 +19,7 @@ from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
 from hexdbb.learned import Learned
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, Term, new_term
 from hexdbb.model.terms import started_term
-from hexdbb.samples import Samples, effect_pushes
+from hexdbb.samples import Samples, effect_pushes, of_its_own
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -291,14 +291,7 @@ class Engine:
         """Return the engine's form of a part of the samples as if there were no others: tables have its rows alone."""
         key = (len(part), model.mounts, model.needs)
         if key not in self._blocks:
-            block = part.block(model)
-            self._blocks[key] = _core.Samples(
-                sliders_mm=block.sliders_mm,
-                set_up=block.set_up,
-                mount=block.mount,
-                set_ups=block.set_ups,
-                state={name: column for name, column in block.state.items() if name != "row"},
-            )
+            self._blocks[key] = of_its_own(part.block(model))
         return self._blocks[key]
 
     def _tabulate(self, part: Samples, state: State, effect: OwnEffect, values: Floats) -> Tabulated:

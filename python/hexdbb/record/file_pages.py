@@ -155,6 +155,8 @@ def _default_words(key: str, schema: Schema, of: Schema) -> str:
     if key in of.get("required", ()) or "const" in schema:
         return "required"
     default = schema.get("default")
+    if default is None and "$ref" in schema:  # made anew for each file
+        return "as below"
     if default is None or default == {}:
         return "none"
     if isinstance(default, dict):

@@ -13,7 +13,7 @@ from hexdbb.samples.prediction import (
     predict_poses,
 )
 from hexdbb.samples.table import Samples
-from hexdbb.samples.whole import PLANNED
+from hexdbb.samples.whole import PLANNED, of_its_own
 
 __all__ = [
     "PLANNED",
@@ -24,6 +24,7 @@ __all__ = [
     "effect_pushes",
     "linearise",
     "normal_equations",
+    "of_its_own",
     "port_sensitivity",
     "predict",
     "predict_poses",

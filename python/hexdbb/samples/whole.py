@@ -208,3 +208,14 @@ def _sliders_mm(machine: MachineFile, run: CircleRun, angle_rad: Floats, origin:
 
 def _set_up(cup_mm: Sequence[float], ball_offset_mm: Sequence[float], bar_length_mm: float) -> _core.SetUp:
     return _core.SetUp(cup_mm=np.array(cup_mm), ball_offset_mm=np.array(ball_offset_mm), bar_length_mm=bar_length_mm)
+
+
+def of_its_own(block: _core.Samples) -> _core.Samples:
+    """Return a part of a record for the engine as if there were no other rows: tables of effects have its rows alone."""
+    return _core.Samples(
+        sliders_mm=block.sliders_mm,
+        set_up=block.set_up,
+        mount=block.mount,
+        set_ups=block.set_ups,
+        state={name: column for name, column in block.state.items() if name != "row"},
+    )
