@@ -211,7 +211,7 @@ def _set_up(cup_mm: Sequence[float], ball_offset_mm: Sequence[float], bar_length
 
 
 def of_its_own(block: _core.Samples) -> _core.Samples:
-    """Return a part of a record for the engine as if there were no other rows: tables of effects have its rows alone."""
+    """Return a part of a record for the engine as if there were no others: tables of effects have its rows alone."""
     return _core.Samples(
         sliders_mm=block.sliders_mm,
         set_up=block.set_up,
