@@ -83,6 +83,10 @@ def _run(module: str) -> None:
         command()
     except KeyboardInterrupt:  # between the import and the command, or after it
         _end()
+    except SystemExit as ended:
+        if ended.code == INTERRUPTED:
+            _leave()
+        raise
     finally:
         _end_at_once()  # what was printed is flushed; an exception while the interpreter ends would be a traceback
 
@@ -95,6 +99,14 @@ def _end_at_once() -> bool:
     except ValueError:  # not the main thread
         ours = False
     return ours
+
+
+def _leave() -> None:
+    """End an interrupted command, which has said so: fits may still run in threads, under which Python must not end."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):  # closed by the shell
+            stream.flush()
+    os._exit(INTERRUPTED)
 
 
 def _end(*_: object) -> None:
