@@ -6,23 +6,26 @@ show of it: functions beside an effect's formula, or beside several that undo ea
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
+from hexdbb.evidence.form import Form
 from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.trial import Trial
 
 
-def left_by_formulas(trial: Trial, linear: Linear) -> float:
-    """Return the mean square (noise variances) that a trial leaves where its effects have no form but their own.
+def left_by_formulas(forms: Iterable[Form | None], linear: Linear) -> float:
+    """Return the mean square (noise variances) that effects leave where they have no form but their own.
 
     Parameters
     ----------
-    trial : Trial
+    forms : iterable of Form or None
+        Of each effect of a trial.
     linear : Linear
-        Its linearisation, in whose residual the functions of forms are explained.
+        The trial's linearisation, in whose residual the functions of forms are explained.
     """
     beside = np.zeros(len(linear.standing), bool)
-    for form in trial.forms:
+    for form in forms:
         if form is not None:
             beside[form.first : form.first + form.columns] = True
     residual = linear.residual + linear.own[:, beside] @ linear.standing[beside]

@@ -133,7 +133,7 @@ def is_for_sure(search: Search, node: Node) -> bool:
         return False
     if is_one and not checked.excused:
         return True
-    left = left_by_formulas(node.trial, search.trials.linear(node.trial))
+    left = left_by_formulas(node.trial.forms, search.trials.linear(node.trial))
     return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
 
 

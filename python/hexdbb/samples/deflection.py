@@ -27,7 +27,7 @@ FITTED_ROWS = 3000
 STEPS = 5
 """Steps with polynomials beside: each halves what a gauge that bends by a tenth of its range bends geometry."""
 DEGREES = (2, 3, 4, 5)
-"""Of the polynomials: a gauge that is not linear, saturates, or has another gain compressed than extended."""
+"""Degrees of the polynomials: enough for a gauge that bends, that saturates, or whose gain differs by its direction."""
 BEND_MM = 0.1
 """Prior standard deviation of their coefficients: as large as the deflections that geometry makes."""
 NOISE_MM = 1e-3

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -22,5 +20,5 @@ def test_functions_of_a_form_are_taken_out_again(columns: int, left: float) -> N
     # At the fit both columns stand where they explain all but the noise, well within their priors.
     standing = np.array([FORMULA, FORM]) * 1e-6
     linear = Linear(NOISE * noise, np.column_stack([effect, form]) * 1e6, standing)
-    trial = SimpleNamespace(forms=(Form(0.1, 0.1, ("learned:slider:1:position",), columns, 1),))
-    assert left_by_formulas(trial, linear) == pytest.approx(left, rel=1e-3)  # type: ignore[arg-type]
+    form_of_it = Form(0.1, 0.1, ("learned:slider:1:position",), columns, 1)
+    assert left_by_formulas([form_of_it], linear) == pytest.approx(left, rel=1e-3)
