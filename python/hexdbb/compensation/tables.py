@@ -25,7 +25,7 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
     """Return the tables of a learned effect's term, one a component, knots close enough for `TOLERANCE_MM`."""
     effect = term.learned
     assert effect is not None
-    space, tables = effect.space, effect.tables(term.values, machine.base.guideway_angles_rad)
+    space, tables = effect.space, effect.tables(term.values, machine)
     parts = effect.coefficients(term.values).reshape(len(tables), -1)
 
     def values_mm(at: Floats) -> Floats:

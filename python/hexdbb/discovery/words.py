@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.heldout import HeldOut
-from hexdbb.learned import ALL, Learned, describe
-from hexdbb.learned.shown import ALL_OF, PLACES, sentence
+from hexdbb.learned import Learned, describe
+from hexdbb.learned.shown import sentence, whole_place_words
 from hexdbb.model import Term
 
 GROUPS: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
@@ -35,12 +35,12 @@ def function_clause(term: Term) -> str:
 
 def place_clause(hypothesis: Learned) -> str:
     """Return where a learned hypothesis acts and what it follows: instants, a period, or the variable's name."""
-    places = ALL_OF if hypothesis.element == ALL and hypothesis.place in ALL_OF else PLACES
-    place, variable = places[hypothesis.place].format(hypothesis.element), hypothesis.variable
+    place, variable = whole_place_words(hypothesis), hypothesis.variable
     if variable.instants:
         return f"{place}: shifts at {joined([f'{each:.0f} s' for each in variable.instants])}"
-    if variable.period:
-        return f"{place}: repeats every {variable.period:.4g} {variable.unit}"
+    if NUMBERED in variable.name:
+        repeats = f"repeats every {variable.period:.4g} {variable.unit}"
+        return f"{place}: {repeats if variable.period else f'follows the {variable.words}'}"
     if not variable.column and not variable.times:
         return f"{place}: a constant"
     return f"{place}: follows the {variable.name.replace('_', ' ')}"

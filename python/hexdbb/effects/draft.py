@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import Curve, Form, Space, describe
 from hexdbb.learned.shown import place_words
-from hexdbb.learned.variables import ELAPSED
+from hexdbb.learned.variable import ELAPSED
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model
 from hexdbb.samples import PUSH_SHAPES
@@ -86,7 +86,7 @@ def _effect(space: Space, curve: Curve, form: Form, component: int, machine: Mac
 
 def _pushed(space: Space, component: int, machine: MachineFile) -> str:
     """Return elements and columns of the port, counted within it, as source."""
-    pushes = space.hypothesis.pushes(component, machine.base.guideway_angles_rad)
+    pushes = space.hypothesis.pushes(component, machine)
     width = {port: int(np.prod(shape, dtype=int)) for port, shape in PUSH_SHAPES.items()}
     ports = list(PUSH_SHAPES)
     first = sum(width[port] for port in ports[: ports.index(space.hypothesis.port)])

@@ -107,7 +107,7 @@ class LearnedAxes:
         """Yield each of its functions: component, element of the variable, and what it pushes."""
         hypothesis = self.space.hypothesis
         for component in range(hypothesis.components):
-            for element, pushes in hypothesis.pushes(component, state.machine.base.guideway_angles_rad):
+            for element, pushes in hypothesis.pushes(component, state.machine):
                 yield component, element, pushes
 
     def _own(self, component: int) -> slice:

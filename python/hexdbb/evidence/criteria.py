@@ -35,6 +35,9 @@ class Criteria:
         Starts of a shape parameter (the logarithm of a time), in prior standard deviations: first order cannot move it.
     shape_rounds : int
         Steps of Gauss and Newton for shapes of users' effects: enough to compare; what is added is fitted on.
+    constant_rounds : int
+        Steps of Gauss and Newton for the time that a learned function remembers: from one of the few first tried it has
+        to move by less than half of the way to the next.
     least_seen : float
         Directions of a learned prior of which the readings tell less than this part of a value's worth are left out of
         full fits.
@@ -170,6 +173,7 @@ class Criteria:
     most_homes: int = 3
     shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
     shape_rounds: int = 3
+    constant_rounds: int = 3
     least_seen: float = 0.05
     most_seen: int = 100
     step_mm: float = 1.0

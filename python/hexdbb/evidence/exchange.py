@@ -76,10 +76,14 @@ def in_known_words(search: Search, node: Node) -> Node:
                 others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
         others.sort(key=lambda each: -each.score)
         search.nodes += others
-        # What predicts is not exchanged for what is excused from predicting.
-        excused = search.checked(node).excused
-        node = next((e for e in others if not search.checked(e).reasons and excused >= search.checked(e).excused), node)
+        node = next((each for each in others if _predicts_no_worse(search, each, node)), node)
     return node
+
+
+def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
+    """Check that a set predicts, and is neither excused from it nor errs by most where another is not or does not."""
+    one, other, most = search.checked(node), search.checked(than), search.criteria.missed_most
+    return not one.reasons and one.excused <= other.excused and (one.missed <= most or other.missed > most)
 
 
 def of_better_form(search: Search, node: Node) -> Node:

@@ -51,8 +51,8 @@ def _shifting() -> Iterator[tuple[str, int]]:
 def _answers(readings: Readings, place: str, element: int) -> Floats:
     """Return what a push at a place does to the readings, a column for each axis."""
     at = Learned(place, element, step([0.0]))
-    angles_rad = readings.state.machine.base.guideway_angles_rad
-    return np.column_stack([readings.answer(at.pushes(axis, angles_rad)[0][1]) for axis in range(at.components)])
+    machine = readings.state.machine
+    return np.column_stack([readings.answer(at.pushes(axis, machine)[0][1]) for axis in range(at.components)])
 
 
 def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
@@ -201,9 +201,9 @@ def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [("slider", each) for each in range(1, 7)]
     places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
-    angles_rad = readings.state.machine.base.guideway_angles_rad
+    machine = readings.state.machine
     for place, element in places:
-        pushes = Learned(place, element, periodic("position", 1.0)).pushes(0, angles_rad)
+        pushes = Learned(place, element, periodic("position", 1.0)).pushes(0, machine)
         weighted = np.concatenate([linear.residual * readings.answer(ports) for _, ports in pushes])
         values = np.concatenate([position[:, column] for column, _ in pushes])
         yield from _period(place, element, "position", weighted, values, 1.0 / criteria.shortest_mm)

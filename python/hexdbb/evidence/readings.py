@@ -75,7 +75,7 @@ class State:
             raise InputError(f"{hypothesis.name}: {', '.join(unmeasured)} was not measured (expected it to be)")
         if hypothesis not in self._spaces:
             # Limits are those of the variable at the elements, whatever it pushes there: many hypotheses share them.
-            pushes = hypothesis.pushes(0, self.machine.base.guideway_angles_rad)
+            pushes = hypothesis.pushes(0, self.machine)
             alike = hypothesis.variable, tuple(element for element, _ in pushes)
             if alike not in self._alike:
                 self._alike[alike] = Space.of(hypothesis, self, self.machine.sliders.screw_lead_mm)

@@ -18,7 +18,7 @@ from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import retunings, with_other_splines
-from hexdbb.learned import ALL, Learned, part_of
+from hexdbb.learned import Learned, part_of
 
 Places = set[tuple[str, int]]
 """Parts of the machine and their elements."""
@@ -158,11 +158,12 @@ def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | 
     )
     search.propose(proposed)
     of_forms = all_varying(readings, of_forms=True)
-    every = dict.fromkeys((*search.hypotheses, *of_forms, *(one.hypothesis for one in proposed)))
+    further = search.further.values() if any(map(search.is_further, node.hypotheses)) else ()
+    every = dict.fromkeys((*search.hypotheses, *of_forms, *search.products, *further, *(p.hypothesis for p in proposed)))
     return [
         each
         for each in every
-        if ((part_of(each), each.element) in places or (part_of(each), ALL) in places)
+        if any(each.is_within(*place) for place in places)
         and each.name not in known
         and (with_time or not each.is_of_time)
     ]

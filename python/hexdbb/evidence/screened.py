@@ -52,6 +52,20 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
     return known, screen.learned([each for each in every if each not in present])
 
 
+def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored]:
+    """Screen the further learned hypotheses beside those of a trial: products, memory, neighbours, pairs.
+
+    Parameters
+    ----------
+    search : Search
+    base : Trial
+    screen : Screen
+        Of its linearisation.
+    """
+    present = {each.hypothesis for each in base.members}
+    return screen.learned([each for each in search.further.values() if each not in present])
+
+
 def in_other_words(search: Search, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:
     """Return known effects whose own functions explain much although their exact form does not.
 

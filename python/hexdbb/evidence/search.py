@@ -20,16 +20,16 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.needed import is_better, needs, needs_all
-from hexdbb.evidence.period import best_period
+from hexdbb.evidence.number import best_number
 from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import in_other_words, known_sets, screened
+from hexdbb.evidence.screened import in_other_words, known_sets, screened, screened_further
 from hexdbb.evidence.shortlist import shortlist
-from hexdbb.evidence.signatures import all_varying
+from hexdbb.evidence.signatures import all_varying, varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
-from hexdbb.learned import ALL, Learned
+from hexdbb.learned import ALL, Learned, further_hypotheses, has_chosen_number, products
 
 Floats = NDArray[np.float64]
 
@@ -81,14 +81,28 @@ class Search:
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
         self.hypotheses = all_varying(readings)
+        """The simple learned hypotheses."""
+        self.products = list(varying(products(), readings)) if self.learns else []
         self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
-        self.homes = Homes(linear, self.thinned, self.hypotheses, self.criteria)
+        self.homes = Homes(linear, self.thinned, [*self.hypotheses, *self.products], self.criteria)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
         self._chosen: dict[Hypothesis, float] = {}
+        self._further: dict[str, Learned] = {}
+
+    @property
+    def further(self) -> dict[str, Learned]:
+        """Learned hypotheses that are looked at where no simple one settles, by name; made when first asked for."""
+        if not self._further:
+            self._further = {each.name: each for each in varying(further_hypotheses(), self.engine.readings)}
+        return self._further
+
+    def is_further(self, hypothesis: Hypothesis) -> bool:
+        """Check whether a hypothesis is one of those that are looked at where no simple one settles."""
+        return hypothesis.name in self._further
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
@@ -222,31 +236,40 @@ class Search:
         sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
         screen = Screen(sums, self.criteria, self.thinned)
         known, learned = screened(self, node.trial, screen)
-        count, found = self.criteria.full_fits if node is self.root else self.criteria.later_fits, []
+        count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
         most = self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
-        every = [*chosen, *in_other_words(self, known, learned, chosen)]
+        found = self._tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
+        if self.learns and not any(self._settles(each) for each in found):
+            found += self._tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
+        return sorted(found, key=lambda each: -each.score)
+
+    def _tried(self, node: Node, every: Sequence[Scored]) -> list[Node]:
+        """Fit sets with one more hypothesis each in full."""
+        found = []
         trials = self.trials.each_of((*node.members, self.member(scored)) for scored in every)
         for scored, fitted in zip(every, trials, strict=True):
             try:
                 trial = fitted()
             except RunError:
                 continue
-            trial = self.with_tuned_period(trial, len(node.members))
+            trial = self.with_tuned_number(trial, len(node.members))
             prior = self.log_prior(scored.hypothesis)
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
-        return sorted(found, key=lambda each: -each.score)
+        return found
 
     @property
     def by_name(self) -> dict[str, Learned]:
         """Learned hypotheses, those that the readings propose among them."""
         proposed = [each for each in self._chosen if isinstance(each, Learned)]
-        return {each.name: each for each in (*self.hypotheses, *proposed)}
+        return self._further | {each.name: each for each in (*self.products, *self.hypotheses, *proposed)}
 
     def log_prior(self, hypothesis: Hypothesis) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
         count = len(self.kin) if isinstance(hypothesis, Known) else len(self.hypotheses)
+        if self.is_further(hypothesis):
+            count += len(self._further)
         return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
 
     def propose(self, proposed: Sequence[Proposal]) -> None:
@@ -256,24 +279,38 @@ class Search:
     def count_as(self, hypothesis: Learned, same: Learned) -> None:
         """Let a hypothesis stand for one that it was made of: its choice costs as much, it is the same cause."""
         self._chosen[hypothesis] = self._chosen.get(same, 0.0)
+        if self.is_further(same):
+            self._further[hypothesis.name] = hypothesis
         for names in self.kin.values():
             if same.name in names:
                 names.add(hypothesis.name)
 
-    def with_tuned_period(self, trial: Trial, place: int) -> Trial:
-        """Return a trial with the period of one member where it fits best; the same where that gains nothing."""
-        member = trial.members[place]
-        hypothesis = member.hypothesis
-        if not isinstance(hypothesis, Learned) or not hypothesis.variable.has_chosen_period:
+    def with_tuned_number(self, trial: Trial, place: int) -> Trial:
+        """Return a trial with the number of one member where it fits best; the same where that gains nothing."""
+        hypothesis = trial.members[place].hypothesis
+        if not isinstance(hypothesis, Learned) or not has_chosen_number(hypothesis.variable):
             return trial
-        moved = best_period(self.trials, trial, member)
-        self.count_as(moved, hypothesis)
-        try:
-            members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])
-            found = self.trials.of(members)
-        except RunError:
-            return trial
-        return found if found.log_evidence > trial.log_evidence and not found.refused else trial
+        for _ in range(1 if hypothesis.variable.period else self.criteria.constant_rounds):
+            member = trial.members[place]
+            moved = best_number(self.trials, trial, member)
+            self.count_as(moved, hypothesis)
+            try:
+                members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])
+                found = self.trials.of(members)
+            except RunError:
+                break
+            if found.log_evidence <= trial.log_evidence or found.refused:
+                break
+            trial = found
+        return trial
+
+    def _settles(self, node: Node) -> bool:
+        """Check that nothing less simple need be looked at: a set explains, and predicts, what is missing."""
+        if node.trial.refused or not self._is_complete(node) or not self._predicts(node):
+            return False
+        if not _is_known(node) and node.trial.left >= self.criteria.leaves_structure:
+            return False
+        return self.checked(node).missed <= self.criteria.missed_most
 
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""

@@ -7,7 +7,7 @@ to a push there (`Readings.ports`), B the splines of the variable of that elemen
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,14 +54,22 @@ class Signature:
         return float(np.sqrt(np.sum(parts * (parts @ self.square))))
 
 
-def signature_of(hypothesis: Learned, readings: Readings) -> Signature:
-    """Return a hypothesis' signature on some rows."""
+def signature_of(hypothesis: Learned, readings: Readings, like: Space | None = None) -> Signature:
+    """Return a hypothesis' signature on some rows.
+
+    Parameters
+    ----------
+    hypothesis : Learned
+    readings : Readings
+    like : Space, optional
+        Of the same hypothesis but for its number: whose splines' limits to take.
+    """
     state = readings.state
-    space = state.space(hypothesis)
+    space = state.space(hypothesis) if like is None or like.period else replace(like, hypothesis=hypothesis)
     parts = []
     for component in range(hypothesis.components):
         total: Floats | None = None
-        for element, pushes in hypothesis.pushes(component, state.machine.base.guideway_angles_rad):
+        for element, pushes in hypothesis.pushes(component, state.machine):
             part = readings.answer(pushes)[:, None] * state.design(space, element)
             total = part if total is None else total + part
         assert total is not None  # every place has an element

@@ -1,8 +1,8 @@
-"""Learned functions tuned about the fit of their set: how smooth, how many splines, which period.
+"""Learned functions tuned about the fit of their set: how smooth, how many splines, which period or time constant.
 
 A hypothesis is chosen while all that is unexplained counts in part as noise (`Criteria.temper`), so that the most of it
 is sought first. Once a set explains it, what is left is less by far, and asks for less smooth functions and more
-splines, and for periods (`period.py`) that are right beside all else that was found.
+splines, and for periods and time constants (`number.py`) that are right beside all else that was found.
 """
 
 from __future__ import annotations
@@ -73,10 +73,10 @@ def with_other_splines(search: Search, linear: Linear, hypothesis: Learned, left
     return [screen.scored(each) for each in held or variants[:1]]
 
 
-def with_tuned_periods(search: Search, node: Node) -> Node:
-    """Return a set whose periodic functions have the periods that fit best; the same set where none gains."""
+def with_tuned_numbers(search: Search, node: Node) -> Node:
+    """Return a set whose functions have the periods and time constants that fit best; the same set where none gains."""
     for place in range(len(node.members)):
-        trial = search.with_tuned_period(node.trial, place)
+        trial = search.with_tuned_number(node.trial, place)
         if trial is not node.trial:
             node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
             search.nodes.append(node)

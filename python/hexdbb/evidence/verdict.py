@@ -16,7 +16,7 @@ from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sufficiency import left_over
-from hexdbb.evidence.tuned import with_tuned_periods
+from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.learned import Learned, part_of
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
@@ -101,7 +101,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         if not _is_form(search):
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
-    node = with_tuned_periods(search, of_better_form(search, settled(search, node)))
+    node = with_tuned_numbers(search, of_better_form(search, settled(search, node)))
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
     known, by_name = {each.name for each in node.hypotheses}, search.by_name
@@ -202,7 +202,7 @@ def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned)
 
 def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: dict[str, Learned]) -> bool:
     homes = [by_name[name] for name in search.kin.get(cause.name, set())] if isinstance(cause, Known) else [cause]
-    return any(part_of(home) == part_of(learned) and home.element in (learned.element, 0) for home in homes)
+    return any(learned.is_within(part_of(home), home.element) for home in homes)
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:

@@ -4,9 +4,10 @@ Everything here is data and arithmetic on it: a hypothesis is chosen by name fro
 its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
 """
 
-from hexdbb.learned.places import ALL, FINER, Learned, hypotheses, part_of
+from hexdbb.learned.numbered import has_chosen_number, number_of, periodic, step
+from hexdbb.learned.places import ALL, FINER, Directed, Learned, further_hypotheses, hypotheses, part_of, products
 from hexdbb.learned.space import Columns, Curve, Space, Table
-from hexdbb.learned.variables import Variable, periodic, step, with_period
+from hexdbb.learned.variable import Variable
 from hexdbb.learned.words import Form, describe
 
 __all__ = [
@@ -14,15 +15,19 @@ __all__ = [
     "FINER",
     "Columns",
     "Curve",
+    "Directed",
     "Form",
     "Learned",
     "Space",
     "Table",
     "Variable",
     "describe",
+    "further_hypotheses",
+    "has_chosen_number",
     "hypotheses",
+    "number_of",
     "part_of",
     "periodic",
+    "products",
     "step",
-    "with_period",
 ]

@@ -5,16 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from hexdbb import _core
 from hexdbb.errors import InputError
+from hexdbb.learned import further
 from hexdbb.learned import variables as v
-from hexdbb.learned.variables import Variable
+from hexdbb.learned.numbered import numbered, with_number
+from hexdbb.learned.variable import Variable
 
 PREFIX = "learned"
 ALL = 0
 """Element number of a function that all elements share, or of a place that has one element only."""
 WHOLE = "all"
+PAIRS = {"1-2": 12, "3-4": 34, "5-6": 56}
+"""Elements that share a guideway and a platform's joint, and with them a function: names, and their numbers."""
 
 VARIABLES: dict[str, tuple[Variable, ...]] = {
     "slider": v.OF_SLIDER,
@@ -25,8 +30,9 @@ VARIABLES: dict[str, tuple[Variable, ...]] = {
     "ball": v.OF_BALL,
     "cup": v.OF_BALL,
     "reading": v.OF_READING,
+    "platform": (),
 }
-"""The variables of every place."""
+"""The simple variables of every place."""
 ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "platform_joint": 6}
 """Number of elements of those places that have more than one."""
 KINDS = {"slider": "slider", "leg": "leg", "lateral": "guideway", "vertical": "guideway", "platform_joint": "leg"}
@@ -35,9 +41,35 @@ FINER = (2, 4)
 range wide, as far as a reading every millimetre or two determines it."""
 SHARED = ("slider", "leg")
 """Places whose elements may share one function."""
-GUIDEWAY_PORT = "slider_joint"
+PORTS = {"lateral": "slider_joint", "vertical": "slider_joint", "platform": "platform_joint"}
+"""Ports of the engine that places push, where they have another name."""
 AXIS = {"lateral": 0, "vertical": 2}
 """Axis of a guideway's frame (x outward from the base centre, z up) along which a place pushes."""
+
+
+class _Base(Protocol):
+    @property
+    def guideway_angles_rad(self) -> Sequence[float]: ...
+
+
+class _Platform(Protocol):
+    @property
+    def joint_angles_rad(self) -> Sequence[float]: ...
+
+
+class Directed(Protocol):
+    """A machine, of which this package knows the directions alone (`hexdbb.machine.MachineFile`)."""
+
+    @property
+    def base(self) -> _Base:
+        """Has the directions of the guideways about z, rad."""
+        ...
+
+    @property
+    def platform(self) -> _Platform:
+        """Has the directions of its joints about its own z, rad."""
+        ...
+
 
 Push = tuple[int, tuple[tuple[int, float], ...]]
 """Element of the variable, from 0, and the engine's port columns that are pushed, each with its weight."""
@@ -64,22 +96,37 @@ class Learned:
         place = parts[0] if parts else ""
         if prefix != PREFIX or place not in VARIABLES:
             raise InputError(f"{name}: place {place!r} (expected {PREFIX}:PLACE, one of {', '.join(VARIABLES)})")
-        elements = _element_names(place)
+        elements = _elements_by_name(place)
         given = parts[1] if elements and len(parts) > 1 else ""
         if elements and given not in elements:
             raise InputError(f"{name}: element {given!r} (expected one of {', '.join(elements)})")
+        element = elements.get(given, ALL)
         rest = ":".join(parts[2:] if elements else parts[1:])
-        known = {each.name: each for each in VARIABLES[place]}
-        variable = known.get(rest) or v.numbered(rest)
+        every = variables_of(place, element)
+        known = {each.name: each for each in reversed(every)}
+        variable = known.get(rest) or numbered(rest, every)
         if variable is None:
-            raise InputError(f"{name}: variable {rest!r} (expected one of {', '.join(known)})")
-        return cls(place, ALL if given in ("", WHOLE) else int(given), variable)
+            raise InputError(f"{name}: variable {rest!r} (expected one of {', '.join(each.name for each in every)})")
+        return cls(place, element, variable)
 
     @property
     def name(self) -> str:
         """Name, as `hexdbb add` takes it."""
-        element = str(self.element) if self.element else WHOLE if self.place in SHARED else ""
-        return ":".join(filter(None, (PREFIX, self.place, element, self.variable.name)))
+        return ":".join(filter(None, (PREFIX, self.place, self.element_name, self.variable.name)))
+
+    @property
+    def element_name(self) -> str:
+        """Name of the element: `4`, `1-2`, `all`; empty where the place has one only."""
+        return next((name for name, each in _elements_by_name(self.place).items() if each == self.element), "")
+
+    def with_number(self, number: float) -> Learned:
+        """Return the same with another period or time constant in the variable's name."""
+        variables = variables_of(self.place, self.element)
+        return replace(self, variable=with_number(self.variable, number, variables))
+
+    def is_within(self, place: str, element: int) -> bool:
+        """Check whether it acts at an element of a part of the machine, as far as that reaches: a pair has two."""
+        return part_of(self) == place and (element == ALL or {*_members(self.element)} <= {*_members(element)})
 
     def finer(self, times: int) -> Learned:
         """Return the same hypothesis, name and all, with so many times as many splines."""
@@ -101,7 +148,7 @@ class Learned:
     @property
     def port(self) -> str:
         """Port of the engine that is pushed."""
-        return GUIDEWAY_PORT if self.place in AXIS else self.place
+        return PORTS.get(self.place, self.place)
 
     @property
     def kind(self) -> str:
@@ -121,38 +168,48 @@ class Learned:
     @property
     def _pushed(self) -> tuple[int, ...]:
         """Elements, from 0, that are pushed."""
-        if self.place in SHARED and self.element == ALL:
+        if self.place == "platform" or (self.place in (*SHARED, *AXIS) and self.element == ALL):
             return tuple(range(6))
         if self.place in AXIS:
             return (2 * self.element - 2, 2 * self.element - 1)
-        return (max(self.element - 1, 0),)
+        return tuple(max(each - 1, 0) for each in _members(self.element))
 
     def _by(self, pushed: int) -> int:
         """Return the element by whose variable another is pushed: two sliders share a guideway, 0 and 1 to 4 and 5."""
         return pushed ^ 1 if self.variable.of_neighbour else pushed
 
-    def pushes(self, component: int, guideway_angles_rad: Sequence[float]) -> tuple[Push, ...]:
+    def pushes(self, component: int, machine: Directed) -> tuple[Push, ...]:
         """Return by which element's variable one function goes, and what it pushes.
 
         Parameters
         ----------
         component : int
             Of the functions, from 0.
-        guideway_angles_rad : sequence of float, length 3
-            Directions of the machine's guideways about z.
+        machine : Directed
         """
         first = _core.PORTS[self.port][0]
         if self.place in SHARED:
             return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
-        if self.place in AXIS:
-            angle = guideway_angles_rad[self.element - 1]
-            axis = ((math.cos(angle), math.sin(angle), 0.0), (), (0.0, 0.0, 1.0))[AXIS[self.place]]
-            return tuple(
-                (each, tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
-                for each in self.elements
-            )
-        (element,) = self.elements
-        return ((element, ((first + 3 * element + component, 1.0),)),)
+        if self.components > 1 or not self.kind_has_axes:
+            (element,) = self.elements
+            return ((element, ((first + 3 * element + component, 1.0),)),)
+        return tuple(
+            (each, tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
+            for each, axis in ((each, self._axis(each, machine)) for each in self._pushed)
+        )
+
+    @property
+    def kind_has_axes(self) -> bool:
+        """Whether its place pushes along an axis that is known, in the base or in the platform."""
+        return self.place in AXIS or self.place == "platform"
+
+    def _axis(self, pushed: int, machine: Directed) -> tuple[float, float, float]:
+        """Return the direction in which one joint is pushed: in the base's frame, or in the platform's."""
+        if self.place != "platform" and AXIS[self.place] != 0:
+            return (0.0, 0.0, 1.0)
+        outward = machine.platform.joint_angles_rad if self.place == "platform" else machine.base.guideway_angles_rad
+        angle = outward[pushed // 2]
+        return (math.cos(angle), math.sin(angle), 0.0)
 
 
 def part_of(learned: Learned) -> str:
@@ -166,15 +223,58 @@ def is_learned(name: str) -> bool:
 
 
 def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
-    """Yield every hypothesis, or all that only describe forms; whether a variable varies, `Space.of` checks."""
+    """Yield every simple hypothesis, or all that only describe forms; whether a variable varies, `Space.of` checks."""
     for place, variables in VARIABLES.items():
-        for name in _element_names(place) or ("",):
+        for element in _single(place):
             for variable in variables:
-                if variable.of_forms != of_forms or (name == WHOLE and variable in v.OF_ONE):
-                    continue
-                yield Learned(place, ALL if name in ("", WHOLE) else int(name), variable)
+                if variable.of_forms == of_forms and not (element == ALL and place in SHARED and variable in v.OF_ONE):
+                    yield Learned(place, element, variable)
 
 
-def _element_names(place: str) -> list[str]:
-    names = [str(each + 1) for each in range(ELEMENTS.get(place, 0))]
-    return [*names, WHOLE] if place in SHARED else names
+def products() -> Iterator[Learned]:
+    """Yield the further hypotheses of single elements, and of all that share a function, in which one state multiplies
+    functions of another.
+    """
+    for place, variables in further.FURTHER.items():
+        for element in _single(place):
+            yield from (Learned(place, element, each) for each in variables if each.times)
+
+
+def further_hypotheses() -> Iterator[Learned]:
+    """Yield the hypotheses that are looked at where no simple one settles: products, memory, neighbours, pairs."""
+    for place, variables in further.FURTHER.items():
+        for element in _single(place):
+            if element != ALL or place not in SHARED:
+                yield from (Learned(place, element, each) for each in variables)
+    for place, variables in further.OF_PAIRS.items():
+        yield from (Learned(place, pair, each) for pair in PAIRS.values() for each in variables)
+    for place, variables in further.OF_WHOLE.items():
+        yield from (Learned(place, ALL, each) for each in variables)
+
+
+def variables_of(place: str, element: int) -> tuple[Variable, ...]:
+    """Return the variables of an element of a place, the simple ones first."""
+    if element in PAIRS.values():
+        return further.OF_PAIRS[place]
+    simple = () if place in AXIS and element == ALL else VARIABLES[place]
+    whole = further.OF_WHOLE.get(place, ()) if element == ALL else ()
+    return (*simple, *(further.FURTHER.get(place, ()) if simple else ()), *whole)
+
+
+def _single(place: str) -> list[int]:
+    """Return the elements of a place that have functions of their own, and what stands for all that share one."""
+    numbers = list(range(1, 1 + ELEMENTS.get(place, 0)))
+    return [*numbers, ALL] if place in SHARED or not numbers else numbers
+
+
+def _elements_by_name(place: str) -> dict[str, int]:
+    """Return the elements of a place by name; none where it has one only."""
+    numbers = {str(each): each for each in range(1, 1 + ELEMENTS.get(place, 0))}
+    pairs = PAIRS if place in further.OF_PAIRS else {}
+    whole = {WHOLE: ALL} if numbers and (place in SHARED or place in further.OF_WHOLE) else {}
+    return numbers | pairs | whole
+
+
+def _members(element: int) -> tuple[int, ...]:
+    """Return the elements, from 1, that an element's number stands for; 0 for that of a place that has one only."""
+    return tuple(int(each) for each in str(element))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.learned.places import ALL, Learned
+from hexdbb.learned.places import ALL, PAIRS, Learned
 from hexdbb.learned.space import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
@@ -19,17 +19,29 @@ PLACES = {
     "ball": "ball",
     "cup": "cup",
     "reading": "reading of the gauge",
+    "platform": "all joints of the platform, outward",
 }
-ALL_OF = {"slider": "all sliders along their guideways", "leg": "length of all legs"}
+PAIR_OF = {"slider": "sliders {} and {} along their guideway", "leg": "lengths of legs {} and {}"}
+ALL_OF = {
+    "slider": "all sliders along their guideways",
+    "leg": "length of all legs",
+    "lateral": "all guideways, outward",
+}
 AXES = (" along x", " along y", " along z")
 
 
 def place_words(hypothesis: Learned, component: int = 0) -> str:
     """Return where a function pushes, in words."""
+    return whole_place_words(hypothesis) + (AXES[component] if hypothesis.components > 1 else "")
+
+
+def whole_place_words(hypothesis: Learned) -> str:
+    """Return the same without the axis of one of its functions."""
     if hypothesis.element == ALL and hypothesis.place in ALL_OF:
         return ALL_OF[hypothesis.place]
-    axis = AXES[component] if hypothesis.components > 1 else ""
-    return PLACES[hypothesis.place].format(hypothesis.element) + axis
+    if hypothesis.element_name in PAIRS:
+        return PAIR_OF[hypothesis.place].format(*hypothesis.element_name.split("-"))
+    return PLACES[hypothesis.place].format(hypothesis.element)
 
 
 def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, component: int = 0) -> str:

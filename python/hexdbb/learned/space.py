@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -11,8 +10,9 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
-from hexdbb.learned.places import Learned, Push
-from hexdbb.learned.variables import ELAPSED, INSTANT_S, SCREW_LEAD, SPLINES_MIN, Variable
+from hexdbb.learned.numbered import INSTANT_S
+from hexdbb.learned.places import Directed, Learned, Push
+from hexdbb.learned.variable import ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable
 
 Floats = NDArray[np.float64]
 
@@ -172,8 +172,8 @@ class Space:
                 low, high = float(argument.min()), float(argument.max())
                 if variable.is_log:
                     low = float(np.quantile(argument, FIRST_PART))
-        if variable.times and variable.times != ELAPSED and not np.any(samples[variable.times]):
-            raise InputError(f"{name}: {variable.times} is zero in all samples (expected it to vary)")
+        if variable.times and variable.times != ELAPSED and not np.any(np.nan_to_num(samples[variable.times])):
+            raise InputError(f"{name}: {variable.times} is zero or unknown in all samples (expected it to vary)")
         time_s = samples["time_s"]
         first, last = float(np.min(time_s)), float(np.max(time_s))
         middle_s, span_s = 0.5 * (first + last), max(last - first, SMALLEST_RANGE)
@@ -275,7 +275,7 @@ class Space:
         edges = 0.5 * (points[1:] + points[:-1])
         return np.bincount(np.searchsorted(edges, values), minlength=len(points)).astype(np.float64)
 
-    def tables(self, coefficients: Floats, guideway_angles_rad: Sequence[float]) -> tuple[Table, ...]:
+    def tables(self, coefficients: Floats, machine: Directed) -> tuple[Table, ...]:
         """Return the functions of some coefficients (mm), shape (size,), as a compensation needs them."""
         found, points, variable = [], self.points(), self.hypothesis.variable
         basis = self.functions(points)
@@ -285,7 +285,7 @@ class Space:
                 column=variable.column,
                 times=variable.times,
                 period=self.period,
-                pushes=self.hypothesis.pushes(component, guideway_angles_rad),
+                pushes=self.hypothesis.pushes(component, machine),
                 knots=tuple(map(float, points)),
                 values_mm=tuple(map(float, basis @ part)),
             )

@@ -8,7 +8,7 @@ import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
 from hexdbb.learned.space import Curve
-from hexdbb.learned.variables import ELAPSED
+from hexdbb.learned.variable import ELAPSED
 
 ENOUGH = 0.9
 """Part of a function's variation that a form must explain to be named: what is left is then below a third of it."""
@@ -26,6 +26,13 @@ TIMES = {
     "slider_joint_direction": ", its sign turning over with the sense in which the joint turns",
     "direction": ", its sign turning over with the direction of the circle",
     ELAPSED: ", growing with time",
+    "velocity_mm_s": ", for each mm/s of velocity",
+    "acceleration_mm_s2": ", for each mm/s² of acceleration",
+    "leg_force": ", for each unit of the leg's force",
+    "slider_joint_rate_rad_s": ", for each rad/s of the joint's turning",
+    "warming_k": ", for each K of warming",
+    "speed_mm_s": ", for each mm/s of the platform's speed",
+    "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
 }
 
 

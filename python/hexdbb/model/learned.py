@@ -6,7 +6,6 @@ deviation (mm), T of `hexdbb.learned.Space.prior_factor`. So they are fitted lik
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -15,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.learned import Curve, Space, Table
+from hexdbb.learned import Curve, Directed, Space, Table
 from hexdbb.model.own import Tabulated
 
 Floats = NDArray[np.float64]
@@ -80,7 +79,7 @@ class LearnedEffect:
             physics=f"A function learned from readings, of {hypothesis.variable.words}.",
             source="learned",
             element_kind=hypothesis.kind,
-            elements=[str(hypothesis.element or 1)],
+            elements=[hypothesis.element_name or "1"],
             parameters=[
                 _core.ParameterInfo(name=f"axis_{k + 1}", unit="mm", prior_sigma=sigma, limit=LIMIT_OF_SIGMA * sigma)
                 for k in range(self.size)
@@ -96,7 +95,7 @@ class LearnedEffect:
         hypothesis, columns = self.space.hypothesis, self.space.hypothesis.variable.columns
         pushed: dict[int, Floats] = {}
         for component in range(hypothesis.components):
-            for element, pushes in hypothesis.pushes(component, samples.machine.base.guideway_angles_rad):
+            for element, pushes in hypothesis.pushes(component, samples.machine):
                 if element not in pushed:
                     pushed[element] = self.space.design(samples, element) @ self.factor
                 for port, weight in pushes:
@@ -109,9 +108,9 @@ class LearnedEffect:
         """Return the splines' coefficients (mm) of the effect's values, shape (size,)."""
         return np.concatenate([self.factor @ part for part in np.split(values, self.space.hypothesis.components)])
 
-    def tables(self, values: Floats, guideway_angles_rad: Sequence[float]) -> tuple[Table, ...]:
-        """Return the function as a compensation of a machine with such guideways needs it, one table a component."""
-        return self.space.tables(self.coefficients(values), guideway_angles_rad)
+    def tables(self, values: Floats, machine: Directed) -> tuple[Table, ...]:
+        """Return the function as a compensation of a machine needs it, one table a component."""
+        return self.space.tables(self.coefficients(values), machine)
 
     def curves(self, values: Floats) -> tuple[Curve, ...]:
         """Return the function over its variable, one a component: the effect's values, shape (size,), set it."""

@@ -25,6 +25,9 @@ OWN = {
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
+    "deflection_direction": ("sample", "1", "sense in which that changes, +1 or -1; 0: never moved"),
+    "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),
+    "NAME.relaxing@S": ("sample", "1", "column `NAME` less the same"),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}

@@ -10,6 +10,7 @@ polynomials of the deflection are fitted beside it, and only what geometry predi
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import Legendre
@@ -21,7 +22,7 @@ from hexdbb.model import Model, MountKey, new_model
 
 Floats = NDArray[np.float64]
 
-DEFLECTION = "deflection_mm"
+DEFLECTION, DEFLECTION_DIRECTION = "deflection_mm", "deflection_direction"
 FITTED_ROWS = 3000
 """Readings that the step is taken from: some tens for each value of geometry and set-up, as in `Criteria.fit_rows`."""
 STEPS = 5
@@ -30,6 +31,8 @@ DEGREES = (2, 3, 4, 5)
 """Degrees of the polynomials: enough for a gauge that bends, that saturates, or whose gain differs by its direction."""
 BEND_MM = 0.1
 """Prior standard deviation of their coefficients: as large as the deflections that geometry makes."""
+LEAST_TURN_MM = 5e-4
+"""Way back from which a gauge has turned: several counts of the encoders, far below any deflection."""
 NOISE_MM = 1e-3
 """Against which priors count: of tenths of a millimetre, they are the same beside the noise of any gauge."""
 
@@ -82,3 +85,27 @@ def _stepped(model: Model, rows: _core.Samples, reading_mm: Floats, degrees: Seq
     step = np.linalg.solve(columns.T @ columns + np.eye(columns.shape[1]), gradient)
     values[free] += prior * step[: len(free)]
     return model.with_values(values)
+
+
+def direction_of(deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
+    """Return the sense in which the gauge moves: +1, -1, 0 where it never moved in its sweep; shape (n,).
+
+    It turns over where the deflection has come back by `LEAST_TURN_MM` from the farthest that it was: the encoders'
+    steps do not show in it.
+    """
+    order = np.lexsort((time_s, sweep))
+    found = np.zeros(len(deflection_mm))
+    for rows in np.split(order, np.flatnonzero(np.diff(sweep[order])) + 1):
+        found[rows] = _turning(deflection_mm[rows])
+    return found
+
+
+def _turning(values: Floats) -> Floats:
+    """Return the sense of one sweep, in order of time."""
+    found, way, farthest = np.zeros(len(values)), 0.0, float(values[0])
+    for place, value in enumerate(values.tolist()):
+        ahead = value - farthest
+        if abs(ahead) > LEAST_TURN_MM or ahead * way > 0.0:
+            way, farthest = float(np.sign(ahead)), value
+        found[place] = way
+    return found

@@ -17,9 +17,10 @@ from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
-from hexdbb.samples.deflection import DEFLECTION, deflection_mm
+from hexdbb.samples.deflection import DEFLECTION, DEFLECTION_DIRECTION, deflection_mm, direction_of
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
+from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
 
@@ -61,24 +62,37 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        given = (name for name in self.columns if name not in (*STATE, *DERIVED, DEFLECTION))
-        return (*given, *STATE, *DERIVED, DEFLECTION)
+        later = (*STATE, *DERIVED, DEFLECTION, DEFLECTION_DIRECTION)
+        return (*(name for name in self.columns if name not in later), *later)
 
     def column(self, name: str) -> NDArray[Any] | None:
         """Return a column, None where there is no such; threads that ask at once both derive the same."""
         if name not in self.columns:
-            make = self.pending.get(name)
-            if make is not None:
-                self.columns[name] = make()
-                self.pending.pop(name, None)
-            elif name in STATE:
-                self.columns |= self._derived_state(name)
-            elif name in DERIVED:
-                given = {each: column for each in DERIVED_FROM if (column := self.column(each)) is not None}
-                self.columns |= derived_columns(self.machine, given, self.set_ups)
-            elif name == DEFLECTION:
-                self.columns[name] = self._deflection_mm()
+            # There are as many columns that remember as numbers in their names: none is kept.
+            if (how := remembered_of(name)) is not None:
+                return self._remembered(how["column"], how["how"], float(how["constant_s"]))
+            self._make(name)
         return self.columns.get(name)
+
+    def _make(self, name: str) -> None:
+        make = self.pending.get(name)
+        if make is not None:
+            self.columns[name] = make()
+            self.pending.pop(name, None)
+        elif name in STATE:
+            self.columns |= self._derived_state(name)
+        elif name in DERIVED:
+            given = {each: column for each in DERIVED_FROM if (column := self.column(each)) is not None}
+            self.columns |= derived_columns(self.machine, given, self.set_ups)
+        elif name == DEFLECTION:
+            self.columns[name] = self._deflection_mm()
+        elif name == DEFLECTION_DIRECTION:
+            self.columns[name] = direction_of(*self._known(DEFLECTION, "time_s", "sweep"))
+
+    def _remembered(self, name: str, how: str, constant_s: float) -> Floats | None:
+        if name not in self.names:
+            return None
+        return remembered_column(how, constant_s, *self._known(name, "time_s", "sweep"))
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
         """Return the engine's form with at least some columns of the state, and the names of those that it holds.
@@ -103,6 +117,10 @@ class Whole:
             set_ups=list(self.set_ups),
             state={name: column for name in names if (column := self.column(name)) is not None},
         )
+
+    def _known(self, *names: str) -> list[NDArray[Any]]:
+        """Return columns that every table has."""
+        return [column for each in names if (column := self.column(each)) is not None]
 
     def _deflection_mm(self) -> Floats:
         nominal_mm = self.column("nominal_reading_mm")

@@ -14,7 +14,7 @@ from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.screen import Screen
 from hexdbb.evidence.search import Node, Search
 from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.tuned import around, retunings, with_tuned_periods
+from hexdbb.evidence.tuned import around, retunings, with_tuned_numbers
 from hexdbb.learned import Learned, periodic
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
@@ -56,7 +56,7 @@ def _tone(search: Search, turns_off: float) -> Learned:
 @pytest.mark.parametrize("turns_off", [-0.1, 0.05])
 def test_a_period_is_moved_to_the_readings_own(search: Search, turns_off: float) -> None:
     node = _node(search, _tone(search, turns_off))
-    tuned = with_tuned_periods(search, node)
+    tuned = with_tuned_numbers(search, node)
     (found,) = tuned.hypotheses
     assert isinstance(found, Learned)
     duration_s = float(np.ptp(search.engine.readings.state["time_s"]))

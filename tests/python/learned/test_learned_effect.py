@@ -259,7 +259,7 @@ def test_tables_for_a_compensation_are_the_function(planned: Samples) -> None:
     model = made(planned, "learned:leg:5:turning_rate", lambda x: 0.004 * np.tanh(x / 1e-3))
     term = model.terms[0]
     assert term.learned is not None
-    (table,) = term.learned.tables(term.values, PLAN.machine_file().base.guideway_angles_rad)
+    (table,) = term.learned.tables(term.values, PLAN.machine_file())
     assert (table.port, table.column, table.times) == ("leg", "slider_joint_rate_rad_s", "")
     ((element, ((port, weight),)),) = table.pushes
     assert all(np.diff(table.knots) > 0.0)

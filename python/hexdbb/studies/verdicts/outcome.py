@@ -10,18 +10,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from hexdbb.learned import Learned
+from hexdbb.learned.further import FACTORS
+from hexdbb.learned.numbered import MEMORIES
 from hexdbb_truth.forms.labels import Label
 
 NAMED = ("right", "more")
 """Outcomes in which the main cause is right, element and all."""
 ORDER = ("false", "missed", "ambiguous", "port", "variable", "element", "right")
 """Outcomes of one fault, the worst first: that of several is the worst of them."""
-PLACES = {"lateral": "guideway", "vertical": "guideway"}
+PLACES = {"lateral": "guideway", "vertical": "guideway", "platform": "platform_joint"}
 """The truth's words for the places of learned hypotheses, where they differ."""
 VARIABLES = {
     "fine_position": ("position",),
     "screw_phase": ("position",),
-    "neighbour_velocity": ("velocity",),
     "direction": ("direction",),
     "direction_position": ("direction", "position"),
     "since_reversal_time": ("since_reversal", "direction"),
@@ -36,6 +38,8 @@ VARIABLES = {
     "angle_direction": ("angle", "direction"),
     "bar_angle": ("angle",),
     "circle_direction": ("direction",),
+    "deflection_direction": ("deflection", "direction"),
+    "joint_direction": ("joint_turning",),
     "speed": ("feed", "velocity"),
     "reading": ("deflection",),
     "warming": ("time",),
@@ -138,17 +142,30 @@ def _place_of(name: str, label: Label) -> str:
         (label.port, label.variables, label.elements),
         *((each.port, (each.variable,), each.elements or ()) for each in label.equivalents),
     ]
-    _, place, *rest = name.split(":")
-    variable = rest[-1].partition("@")[0]
-    element = int(rest[0]) if len(rest) == 2 and rest[0].isdigit() else None
+    learned = Learned.parse(name)
+    named = {int(each) for each in learned.element_name.split("-") if each.isdigit()}
     there = [
-        variables
+        set(variables)
         for port, variables, elements in truths
-        if PLACES.get(place, place) == port and not (elements and element is not None and element not in elements)
+        if PLACES.get(learned.place, learned.place) == port and (not elements or named <= {*elements})
     ]
-    if any(set(VARIABLES.get(variable, (variable,))) & set(variables) for variables in there):
+    asked = _truths_words(learned.variable.name)
+    if any(all(words & variables for words in asked) for variables in there):
         return "right"
     return "variable" if there else "port"
+
+
+def _truths_words(variable: str) -> list[set[str]]:
+    """Return the truth's words for a variable; of a product those of either part, of which the truth must have both."""
+    name = variable.partition("@")[0].removeprefix("neighbour_")
+    for how in MEMORIES:
+        name = name.removesuffix(f"_{how}")
+    if name in VARIABLES:
+        return [{*VARIABLES[name]}]
+    for factor in FACTORS:
+        if name.startswith(f"{factor}_"):
+            return [{*VARIABLES.get(each, (each,))} for each in (factor, name.removeprefix(f"{factor}_"))]
+    return [{name}]
 
 
 def _is_stated(label: Label, effect: str, number: str) -> bool:
