@@ -1,0 +1,117 @@
+"""Further variables: what multiplies, what remembers, what neighbours do; looked at where nothing simpler settles.
+
+There are as many of them as of the simple ones, and each contains one or the other of those: a lag that grows with the
+load contains a lag. So they are no candidates while a simpler function explains and predicts what is missing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from hexdbb.learned import variables as v
+from hexdbb.learned.numbered import MEMORIES, remembered
+from hexdbb.learned.variable import ELAPSED, Variable
+
+SPLINES = 6
+"""Splines of a product: what multiplies sets most of its form already."""
+CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
+"""Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
+then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
+FACTORS = {
+    "velocity": ("velocity_mm_s", "velocity"),
+    "acceleration": ("acceleration_mm_s2", "acceleration"),
+    "leg_force": ("leg_force", "force of the leg"),
+    "direction": ("travel_direction", "direction of travel"),
+    "joint_direction": ("slider_joint_direction", "sense in which the slider's joint turns"),
+    "time": (ELAPSED, "time"),
+    "warming": ("warming_k", "warming"),
+    "speed": ("speed_mm_s", "speed of the platform"),
+    "circle_direction": ("direction", "direction of the circle"),
+    "deflection_direction": ("deflection_direction", "sense in which the gauge moves"),
+}
+"""What may multiply a function: name, column and words."""
+
+
+def product(factor: str, variable: Variable) -> Variable:
+    """Return the functions of a variable times one of `FACTORS`: `velocity_leg_force`."""
+    column, words = FACTORS[factor]
+    return replace(
+        variable,
+        name=f"{factor}_{variable.name}",
+        words=f"{variable.words}, times the {words}",
+        count=variable.count if variable.period else SPLINES,
+        times=column,
+        signed=False,
+        of_forms=False,
+    )
+
+
+def _neighbour(variable: Variable) -> Variable:
+    words = variable.words.replace("of the slider", "of the other slider on the guideway")
+    words = words.replace("of the leg", "of the other leg of the pair")
+    return replace(variable, name=f"neighbour_{variable.name}", words=words, of_neighbour=True)
+
+
+def _remembered(*variables: Variable) -> Iterator[Variable]:
+    for each in variables:
+        for how in MEMORIES:
+            yield from (remembered(each, how, constant_s) for constant_s in CONSTANTS_S)
+
+
+PRODUCTS_OF_SLIDER = (
+    *(product("velocity", each) for each in (v.POSITION, v.FORCE)),
+    *(product("acceleration", each) for each in (v.POSITION, v.FORCE)),
+    *(product("leg_force", each) for each in (v.POSITION,)),
+    *(product("direction", each) for each in (v.FORCE, v.TIME, v.WARMING)),
+    *(product("time", each) for each in (v.VELOCITY, v.FORCE)),
+    product("warming", v.POSITION),
+)
+PRODUCTS_OF_LEG = (
+    *PRODUCTS_OF_SLIDER,
+    *(product("leg_force", each) for each in (v.JOINT_ANGLE, v.SWING_ANGLE)),
+    *(product("joint_direction", each) for each in (v.FORCE, v.TIME)),
+    *(product("time", each) for each in (v.JOINT_ANGLE,)),
+)
+PRODUCTS_OF_GUIDEWAY = (
+    *(product("leg_force", each) for each in (v.POSITION,)),
+    *(product("direction", each) for each in (v.FORCE, v.TIME)),
+    product("velocity", v.POSITION),
+)
+PRODUCTS_OF_READING = (
+    *(product("time", each) for each in (v.DEFLECTION, v.ANGLE)),
+    *(product("warming", each) for each in (v.DEFLECTION, v.ANGLE)),
+    *(product("deflection_direction", each) for each in (v.DEFLECTION,)),
+    *(product("speed", each) for each in (v.ANGLE, v.DEFLECTION)),
+    *(product("circle_direction", each) for each in (v.BAR_ANGLE, v.DEFLECTION, v.TIME, v.SPEED)),
+)
+NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
+OF_PAIR_OF_SLIDERS = (
+    *(v.POSITION, v.FINE_POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.FORCE),
+    *(v.TIME, v.TIME_POSITION, v.WARMING, v.SCREW_PHASE),
+)
+OF_PAIR_OF_LEGS = (
+    *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE)),
+    *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
+)
+OF_BALL = (
+    *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
+    *(product(factor, v.ANGLE) for factor in ("speed", "time")),
+)
+GROWS = (v.TIME, v.WARMING)
+"""Variables of what a whole structure does: it grows."""
+
+FURTHER: dict[str, tuple[Variable, ...]] = {
+    "slider": (*PRODUCTS_OF_SLIDER, *NEIGHBOURS, *_remembered(v.FORCE)),
+    "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE)),
+    "lateral": (*PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.FORCE)),
+    "vertical": (*PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.FORCE)),
+    "ball": OF_BALL,
+    "cup": OF_BALL,
+    "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION)),
+}
+"""Further variables of single elements by place."""
+OF_PAIRS: dict[str, tuple[Variable, ...]] = {"slider": OF_PAIR_OF_SLIDERS, "leg": OF_PAIR_OF_LEGS}
+"""Variables of two sliders or legs of one guideway that share a function, by place."""
+OF_WHOLE: dict[str, tuple[Variable, ...]] = {"lateral": GROWS, "platform": GROWS}
+"""Variables of structures whose elements all move outward alike, by place."""

@@ -1,0 +1,105 @@
+"""Variables whose names carry numbers, which the readings chose: instants, periods, and times that memory lasts.
+
+Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), and what follows another variable
+late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
+less the same lag).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from hexdbb.learned.variable import OF_MEMORY, Variable
+
+PERIOD_SPLINES = 8
+"""Splines of a period that the readings chose: a sine with two harmonics."""
+INSTANT_S = 1e-4
+"""Resolution of instants in names: far below the time between two samples."""
+MEMORY_SPLINES = 6
+"""Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
+LAGGED, RELAXING = "lagged", "relaxing"
+MEMORIES = {LAGGED: "{} as it was about {:.3g} s before", RELAXING: "change of the {} within about {:.3g} s"}
+"""How a variable may be remembered, and how people say it."""
+MEMORY_DIGITS = 4
+"""Significant digits of a time that memory lasts: readings determine it to a few per cent."""
+
+
+def step(instants_s: Sequence[float]) -> Variable:
+    """Return the variable of steps at some instants, rounded down to what its name holds."""
+    kept = sorted({math.floor(each / INSTANT_S + 1e-6) * INSTANT_S for each in instants_s})
+    names = [f"{each:.4f}".rstrip("0").rstrip(".") for each in kept]
+    at = tuple(float(each) for each in names)
+    return Variable(f"step@{'/'.join(names)}", "time_s", "s", "time", len(at), instants=at)
+
+
+def periodic(column: str, period: float) -> Variable:
+    """Return the variable of what repeats with a period of `time` (s) or `position` (mm)."""
+    name = f"{period:.7g}"
+    of = {"time": ("time_s", "s", "time"), "position": ("sliders_mm", "mm", "position of the slider")}
+    return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
+
+
+def remembered(variable: Variable, how: str, constant_s: float) -> Variable:
+    """Return the variable of what remembers another one, `LAGGED` or `RELAXING`, with a time constant."""
+    number = f"{constant_s:.{MEMORY_DIGITS}g}"
+    return replace(
+        variable,
+        name=f"{variable.name}_{how}@{number}",
+        column=f"{variable.column}{OF_MEMORY}{how}@{number}",
+        words=MEMORIES[how].format(variable.words, float(number)),
+        count=MEMORY_SPLINES,
+        signed=False,
+    )
+
+
+def has_chosen_number(variable: Variable) -> bool:
+    """Whether its name carries a number that readings chose, and that can be moved a little: a period, a constant."""
+    return "@" in variable.name and not variable.instants
+
+
+def number_of(variable: Variable) -> float:
+    """Return the number in a variable's name: a period (s or mm) or a time constant (s)."""
+    return float(variable.name.partition("@")[2])
+
+
+def with_number(variable: Variable, number: float, variables: Sequence[Variable]) -> Variable:
+    """Return a variable with another period or time constant, as many splines as before.
+
+    Parameters
+    ----------
+    variable : Variable
+    number : float
+    variables : sequence of Variable
+        Those at its place, of which it may remember one.
+    """
+    kind = variable.name.partition("@")[0]
+    found = numbered(f"{kind}@{number:.7g}", variables)
+    assert found is not None  # the variable has such a name
+    return replace(found, count=variable.count)
+
+
+def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
+    """Return the variable whose name carries numbers, at a place of such variables; None where it is not of the kind.
+
+    Parameters
+    ----------
+    name : str
+    variables : sequence of Variable
+        Those at the place, of which it may remember one.
+    """
+    kind, _, numbers = name.partition("@")
+    if not re.fullmatch(r"-?\d+(\.\d+)?(e[+-]?\d+)?(/-?\d+(\.\d+)?)*", numbers):
+        return None
+    values = [float(each) for each in numbers.split("/")]
+    if kind == "step":
+        return step(values)
+    if len(values) != 1 or values[0] <= 0.0:
+        return None
+    if kind in ("time_period", "position_period"):
+        return periodic(kind.removesuffix("_period"), values[0])
+    of, _, how = kind.rpartition("_")
+    known = {each.name: each for each in variables}
+    return remembered(known[of], how, values[0]) if how in MEMORIES and of in known else None

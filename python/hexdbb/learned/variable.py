@@ -1,0 +1,100 @@
+"""A variable on which an unknown cause may depend: a column of the samples and a space of functions of it.
+
+A file or a command names a variable, it never defines one (`variables.py`, `further.py`, `numbered.py`). Each stands for
+splines of a column, possibly times a second column, possibly with a step where the column changes sign.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+ELAPSED = "elapsed"
+"""Time, centred and divided by its span: no column of the samples, since a function's own limits scale it."""
+SPLINES_MIN = 3
+"""A cubic spline has one more function at least."""
+SCREW_LEAD = -1.0
+"""Period of a variable that repeats with every turn of the machine's screws."""
+TURN = 2.0 * np.pi
+OF_MEMORY = "."
+"""In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A space of functions of the samples.
+
+    Attributes
+    ----------
+    name : str
+        As in `learned:leg:5:turning_rate`.
+    column : str
+        Of `hexdbb.samples.Samples`; empty where only `times` counts.
+    unit : str
+    words : str
+        What people call it.
+    count : int
+        Number of splines; 1: linear in the column, or constant without one.
+    times : str
+        A second column that multiplies; empty where none does.
+    period : float
+        Of the column, in its unit; 0 where it is not periodic, `SCREW_LEAD` where the machine's screws set it.
+    signed : bool
+        Whether a step with the column's sign belongs to it, and its splines are dense about zero.
+    is_even : bool
+        Whether its splines lie evenly all the same: what grows with a velocity or with its square bends nowhere.
+    from_start : bool
+        Whether functions are zero at the column's smallest value: they say what changes, not an offset that stays.
+    of_neighbour : bool
+        Whether the column is that of the other slider on the same guideway.
+    is_log : bool
+        Whether the splines are those of the column's logarithm.
+    axis : int
+        Component of a column of three.
+    least : float
+        Range up to which it counts as constant.
+    of_forms : bool
+        Whether it only describes how the form of a cause differs, and no cause is sought in it.
+    instants : tuple of float
+        Values of the column from which a step each holds; then there are no splines.
+    """
+
+    name: str
+    column: str
+    unit: str
+    words: str
+    count: int = 1
+    times: str = ""
+    period: float = 0.0
+    signed: bool = False
+    is_even: bool = False
+    from_start: bool = False
+    of_neighbour: bool = False
+    is_log: bool = False
+    axis: int = 0
+    least: float = 0.0
+    of_forms: bool = False
+    instants: tuple[float, ...] = ()
+
+    @property
+    def columns(self) -> int:
+        """Number of functions."""
+        return self.count + int(self.signed)
+
+    @property
+    def needs(self) -> frozenset[str]:
+        """Columns of the samples that its functions follow from."""
+        named = {"time_s" if each == ELAPSED else each for each in (self.times, self.column)} - {""}
+        remembered = {"time_s" for each in named if OF_MEMORY in each}
+        return frozenset({each.partition(OF_MEMORY)[0] for each in named} | remembered)
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether it is an offset that nothing changes."""
+        return not self.needs
+
+    @property
+    def is_smooth(self) -> bool:
+        """Whether it has splines enough for their smoothness to be chosen."""
+        return self.count > SPLINES_MIN and not self.instants
