@@ -91,7 +91,7 @@ ALLOWED: dict[str, set[str]] = {
         "workspace": "errors files machine kinematics identifiability plan",
         # the thesis' own way, beside ours; the estimator judged on true machines
         "studies": (
-            "hexdbb_truth errors files threads units machine plan record kinematics model samples "
+            "hexdbb_truth errors files threads units machine plan record kinematics learned model samples "
             "identifiability diagnosis ledger evidence discovery planning plots rig cluster _core"
         ),
         # the public face, beside the commands

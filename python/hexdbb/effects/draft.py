@@ -55,8 +55,8 @@ def draft(model: Model, name: str) -> str:
 
 def drafted_name(space: Space, component: int) -> str:
     """Return the name of the drafted effect: ``learned_leg_5_turning_rate``."""
-    axis = f"_{'xyz'[component]}" if space.hypothesis.components > 1 else ""
-    return space.hypothesis.name.replace(":", "_") + axis
+    axis = space.hypothesis.axis_name(component)
+    return "_".join(filter(None, (space.hypothesis.name.replace(":", "_"), axis)))
 
 
 def _effect(space: Space, curve: Curve, form: Form, component: int, machine: MachineFile) -> str:

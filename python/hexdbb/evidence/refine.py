@@ -159,7 +159,9 @@ def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | 
     search.propose(proposed)
     of_forms = all_varying(readings, of_forms=True)
     further = search.further.values() if any(map(search.is_further, node.hypotheses)) else ()
-    every = dict.fromkeys((*search.hypotheses, *of_forms, *search.products, *further, *(p.hypothesis for p in proposed)))
+    every = dict.fromkeys(
+        (*search.hypotheses, *of_forms, *search.products, *further, *(p.hypothesis for p in proposed))
+    )
     return [
         each
         for each in every

@@ -98,6 +98,16 @@ OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
+OF_GUIDEWAY = (
+    *(v.POSITION, v.DIRECTION_POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.TIME, v.TIME_POSITION),
+    product("leg_force", v.POSITION),
+)
+"""Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
+OF_PAIR_OF_JOINTS = (
+    *(replace(each, from_start=True) for each in (v.TIME, v.WARMING)),
+    *(v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED),
+)
+"""Variables of the platform's joint that two legs share: those that both have."""
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
@@ -106,12 +116,17 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE)),
     "lateral": (*PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.FORCE)),
     "vertical": (*PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.FORCE)),
+    "guideway": OF_GUIDEWAY,
     "ball": OF_BALL,
     "cup": OF_BALL,
     "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION)),
 }
 """Further variables of single elements by place."""
-OF_PAIRS: dict[str, tuple[Variable, ...]] = {"slider": OF_PAIR_OF_SLIDERS, "leg": OF_PAIR_OF_LEGS}
-"""Variables of two sliders or legs of one guideway that share a function, by place."""
+OF_PAIRS: dict[str, tuple[Variable, ...]] = {
+    "slider": OF_PAIR_OF_SLIDERS,
+    "leg": OF_PAIR_OF_LEGS,
+    "platform_joint": OF_PAIR_OF_JOINTS,
+}
+"""Variables of two sliders, legs or joints of one guideway that share a function, by place."""
 OF_WHOLE: dict[str, tuple[Variable, ...]] = {"lateral": GROWS, "platform": GROWS}
 """Variables of structures whose elements all move outward alike, by place."""

@@ -1,8 +1,8 @@
 """Variables whose names carry numbers, which the readings chose: instants, periods, and times that memory lasts.
 
-Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), and what follows another variable
-late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
-less the same lag).
+Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), and what follows another
+variable late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the
+variable less the same lag).
 """
 
 from __future__ import annotations

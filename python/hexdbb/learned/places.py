@@ -30,21 +30,36 @@ VARIABLES: dict[str, tuple[Variable, ...]] = {
     "ball": v.OF_BALL,
     "cup": v.OF_BALL,
     "reading": v.OF_READING,
+    "guideway": (),
     "platform": (),
 }
 """The simple variables of every place."""
-ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "platform_joint": 6}
+ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "guideway": 3, "platform_joint": 6}
 """Number of elements of those places that have more than one."""
-KINDS = {"slider": "slider", "leg": "leg", "lateral": "guideway", "vertical": "guideway", "platform_joint": "leg"}
+COMPONENTS = {"platform_joint": 3, "ball": 3, "cup": 3, "guideway": 2}
+"""Number of functions of places that push along several axes, because the direction is not known."""
+KINDS = {
+    "slider": "slider",
+    "leg": "leg",
+    "lateral": "guideway",
+    "vertical": "guideway",
+    "guideway": "guideway",
+    "platform_joint": "leg",
+}
 FINER = (2, 4)
 """Multiples of a variable's splines that readings may ask for: four times twelve knots follow what is a fiftieth of the
 range wide, as far as a reading every millimetre or two determines it."""
 SHARED = ("slider", "leg")
 """Places whose elements may share one function."""
-PORTS = {"lateral": "slider_joint", "vertical": "slider_joint", "platform": "platform_joint"}
+PORTS = {
+    "lateral": "slider_joint",
+    "vertical": "slider_joint",
+    "guideway": "slider_joint",
+    "platform": "platform_joint",
+}
 """Ports of the engine that places push, where they have another name."""
-AXIS = {"lateral": 0, "vertical": 2}
-"""Axis of a guideway's frame (x outward from the base centre, z up) along which a place pushes."""
+AXES = {"lateral": "x", "vertical": "z", "guideway": "xz"}
+"""Axes of a guideway's frame (x outward from the base centre, z up) along which a place pushes."""
 
 
 class _Base(Protocol):
@@ -158,7 +173,11 @@ class Learned:
     @property
     def components(self) -> int:
         """Number of functions: one for each axis where the direction is not known."""
-        return 3 if self.place in ("platform_joint", "ball", "cup") else 1
+        return COMPONENTS.get(self.place, 1)
+
+    def axis_name(self, component: int) -> str:
+        """Name of the axis along which one of its functions pushes; empty where it has one function only."""
+        return AXES.get(self.place, "xyz")[component] if self.components > 1 else ""
 
     @property
     def elements(self) -> tuple[int, ...]:
@@ -168,9 +187,9 @@ class Learned:
     @property
     def _pushed(self) -> tuple[int, ...]:
         """Elements, from 0, that are pushed."""
-        if self.place == "platform" or (self.place in (*SHARED, *AXIS) and self.element == ALL):
+        if self.place == "platform" or (self.place in (*SHARED, *AXES) and self.element == ALL):
             return tuple(range(6))
-        if self.place in AXIS:
+        if self.place in AXES:
             return (2 * self.element - 2, 2 * self.element - 1)
         return tuple(max(each - 1, 0) for each in _members(self.element))
 
@@ -190,22 +209,17 @@ class Learned:
         first = _core.PORTS[self.port][0]
         if self.place in SHARED:
             return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
-        if self.components > 1 or not self.kind_has_axes:
-            (element,) = self.elements
-            return ((element, ((first + 3 * element + component, 1.0),)),)
+        pushed = ((each, self._axis(component, each, machine)) for each in self._pushed)
         return tuple(
             (each, tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
-            for each, axis in ((each, self._axis(each, machine)) for each in self._pushed)
+            for each, axis in pushed
         )
 
-    @property
-    def kind_has_axes(self) -> bool:
-        """Whether its place pushes along an axis that is known, in the base or in the platform."""
-        return self.place in AXIS or self.place == "platform"
-
-    def _axis(self, pushed: int, machine: Directed) -> tuple[float, float, float]:
+    def _axis(self, component: int, pushed: int, machine: Directed) -> tuple[float, float, float]:
         """Return the direction in which one joint is pushed: in the base's frame, or in the platform's."""
-        if self.place != "platform" and AXIS[self.place] != 0:
+        if self.place not in (*AXES, "platform"):
+            return (float(component == 0), float(component == 1), float(component == 2))
+        if self.place != "platform" and AXES[self.place][component] == "z":
             return (0.0, 0.0, 1.0)
         outward = machine.platform.joint_angles_rad if self.place == "platform" else machine.base.guideway_angles_rad
         angle = outward[pushed // 2]
@@ -214,7 +228,7 @@ class Learned:
 
 def part_of(learned: Learned) -> str:
     """Return the part of the machine at which a function acts: a guideway's two directions are one."""
-    return "guideway" if learned.place in AXIS else learned.place
+    return "guideway" if learned.place in AXES else learned.place
 
 
 def is_learned(name: str) -> bool:
@@ -232,9 +246,7 @@ def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
 
 
 def products() -> Iterator[Learned]:
-    """Yield the further hypotheses of single elements, and of all that share a function, in which one state multiplies
-    functions of another.
-    """
+    """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too."""
     for place, variables in further.FURTHER.items():
         for element in _single(place):
             yield from (Learned(place, element, each) for each in variables if each.times)
@@ -256,9 +268,9 @@ def variables_of(place: str, element: int) -> tuple[Variable, ...]:
     """Return the variables of an element of a place, the simple ones first."""
     if element in PAIRS.values():
         return further.OF_PAIRS[place]
-    simple = () if place in AXIS and element == ALL else VARIABLES[place]
-    whole = further.OF_WHOLE.get(place, ()) if element == ALL else ()
-    return (*simple, *(further.FURTHER.get(place, ()) if simple else ()), *whole)
+    if element == ALL and place in further.OF_WHOLE:
+        return further.OF_WHOLE[place]
+    return (*VARIABLES[place], *further.FURTHER.get(place, ()))
 
 
 def _single(place: str) -> list[int]:

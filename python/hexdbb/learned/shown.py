@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.learned.places import ALL, PAIRS, Learned
+from hexdbb.learned.places import ALL, PAIRS, Learned, part_of
 from hexdbb.learned.space import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
@@ -19,20 +19,28 @@ PLACES = {
     "ball": "ball",
     "cup": "cup",
     "reading": "reading of the gauge",
+    "guideway": "guideway {}",
     "platform": "all joints of the platform, outward",
 }
-PAIR_OF = {"slider": "sliders {} and {} along their guideway", "leg": "lengths of legs {} and {}"}
+PAIR_OF = {
+    "slider": "sliders {} and {} along their guideway",
+    "leg": "lengths of legs {} and {}",
+    "platform_joint": "platform's joint of legs {} and {}",
+}
 ALL_OF = {
     "slider": "all sliders along their guideways",
     "leg": "length of all legs",
     "lateral": "all guideways, outward",
 }
-AXES = (" along x", " along y", " along z")
+ACROSS = {"x": ", sideways", "z": ", up and down"}
+"""Axes of a guideway in words."""
 
 
 def place_words(hypothesis: Learned, component: int = 0) -> str:
     """Return where a function pushes, in words."""
-    return whole_place_words(hypothesis) + (AXES[component] if hypothesis.components > 1 else "")
+    axis = hypothesis.axis_name(component)
+    across = ACROSS if part_of(hypothesis) == "guideway" else {}
+    return whole_place_words(hypothesis) + (across.get(axis, f" along {axis}") if axis else "")
 
 
 def whole_place_words(hypothesis: Learned) -> str:

@@ -1,7 +1,7 @@
 """A variable on which an unknown cause may depend: a column of the samples and a space of functions of it.
 
-A file or a command names a variable, it never defines one (`variables.py`, `further.py`, `numbered.py`). Each stands for
-splines of a column, possibly times a second column, possibly with a step where the column changes sign.
+A file or a command names a variable, it never defines one (`variables.py`, `further.py`, `numbered.py`). Each stands
+for splines of a column, possibly times a second column, possibly with a step where the column changes sign.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Variables on which an unknown cause may depend, place by place: the simplest, which are looked at first.
 
-A closed list: those of `further.py` are looked at where none of these settles what is missing, and some carry numbers in
-their names, which the readings chose (`numbered.py`).
+A closed list: those of `further.py` are looked at where none of these settles what is missing, and some carry numbers
+in their names, which the readings chose (`numbered.py`).
 """
 
 from __future__ import annotations

@@ -89,8 +89,8 @@ def _sizes_of_learned(effect: LearnedEffect, term: Term) -> tuple[Size, ...]:
         name = "range" if len(curve.at) > 1 else "size"
         value = float(np.ptp(curve.value_mm)) if len(curve.at) > 1 else float(curve.value_mm[0])
         sigma = float(np.median(curve.sigma_mm)) * UM_PER_MM
-        axis = f"_{'xyz'[number]}" if effect.space.hypothesis.components > 1 else ""
-        sizes.append(Size(element, name + axis, value * UM_PER_MM, None if np.isnan(sigma) else sigma, "um"))
+        named = "_".join(filter(None, (name, effect.space.hypothesis.axis_name(number))))
+        sizes.append(Size(element, named, value * UM_PER_MM, None if np.isnan(sigma) else sigma, "um"))
     return tuple(sizes)
 
 

@@ -176,7 +176,7 @@ def test_it_cannot_be_added_twice(found: Diagnosis) -> None:
     ("name", "said"),
     [
         ("learned:wheel:1:time", "place 'wheel' (expected learned:PLACE, one of slider, leg"),
-        ("learned:leg:7:time", "element '7' (expected one of 1, 2, 3, 4, 5, 6, all)"),
+        ("learned:leg:7:time", "element '7' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all)"),
         ("learned:leg:5:heat", "variable 'heat' (expected one of position"),
         ("learned:leg:5:warming", "warming_k has 0 different values (expected more)"),
         ("learned:vertical:all:position", "element 'all' (expected one of 1, 2, 3)"),

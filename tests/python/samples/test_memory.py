@@ -1,0 +1,84 @@
+"""Columns that remember: the lag of first order, exactly, across sweeps and steps of any length."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hexdbb.record import Record
+from hexdbb.samples import Samples
+from hexdbb.samples.deflection import direction_of
+from hexdbb.samples.memory import remembered_column
+
+ONE_SWEEP = np.zeros(400, np.int32)
+
+
+def test_a_step_is_followed_as_by_a_capacitor() -> None:
+    time_s = np.sort(np.random.default_rng(3).uniform(0.0, 40.0, 400))
+    column = np.where(np.arange(400) < 100, 1.0, 3.0)
+    lagged = remembered_column("lagged", 5.0, column, time_s, ONE_SWEEP)
+    assert lagged[:100] == pytest.approx(1.0)
+    # Between its two samples the step is a ramp; from its end on all is exponential.
+    expected = 3.0 + (lagged[100] - 3.0) * np.exp(-(time_s[100:] - time_s[100]) / 5.0)
+    assert lagged[100:] == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_ramp_is_followed_a_time_constant_behind() -> None:
+    time_s = np.linspace(0.0, 400.0, 400)
+    lagged = remembered_column("lagged", 2.0, 7.0 * time_s, time_s, ONE_SWEEP)
+    assert lagged[200:] == pytest.approx(7.0 * (time_s[200:] - 2.0), rel=1e-9)
+
+
+@pytest.mark.parametrize("constant_s", [1e-3, 1.0, 1e5])
+def test_any_constant_gives_what_small_steps_give(constant_s: float) -> None:
+    time_s = np.linspace(0.0, 60.0, 400)
+    columns = np.column_stack([np.sin(time_s), np.cos(0.3 * time_s)])
+    found = remembered_column("lagged", constant_s, columns, time_s, ONE_SWEEP)
+    state, expected = columns[0].copy(), [columns[0].copy()]
+    part = (time_s[1] - time_s[0]) / constant_s / 200
+    for before, after in pairwise(columns):
+        for k in range(200):
+            state = state + (before + (after - before) * (k + 0.5) / 200 - state) * -np.expm1(-part)
+        expected.append(state)
+    assert found == pytest.approx(np.array(expected), abs=3e-4)
+
+
+def test_what_relaxes_is_the_column_less_its_lag() -> None:
+    time_s = np.linspace(0.0, 60.0, 400)
+    column = np.sin(time_s)
+    parts = [remembered_column(how, 4.0, column, time_s, ONE_SWEEP) for how in ("lagged", "relaxing")]
+    assert sum(parts) == pytest.approx(column)
+
+
+def test_between_sweeps_it_waits_where_the_next_begins() -> None:
+    time_s = np.concatenate([np.linspace(0.0, 10.0, 200), np.linspace(17.0, 30.0, 200)])
+    sweep = np.repeat(np.array([0, 1], np.int32), 200)
+    column = np.where(sweep == 0, 1.0, 2.0)
+    lagged = remembered_column("lagged", 5.0, column, time_s, sweep)
+    assert lagged[199] == pytest.approx(1.0)
+    assert lagged[200] == pytest.approx(2.0 - np.exp(-7.0 / 5.0))
+
+
+def test_samples_know_such_columns_by_name(record: Record) -> None:
+    samples = Samples.of([record])
+    lagged, relaxing = (samples[f"sliders_mm.{how}@2.5"] for how in ("lagged", "relaxing"))
+    assert lagged.shape == (len(samples), 6)
+    assert lagged + relaxing == pytest.approx(samples["sliders_mm"])
+    assert np.abs(relaxing).max() > 1e-3
+    with pytest.raises(KeyError, match=r"no column 'weather\.lagged@2'"):
+        samples["weather.lagged@2"]
+
+
+def test_the_sense_of_a_gauge_turns_once_where_it_comes_back() -> None:
+    """Encoders' steps of a tenth of a micrometre, and the flat top of a sine, turn nothing over."""
+    time_s = np.linspace(0.0, 2.0, 4001)
+    steps_mm = 1e-4 * np.random.default_rng(5).uniform(-1.0, 1.0, len(time_s))
+    way = direction_of(0.05 * np.sin(2.0 * np.pi * time_s) + steps_mm, time_s, np.zeros(len(time_s), np.int32))
+    assert np.count_nonzero(np.diff(way[100:])) == 4
+    assert np.mean(way == np.sign(np.cos(2.0 * np.pi * time_s))) > 0.95
+
+
+def test_a_gauge_that_rests_has_no_sense() -> None:
+    assert not direction_of(np.full(50, 0.02), np.arange(50.0), np.zeros(50, np.int32)).any()
