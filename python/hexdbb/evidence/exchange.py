@@ -22,7 +22,7 @@ def settled(search: Search, node: Node) -> Node:
             others = tuple(each for each in node.members if each is not member)
             search.expand(search.node(others, near=node))
         better = sorted(
-            (each for each in search.nodes if is_better(search, each, node) and not _names_fewer(search, each, node)),
+            (each for each in search.nodes if is_better(search, each, node) and _may_replace(search, each, node)),
             key=lambda each: -each.score,
         )
         # The best may have one too many, as it was reached; to look at every other so would take as many fits again.
@@ -33,6 +33,13 @@ def settled(search: Search, node: Node) -> Node:
             return node
         node = in_known_words(search, chosen)
     return node
+
+
+def _may_replace(search: Search, one: Node, other: Node) -> bool:
+    """Check that a set neither says the same in fewer known words, nor misses most where the other predicts."""
+    if _names_fewer(search, one, other):
+        return False
+    return search.is_doubtful(other) or not search.is_doubtful(one)
 
 
 def _names_fewer(search: Search, one: Node, other: Node) -> bool:
@@ -82,8 +89,8 @@ def in_known_words(search: Search, node: Node) -> Node:
 
 def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
     """Check that a set predicts, and is neither excused from it nor errs by most where another is not or does not."""
-    one, other, most = search.checked(node), search.checked(than), search.criteria.missed_most
-    return not one.reasons and one.excused <= other.excused and (one.missed <= most or other.missed > most)
+    one, other = search.checked(node), search.checked(than)
+    return not one.reasons and one.excused <= other.excused and search.misses_most(node) <= search.misses_most(than)
 
 
 def of_better_form(search: Search, node: Node) -> Node:

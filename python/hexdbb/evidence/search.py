@@ -310,7 +310,15 @@ class Search:
             return False
         if not _is_known(node) and node.trial.left >= self.criteria.leaves_structure:
             return False
-        return self.checked(node).missed <= self.criteria.missed_most
+        return not self.misses_most(node)
+
+    def misses_most(self, node: Node) -> bool:
+        """Check whether a set errs on what was left out by about as much as all that it explains where fitted."""
+        return self.checked(node).missed > self.criteria.missed_most
+
+    def is_doubtful(self, node: Node) -> bool:
+        """Check whether a set stands although it does not predict: excused by its form, or one that misses most."""
+        return self.checked(node).excused or self.misses_most(node)
 
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""

@@ -143,8 +143,8 @@ def _is_form(search: Search) -> bool:
 
 
 def _predicting(search: Search, node: Node) -> Node:
-    """Prefer a set of another kind that explains nearly all and predicts to one that is excused from predicting."""
-    if not search.checked(node).excused:
+    """Prefer a set of another kind that explains nearly all and predicts to one that does not."""
+    if not search.is_doubtful(node):
         return node
     others = [
         each
@@ -162,7 +162,7 @@ def _explains_and_predicts(search: Search, node: Node) -> bool:
     excess = search.root.trial.left - 1.0
     if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
         return False
-    return not (search.checked(node).reasons or search.checked(node).excused)
+    return not (search.checked(node).reasons or search.is_doubtful(node))
 
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:

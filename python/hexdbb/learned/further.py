@@ -60,10 +60,10 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
 
 
 PRODUCTS_OF_SLIDER = (
-    *(product("velocity", each) for each in (v.POSITION, v.FORCE)),
-    *(product("acceleration", each) for each in (v.POSITION, v.FORCE)),
+    *(product("velocity", each) for each in (v.POSITION, v.FORCE, v.DRIVE_LOAD)),
+    product("acceleration", v.POSITION),
     *(product("leg_force", each) for each in (v.POSITION,)),
-    *(product("direction", each) for each in (v.FORCE, v.TIME, v.WARMING)),
+    *(product("direction", each) for each in (v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.TIME, v.WARMING)),
     *(product("time", each) for each in (v.VELOCITY, v.FORCE)),
     product("warming", v.POSITION),
 )
@@ -75,7 +75,7 @@ PRODUCTS_OF_LEG = (
 )
 PRODUCTS_OF_GUIDEWAY = (
     *(product("leg_force", each) for each in (v.POSITION,)),
-    *(product("direction", each) for each in (v.FORCE, v.TIME)),
+    *(product("direction", each) for each in (v.CARRIAGE_LOAD, v.TIME)),
     product("velocity", v.POSITION),
 )
 PRODUCTS_OF_READING = (
@@ -99,7 +99,7 @@ OF_BALL = (
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (
-    *(v.POSITION, v.DIRECTION_POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.TIME, v.TIME_POSITION),
+    *(v.POSITION, v.DIRECTION_POSITION, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME, v.TIME_POSITION),
     product("leg_force", v.POSITION),
 )
 """Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
@@ -112,10 +112,10 @@ GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
 FURTHER: dict[str, tuple[Variable, ...]] = {
-    "slider": (*PRODUCTS_OF_SLIDER, *NEIGHBOURS, *_remembered(v.FORCE)),
+    "slider": (v.DRIVE_LOAD, v.CARRIAGE_LOAD, *PRODUCTS_OF_SLIDER, *NEIGHBOURS, *_remembered(v.DRIVE_LOAD)),
     "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE)),
-    "lateral": (*PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.FORCE)),
-    "vertical": (*PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.FORCE)),
+    "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.CARRIAGE_LOAD)),
+    "vertical": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.CARRIAGE_LOAD)),
     "guideway": OF_GUIDEWAY,
     "ball": OF_BALL,
     "cup": OF_BALL,

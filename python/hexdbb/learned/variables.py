@@ -48,6 +48,8 @@ NEIGHBOUR_VELOCITY = Variable(
 )
 ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12, signed=True)
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
+DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)
+CARRIAGE_LOAD = Variable("carriage_load", "carriage_load", "", "force across the guideway per load", 12)
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)

@@ -23,6 +23,8 @@ OWN = {
     "swing_rate_rad_s": ("leg", "rad/s", "rate of the leg's swing about its guideway"),
     "leg_inclination_rad": ("leg", "rad", "angle of the leg to the vertical, nominal machine"),
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
+    "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),
+    "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
     "deflection_direction": ("sample", "1", "sense in which that changes, +1 or -1; 0: never moved"),

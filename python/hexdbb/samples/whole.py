@@ -20,6 +20,7 @@ from hexdbb.record.columns import joined
 from hexdbb.samples.deflection import DEFLECTION, DEFLECTION_DIRECTION, deflection_mm, direction_of
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
+from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
@@ -62,7 +63,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, DEFLECTION, DEFLECTION_DIRECTION)
+        later = (*STATE, *DERIVED, *LOADS, DEFLECTION, DEFLECTION_DIRECTION)
         return (*(name for name in self.columns if name not in later), *later)
 
     def column(self, name: str) -> NDArray[Any] | None:
@@ -84,6 +85,8 @@ class Whole:
         elif name in DERIVED:
             given = {each: column for each in DERIVED_FROM if (column := self.column(each)) is not None}
             self.columns |= derived_columns(self.machine, given, self.set_ups)
+        elif name in LOADS:
+            self.columns |= load_columns(*self._known(*LOADS_FROM))
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
         elif name == DEFLECTION_DIRECTION:

@@ -45,7 +45,7 @@ def test_pairs_neighbours_and_memory_push_their_own(
 
 
 def test_a_guideway_pushes_both_joints_outward_and_up() -> None:
-    learned = Learned.parse("learned:guideway:1:leg_force")
+    learned = Learned.parse("learned:guideway:1:carriage_load")
     first = _core.PORTS["slider_joint"][0]
     assert learned.components == 2
     assert [learned.pushes(component, MACHINE) for component in range(2)] == [

@@ -40,6 +40,8 @@ VARIABLES = {
     "circle_direction": ("direction",),
     "deflection_direction": ("deflection", "direction"),
     "joint_direction": ("joint_turning",),
+    "drive_load": ("leg_force",),
+    "carriage_load": ("leg_force",),
     "speed": ("feed", "velocity"),
     "reading": ("deflection",),
     "warming": ("time",),
