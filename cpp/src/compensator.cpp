@@ -81,7 +81,9 @@ void Compensator::prepare() {
   is_folded_ = model_.terms.empty() && tables_.empty();
   contraction_ += kLever * tables_.steepest();
   bend_ = kLever * tables_.sharpest();
-  needs_leg_force_ = needs_leg_force_ || tables_.legs(TableVariable::kLegForce) != 0u;
+  for (const TableVariable each : {TableVariable::kLegForce, TableVariable::kDriveLoad, TableVariable::kCarriageLoad}) {
+    needs_leg_force_ = needs_leg_force_ || tables_.legs(each) != 0u;
+  }
   needs_pose_ = needs_leg_force_ || needs_platform(tables_);
   reset();
 }

@@ -118,7 +118,7 @@ void Compensator::set_tables(const Direction& direction, const Vector6& travel_d
   set(TableVariable::kSliderJointDirection, joint_direction_);
   state[TableVariable::kTemperature].setConstant(direction.temperature_c);
   state[TableVariable::kWarming].setConstant(direction.temperature_c - reference_temperature_c_);
-  fill_joints(model_.nominal, nominal_pose, nominal_mm, direction.velocity_mm_s, tables_, state);
+  fill_joints(model_.nominal, nominal_pose, nominal_mm, direction.velocity_mm_s, leg_force, tables_, state);
   tables_.settle(state);
 }
 

@@ -149,12 +149,15 @@ void for_legs(unsigned legs, Vector6& column, Value value) {
 }
 
 /// Fill in what the pairs of legs alone determine.
-void fill_slider_joints(const std::array<LegPair, kGuideways>& pairs, const TableSet& tables, TableState& state) {
+void fill_slider_joints(const std::array<LegPair, kGuideways>& pairs, const Vector6& leg_force, const TableSet& tables,
+                        TableState& state) {
   const auto fill = [&](TableVariable variable, auto value) {
     for_legs(tables.legs(variable), state[variable], value);
   };
   fill(TableVariable::kSliderJointAngle, [&](int leg) { return pairs[guideway_of(leg)].angle_rad(leg % 2); });
   fill(TableVariable::kSliderJointRate, [&](int leg) { return pairs[guideway_of(leg)].rate_rad_s(leg % 2); });
+  fill(TableVariable::kDriveLoad, [&](int leg) { return leg_force[leg] * pairs[guideway_of(leg)].along(leg % 2); });
+  fill(TableVariable::kCarriageLoad, [&](int leg) { return leg_force[leg] * pairs[guideway_of(leg)].across(leg % 2); });
 }
 
 unsigned union_of(const TableSet& tables, TableVariable one, TableVariable other) {
@@ -184,13 +187,19 @@ LegPair::LegPair(const NominalGeometry& nominal, int guideway, const Vector6& sl
 
 double LegPair::angle_rad(int leg) const noexcept { return std::acos(foot_mm[leg] / length_mm[leg]); }
 
+double LegPair::along(int leg) const noexcept { return foot_mm[leg] / length_mm[leg]; }
+
+double LegPair::across(int leg) const noexcept { return std::sqrt(radius_squared) / length_mm[leg]; }
+
 double LegPair::rate_rad_s(int leg) const noexcept { return -foot_mm_s[leg] / std::sqrt(radius_squared); }
 
 HEXDBB_MULTIVERSION
 void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6& sliders_mm,
-                 const Vector6& velocity_mm_s, const TableSet& tables, TableState& state) noexcept {
+                 const Vector6& velocity_mm_s, const Vector6& leg_force, const TableSet& tables,
+                 TableState& state) noexcept {
   using Variable = TableVariable;
-  const unsigned at_sliders = union_of(tables, Variable::kSliderJointAngle, Variable::kSliderJointRate);
+  const unsigned at_sliders = union_of(tables, Variable::kSliderJointAngle, Variable::kSliderJointRate) |
+                              union_of(tables, Variable::kDriveLoad, Variable::kCarriageLoad);
   const unsigned angles =
       union_of(tables, Variable::kPlatformJointAngle, Variable::kSwingAngle) | tables.legs(Variable::kLegInclination);
   const unsigned rates = union_of(tables, Variable::kPlatformJointRate, Variable::kSwingRate);
@@ -200,7 +209,7 @@ void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6
     if (rates == 0u && ((at_sliders >> (2 * i)) & 3u) == 0u) continue;
     pairs[i] = LegPair(nominal, i, sliders_mm, velocity_mm_s);
   }
-  fill_slider_joints(pairs, tables, state);
+  fill_slider_joints(pairs, leg_force, tables, state);
   if ((angles | rates) == 0u) return;
   const auto fill = [&](Variable variable, auto value) { for_legs(tables.legs(variable), state[variable], value); };
   const Legs legs(nominal, pose, sliders_mm);

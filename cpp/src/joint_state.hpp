@@ -23,6 +23,10 @@ struct LegPair {
   double angle_rad(int leg) const noexcept;
   double rate_rad_s(int leg) const noexcept;
 
+  /// Parts of a unit force in a leg along the guideway and across it: cosine and sine of the angle.
+  double along(int leg) const noexcept;
+  double across(int leg) const noexcept;
+
   double length_mm[2] = {};
   double foot_mm[2] = {}, foot_mm_s[2] = {};  // of the ball joint beyond each slider, x_a and -x_b, and their rates
   double slider_mm_s[2] = {};
@@ -30,9 +34,11 @@ struct LegPair {
   double along_mm_s = 0.0;      // of the ball joint
 };
 
-/// Fill in the joints' columns of a state that tables need, of the legs that they name. Where locked sliders do not
+/// Fill in the joints' columns of a state that tables need, of the legs that they name; `leg_force` is read where loads
+/// of drives or carriages are among them. Where locked sliders do not
 /// hold the platform, what turns at it is NaN.
 void fill_joints(const NominalGeometry& nominal, const Pose& pose, const Vector6& sliders_mm,
-                 const Vector6& velocity_mm_s, const TableSet& tables, TableState& state) noexcept;
+                 const Vector6& velocity_mm_s, const Vector6& leg_force, const TableSet& tables,
+                 TableState& state) noexcept;
 
 }  // namespace hexdbb

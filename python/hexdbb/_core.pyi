@@ -1209,4 +1209,6 @@ TABLE_VARIABLES: tuple = (
     "since_reversal_mm",
     "acceleration_mm_s2",
     "leg_inclination_rad",
+    "drive_load",
+    "carriage_load",
 )

@@ -55,6 +55,8 @@ enum class TableVariable : int {
   kSinceReversal,
   kAcceleration,
   kLegInclination,
+  kDriveLoad,
+  kCarriageLoad,
   kCount
 };
 
@@ -81,7 +83,9 @@ constexpr std::array<TableVariableInfo, static_cast<std::size_t>(TableVariable::
      {TableVariable::kSwingRate, "swing_rate_rad_s", 0.3},
      {TableVariable::kSinceReversal, "since_reversal_mm", 1000.0},
      {TableVariable::kAcceleration, "acceleration_mm_s2", 500.0},
-     {TableVariable::kLegInclination, "leg_inclination_rad", 3.2}}};
+     {TableVariable::kLegInclination, "leg_inclination_rad", 3.2},
+     {TableVariable::kDriveLoad, "drive_load", 1.0},
+     {TableVariable::kCarriageLoad, "carriage_load", 1.0}}};
 
 /// Return the variable of a column's name, nullptr where a controller does not know it.
 const TableVariableInfo* find_table_variable(const std::string& column) noexcept;

@@ -53,6 +53,8 @@ def ranges(machine: MachineFile) -> dict[str, tuple[float, float]]:
         "since_reversal_mm": (SHORTEST_MM, max(high - low for low, high in travels_mm)),
         "acceleration_mm_s2": (-quickest, quickest),
         "leg_inclination_rad": (0.0, np.pi),
+        "drive_load": (-2.0, 2.0),  # parts of the leg's force
+        "carriage_load": (-2.0, 2.0),
     }
     return {name: found[name] for name in _core.TABLE_VARIABLES}
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.compensation.probe import ranges
 from hexdbb.machine import MachineFile
 from hexdbb.model import Term
 
@@ -32,7 +33,9 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
         found: Floats = space.functions(at) @ parts.T
         return found
 
-    knots = halved(np.array(tables[0].knots), values_mm)
+    # What multiplies makes the error between two knots as much larger as it is itself.
+    largest = max(map(abs, ranges(machine).get(tables[0].times, (1.0, 1.0))))
+    knots = halved(np.array(tables[0].knots), values_mm, TOLERANCE_MM / largest)
     return [
         _core.CompensationTable(
             effect=effect.name,
@@ -54,7 +57,7 @@ def within_port(port: str, pushes: Sequence[tuple[int, Sequence[tuple[int, float
     return [(element, column - first, weight) for element, columns in pushes for column, weight in columns]
 
 
-def halved(knots: Floats, values_mm: Callable[[Floats], Floats]) -> Floats:
+def halved(knots: Floats, values_mm: Callable[[Floats], Floats], tolerance: float = TOLERANCE_MM) -> Floats:
     """Return the knots with all intervals halved until lines between them are close enough; equal ones stay equal.
 
     Parameters
@@ -62,10 +65,12 @@ def halved(knots: Floats, values_mm: Callable[[Floats], Floats]) -> Floats:
     knots : ndarray, shape (m,)
     values_mm : callable
         The functions at some places, shape (m, functions).
+    tolerance : float
+        Largest deviation half-way between two knots, in their unit.
     """
     for _ in range(MOST_HALVINGS if len(knots) > 1 else 0):
         middle, ends = 0.5 * (knots[1:] + knots[:-1]), values_mm(knots)
-        if np.abs(values_mm(middle) - 0.5 * (ends[1:] + ends[:-1])).max() <= TOLERANCE_MM:
+        if np.abs(values_mm(middle) - 0.5 * (ends[1:] + ends[:-1])).max() <= tolerance:
             break
         knots = np.sort(np.concatenate([knots, middle]))
     return knots

@@ -13,6 +13,8 @@ from hexdbb.compensation import make_compensation, path_targets
 from hexdbb.kinematics import engine_machine, inverse
 from hexdbb.machine import MachineFile, shipped_machine
 from hexdbb.model import Model
+from hexdbb.samples.loads import load_columns
+from hexdbb.samples.memory import remembered_column
 from hexdbb.samples.swing import derived_columns
 
 Floats = NDArray[np.float64]
@@ -61,6 +63,8 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     block.derive(engine_machine(machine))
     columns = {**block.state, "sliders_mm": sliders_mm, "set_up": zeros}
     columns |= derived_columns(machine, columns, [set_up])
+    columns |= load_columns(columns["leg_force"], columns["slider_joint_angle_rad"])
+    columns["leg_force.lagged@12"] = remembered_column("lagged", 12.0, columns["leg_force"], state["time_s"], zeros)
     columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
     return Table(columns, machine), block
 
