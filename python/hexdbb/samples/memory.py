@@ -1,13 +1,16 @@
 """Columns that remember others: `leg_force.lagged@12`, `leg_force.relaxing@12`.
 
 Rubber yields late, grease and warmth follow slowly: what acts is a state as it was some time before. The lag is of
-first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. Between two sweeps nobody knows what
-the machine did: it is taken to have stood where the next one begins.
+first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. What the machine did between two sweeps
+no record says: it is taken to have run out along the circle and up along the next one, as it came round in other laps,
+and to have gone evenly from the one to the other. Before the first sweep it stood.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +19,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing)@(?P<constant_s>[0-9.e+-]+)")
+RUN_UP_RAD = np.pi / 4.0
+"""Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 LONGEST = 30.0
 """Time constants in one block of a recursion that is summed at once: e to the 30th is far from the largest number."""
 
@@ -26,7 +31,12 @@ def remembered_of(name: str) -> re.Match[str] | None:
 
 
 def remembered_column(
-    how: str, constant_s: float, column: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]
+    how: str,
+    constant_s: float,
+    column: Floats,
+    time_s: Floats,
+    sweep: NDArray[np.integer[Any]],
+    angle_rad: Floats,
 ) -> Floats:
     """Return a column that remembers another one, of the same shape.
 
@@ -37,24 +47,65 @@ def remembered_column(
     constant_s : float
         Its time constant.
     column : ndarray, shape (n,) or (n, k)
-    time_s : ndarray, shape (n,)
-        Rising within a sweep.
+    time_s, angle_rad : ndarray, shape (n,)
+        Times rise within a sweep; polar angles with or without their turns.
     sweep : ndarray of int, shape (n,)
     """
     values = np.asarray(column, np.float64).reshape(len(column), -1)
-    lagged = np.empty_like(values)
-    last: Floats | None = None
-    ended_s = 0.0
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
-    for first, end in zip(begins, np.append(begins[1:], len(values)), strict=True):
-        rows = slice(first, end)
-        start = values[first]
-        if last is not None:
-            start = start + (last - start) * np.exp(-max(time_s[first] - ended_s, 0.0) / constant_s)
-        lagged[rows] = _lagged(values[rows], (time_s[rows] - time_s[first]) / constant_s, start)
-        last, ended_s = lagged[end - 1], float(time_s[end - 1])
+    sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
+    ways = [_way(time_s[rows], angle_rad[rows], values[rows]) for rows in sweeps]
+    at_s, given = _joined(ways)
+    whole = _lagged(given, (at_s - at_s[0]) / constant_s, given[0])
+    lagged = np.vstack([whole[np.searchsorted(at_s, time_s[rows])] for rows in sweeps])
     found: Floats = lagged if how == "lagged" else values - lagged
     return found.reshape(column.shape)
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A sweep: times and values of its samples, of the run-up before them and of the run-out behind."""
+
+    at_s: Floats
+    values: Floats
+    up_s: Floats
+    up: Floats
+    out_s: Floats
+    out: Floats
+
+
+def _way(time_s: Floats, angle_rad: Floats, values: Floats) -> _Way:
+    """Return a sweep with run-up and run-out, as it came round a lap later and before; none of less than a lap."""
+    turned = np.abs(np.unwrap(angle_rad) - angle_rad[0])
+    lap, back = np.searchsorted(turned, [2.0 * np.pi, turned[-1] - 2.0 * np.pi])
+    first, last = np.searchsorted(turned, [2.0 * np.pi - RUN_UP_RAD, turned[-1] - 2.0 * np.pi + RUN_UP_RAD])
+    if turned[-1] < 2.0 * np.pi:
+        first = lap = back = last = 0
+    lap = min(int(lap), len(turned) - 1)
+    up, out = slice(first, lap), slice(back + 1, last)
+    return _Way(
+        at_s=time_s,
+        values=values,
+        up_s=time_s[up] - time_s[lap] + time_s[0],
+        up=values[up],
+        out_s=time_s[out] - time_s[back] + time_s[-1],
+        out=values[out],
+    )
+
+
+def _joined(ways: Sequence[_Way]) -> tuple[Floats, Floats]:
+    """Return times and values of all, where there is time between two sweeps with the run-out and the run-up."""
+    times, values = [ways[0].up_s], [ways[0].up]
+    for way, following in zip(ways, (*ways[1:], None), strict=True):
+        times.append(way.at_s)
+        values.append(way.values)
+        if following is None:
+            break
+        left, begins = np.max(way.out_s, initial=way.at_s[-1]), np.min(following.up_s, initial=following.at_s[0])
+        if left < begins:
+            times += [way.out_s, following.up_s]
+            values += [way.out, following.up]
+    return np.concatenate(times), np.vstack(values)
 
 
 def _lagged(values: Floats, at: Floats, start: Floats) -> Floats:

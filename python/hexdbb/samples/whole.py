@@ -95,7 +95,7 @@ class Whole:
     def _remembered(self, name: str, how: str, constant_s: float) -> Floats | None:
         if name not in self.names:
             return None
-        return remembered_column(how, constant_s, *self._known(name, "time_s", "sweep"))
+        return remembered_column(how, constant_s, *self._known(name, "time_s", "sweep", "angle_rad"))
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
         """Return the engine's form with at least some columns of the state, and the names of those that it holds.

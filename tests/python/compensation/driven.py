@@ -64,7 +64,9 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     columns = {**block.state, "sliders_mm": sliders_mm, "set_up": zeros}
     columns |= derived_columns(machine, columns, [set_up])
     columns |= load_columns(columns["leg_force"], columns["slider_joint_angle_rad"])
-    columns["leg_force.lagged@12"] = remembered_column("lagged", 12.0, columns["leg_force"], state["time_s"], zeros)
+    columns["leg_force.lagged@12"] = remembered_column(
+        "lagged", 12.0, columns["leg_force"], state["time_s"], zeros, state["angle_rad"]
+    )
     columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
     return Table(columns, machine), block
 

@@ -12,13 +12,13 @@ from hexdbb.samples import Samples
 from hexdbb.samples.deflection import direction_of
 from hexdbb.samples.memory import remembered_column
 
-ONE_SWEEP = np.zeros(400, np.int32)
+ONE_SWEEP, NOT_TURNED = np.zeros(400, np.int32), np.zeros(400)
 
 
 def test_a_step_is_followed_as_by_a_capacitor() -> None:
     time_s = np.sort(np.random.default_rng(3).uniform(0.0, 40.0, 400))
     column = np.where(np.arange(400) < 100, 1.0, 3.0)
-    lagged = remembered_column("lagged", 5.0, column, time_s, ONE_SWEEP)
+    lagged = remembered_column("lagged", 5.0, column, time_s, ONE_SWEEP, NOT_TURNED)
     assert lagged[:100] == pytest.approx(1.0)
     # Between its two samples the step is a ramp; from its end on all is exponential.
     expected = 3.0 + (lagged[100] - 3.0) * np.exp(-(time_s[100:] - time_s[100]) / 5.0)
@@ -27,7 +27,7 @@ def test_a_step_is_followed_as_by_a_capacitor() -> None:
 
 def test_a_ramp_is_followed_a_time_constant_behind() -> None:
     time_s = np.linspace(0.0, 400.0, 400)
-    lagged = remembered_column("lagged", 2.0, 7.0 * time_s, time_s, ONE_SWEEP)
+    lagged = remembered_column("lagged", 2.0, 7.0 * time_s, time_s, ONE_SWEEP, NOT_TURNED)
     assert lagged[200:] == pytest.approx(7.0 * (time_s[200:] - 2.0), rel=1e-9)
 
 
@@ -35,7 +35,7 @@ def test_a_ramp_is_followed_a_time_constant_behind() -> None:
 def test_any_constant_gives_what_small_steps_give(constant_s: float) -> None:
     time_s = np.linspace(0.0, 60.0, 400)
     columns = np.column_stack([np.sin(time_s), np.cos(0.3 * time_s)])
-    found = remembered_column("lagged", constant_s, columns, time_s, ONE_SWEEP)
+    found = remembered_column("lagged", constant_s, columns, time_s, ONE_SWEEP, NOT_TURNED)
     state, expected = columns[0].copy(), [columns[0].copy()]
     part = (time_s[1] - time_s[0]) / constant_s / 200
     for before, after in pairwise(columns):
@@ -48,17 +48,26 @@ def test_any_constant_gives_what_small_steps_give(constant_s: float) -> None:
 def test_what_relaxes_is_the_column_less_its_lag() -> None:
     time_s = np.linspace(0.0, 60.0, 400)
     column = np.sin(time_s)
-    parts = [remembered_column(how, 4.0, column, time_s, ONE_SWEEP) for how in ("lagged", "relaxing")]
+    parts = [remembered_column(how, 4.0, column, time_s, ONE_SWEEP, NOT_TURNED) for how in ("lagged", "relaxing")]
     assert sum(parts) == pytest.approx(column)
 
 
-def test_between_sweeps_it_waits_where_the_next_begins() -> None:
+def test_between_sweeps_it_goes_evenly_to_where_the_next_begins() -> None:
     time_s = np.concatenate([np.linspace(0.0, 10.0, 200), np.linspace(17.0, 30.0, 200)])
     sweep = np.repeat(np.array([0, 1], np.int32), 200)
     column = np.where(sweep == 0, 1.0, 2.0)
-    lagged = remembered_column("lagged", 5.0, column, time_s, sweep)
+    lagged = remembered_column("lagged", 5.0, column, time_s, sweep, NOT_TURNED)
     assert lagged[199] == pytest.approx(1.0)
-    assert lagged[200] == pytest.approx(2.0 - np.exp(-7.0 / 5.0))
+    ramp = 1.0 + (7.0 - 5.0 * (1.0 - np.exp(-7.0 / 5.0))) / 7.0
+    assert lagged[200] == pytest.approx(ramp)
+
+
+def test_a_circle_is_run_up_to_as_it_comes_round_again() -> None:
+    """From an eighth of a lap before: what a time constant of a fiftieth of a lap remembers is there by then."""
+    angle = np.linspace(0.0, 4.0 * np.pi, 4001)
+    lagged = remembered_column("lagged", 2.0 * np.pi / 50.0, np.sin(angle), angle, np.zeros(4001, np.int32), angle)
+    assert lagged[0] == pytest.approx(lagged[2000], abs=1e-3)
+    assert abs(lagged[0]) > 0.1
 
 
 def test_samples_know_such_columns_by_name(record: Record) -> None:
