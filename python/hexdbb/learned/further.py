@@ -15,6 +15,8 @@ from hexdbb.learned.variable import ELAPSED, Variable
 
 SPLINES = 6
 """Splines of a product: what multiplies sets most of its form already."""
+OVER_TIME = 24
+"""The same where the product changes with time: a swing that comes several times in a test of half an hour."""
 CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
 """Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
 then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
@@ -24,6 +26,7 @@ FACTORS = {
     "leg_force": ("leg_force", "force of the leg"),
     "direction": ("travel_direction", "direction of travel"),
     "joint_direction": ("slider_joint_direction", "sense in which the slider's joint turns"),
+    "deflection": ("deflection_mm", "deflection of the gauge"),
     "time": (ELAPSED, "time"),
     "warming": ("warming_k", "warming"),
     "speed": ("speed_mm_s", "speed of the platform"),
@@ -40,7 +43,7 @@ def product(factor: str, variable: Variable) -> Variable:
         variable,
         name=f"{factor}_{variable.name}",
         words=f"{variable.words}, times the {words}",
-        count=variable.count if variable.period else SPLINES,
+        count=OVER_TIME if variable == v.TIME else variable.count if variable.period else SPLINES,
         times=column,
         signed=False,
         of_forms=False,
@@ -64,7 +67,7 @@ PRODUCTS_OF_SLIDER = (
     product("acceleration", v.POSITION),
     *(product("leg_force", each) for each in (v.POSITION,)),
     *(product("direction", each) for each in (v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.TIME, v.WARMING)),
-    *(product("time", each) for each in (v.VELOCITY, v.FORCE)),
+    *(product(each, v.TIME) for each in ("velocity", "leg_force")),
     product("warming", v.POSITION),
 )
 PRODUCTS_OF_LEG = (
@@ -79,7 +82,8 @@ PRODUCTS_OF_GUIDEWAY = (
     product("velocity", v.POSITION),
 )
 PRODUCTS_OF_READING = (
-    *(product("time", each) for each in (v.DEFLECTION, v.ANGLE)),
+    product("deflection", v.TIME),
+    product("time", v.ANGLE),
     *(product("warming", each) for each in (v.DEFLECTION, v.ANGLE)),
     *(product("deflection_direction", each) for each in (v.DEFLECTION,)),
     *(product("speed", each) for each in (v.ANGLE, v.DEFLECTION)),

@@ -246,10 +246,14 @@ def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
 
 
 def products() -> Iterator[Learned]:
-    """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too."""
+    """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too.
+
+    In them a known effect's form may be wrong. What changes with time is no form of what does not.
+    """
     for place, variables in further.FURTHER.items():
         for element in _single(place):
-            yield from (Learned(place, element, each) for each in variables if each.times)
+            every = (Learned(place, element, each) for each in variables if each.times)
+            yield from (each for each in every if not each.is_of_time)
 
 
 def further_hypotheses() -> Iterator[Learned]:

@@ -32,6 +32,7 @@ TIMES = {
     "slider_joint_rate_rad_s": ", for each rad/s of the joint's turning",
     "warming_k": ", for each K of warming",
     "speed_mm_s": ", for each mm/s of the platform's speed",
+    "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
 }
 

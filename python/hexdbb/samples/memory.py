@@ -1,9 +1,9 @@
 """Columns that remember others: `leg_force.lagged@12`, `leg_force.relaxing@12`.
 
 Rubber yields late, grease and warmth follow slowly: what acts is a state as it was some time before. The lag is of
-first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. What the machine did between two sweeps
-no record says: it is taken to have run out along the circle and up along the next one, as it came round in other laps,
-and to have gone evenly from the one to the other. Before the first sweep it stood.
+first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. What the machine did between two
+sweeps no record says: it is taken to have run out along the circle and up along the next one, as it came round in other
+laps, and to have gone evenly from the one to the other. Before the first sweep it stood.
 """
 
 from __future__ import annotations
