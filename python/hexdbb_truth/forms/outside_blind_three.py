@@ -174,7 +174,9 @@ def _flank_held_by_load(draw: Draw) -> Fault:
         net = (push_n(scene) - np.quantile(whole, share)) / np.ptp(whole) - friction * way
         return column(0.5e-3 * size * np.tanh(net / soft))
 
-    return Fault(Action("slider", (k,), values), (leg_too(k, "leg_force"), leg_too(k, "direction")))
+    why = "the leg's push along the guideway follows where its slider stands"
+    place = tuple(Equivalent(port, "position", (k + 1,), why) for port in ("slider", "leg"))
+    return Fault(Action("slider", (k,), values), (leg_too(k, "leg_force"), leg_too(k, "direction"), *place))
 
 
 TABLE: dict[str, Outside] = {

@@ -170,8 +170,11 @@ def _platform_corner_swings(draw: Draw) -> Fault:
         return 1e-3 * size * column(opened) * np.tile(across(scene), 2)
 
     why = "the joint's motion is felt along its two legs"
-    same = Equivalent("leg", "leg_force", (legs[0] + 1, legs[1] + 1), why)
-    return Fault(Action("platform_joint", legs, values), (same,))
+    both, whole = (legs[0] + 1, legs[1] + 1), "the platform turns with its corner, nearly alike on all these circles"
+    same = [Equivalent(port, "leg_force", both, why) for port in ("leg", "slider")]
+    same += [Equivalent("leg", "position", both, why + ", whose load follows where they stand")]
+    same += [Equivalent(port, "angle", None, whole) for port in ("ball", "cup")]
+    return Fault(Action("platform_joint", legs, values), tuple(same))
 
 
 TABLE: dict[str, Outside] = {
