@@ -185,6 +185,6 @@ TABLE: dict[str, Outside] = {
     "chords_for_arc": Outside("um", 10.0, 300.0, ("angle",), _chords_for_arc),
     "buses_beat": Outside("ms", 0.5, 20.0, ("velocity", "time"), _buses_beat),
     "screw_heats_where_used": Outside("um", 20.0, 300.0, ("time", "position"), _screw_heats_where_used),
-    "flank_held_by_load": Outside("um", 10.0, 200.0, ("leg_force", "direction"), _flank_held_by_load),
+    "flank_held_by_load": Outside("um", 10.0, 300.0, ("leg_force", "direction"), _flank_held_by_load),
 }
 """Kinds by name."""

@@ -180,9 +180,9 @@ def _platform_corner_swings(draw: Draw) -> Fault:
 TABLE: dict[str, Outside] = {
     "rail_creeps_in_bed": Outside("um", 15.0, 200.0, ("leg_force", "direction"), _rail_creeps_in_bed),
     "swarf_piles_up": Outside("um", 15.0, 300.0, ("position",), _swarf_piles_up),
-    "sun_wanders": Outside("um", 20.0, 300.0, ("time",), _sun_wanders),
+    "sun_wanders": Outside("um", 20.0, 400.0, ("time",), _sun_wanders),
     "leg_end_unscrews": Outside("um", 10.0, 150.0, ("yaw", "tilt"), _leg_end_unscrews),
-    "seat_has_two_rests": Outside("um", 10.0, 200.0, ("leg_force",), _seat_has_two_rests),
+    "seat_has_two_rests": Outside("um", 10.0, 300.0, ("leg_force",), _seat_has_two_rests),
     "platform_corner_swings": Outside("um", 30.0, 300.0, ("leg_force",), _platform_corner_swings),
 }
 """Kinds by name."""
