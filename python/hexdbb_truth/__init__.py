@@ -21,6 +21,7 @@ engine or of what is built on it.
     backlash-d10-x3-judge-s7             form deviation 10 %, 3 times the noise, judging half, seed 7
     backlash+bar_drift-d10-x3-judge-s0   a pair (triples and more alike)
     dent-d0-x10-judge-s2                 a fault outside the catalogue (`hexdbb_truth.forms.outside`)
+    chords_for_arc-d0-x3-judge-s0        alike, of a kind in lists only on demand (`forms.outside.BY_NAME_ONLY`)
     none-judge-s4                        a clean machine
     ...@varied                           another plan (`hexdbb_truth.forms.plans`)
 

@@ -74,6 +74,8 @@ class Verdicts(StrictModel):
     """Half of the forms: criteria are set on the first and judged on the second."""
     own_plans: bool = True
     """Whether each fault is measured on the plan that can show it; false: all on this study's plan."""
+    names: Annotated[tuple[str, ...], Field(strict=False)] = ()
+    """Names of cases in place of those drawn, such as `chords_for_arc-d0-x3-judge-s0`, whatever `half` is."""
 
 
 class PlanSearch(StrictModel):

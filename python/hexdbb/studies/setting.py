@@ -24,6 +24,9 @@ CYCLE_HZ = 250.0
 SEEDS_APART = 1_000_003
 """Distance between the machines of two seeds: a prime above any number of cases."""
 
+CHOOSE_CASES = frozenset({"names"})
+"""Keys of a study's own table that choose cases, which differ from each other by their names alone."""
+
 
 @dataclass(frozen=True)
 class Setting:
@@ -72,7 +75,7 @@ class Setting:
         return truth.model_copy(update={"gauge": self.gauge})
 
     def content(self, study: str) -> dict[str, Any]:
-        """Return all that the cases of one study depend on, but for their number, as JSON."""
+        """Return all that the cases of one study depend on, but for which of them are run, as JSON."""
         keys = self.file.model_dump(mode="json", by_alias=True)
         tables = ("power", "coverage", "verdicts", "plan_search", "tolerance")
         left_out = {"cases", "plan", "machine", "feeds_mm_min", "laps", "gauge", *tables}
@@ -80,7 +83,7 @@ class Setting:
         return {
             "study": study,
             **{key: value for key, value in keys.items() if key not in left_out},
-            own: keys[own],
+            own: {key: value for key, value in keys[own].items() if key not in CHOOSE_CASES},
             "gauge": self.gauge.model_dump(mode="json"),
             "plan": self.plan.model_dump(mode="json", by_alias=True, exclude={"machine"}),
             "machine": self.machine.model_dump(mode="json", by_alias=True),

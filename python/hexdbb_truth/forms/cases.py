@@ -31,7 +31,7 @@ from hexdbb_truth.forms.family import Family
 from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.labels import VARIABLES, Label, equivalents
 from hexdbb_truth.forms.measure import Measured
-from hexdbb_truth.forms.outside import OUTSIDE, Outside
+from hexdbb_truth.forms.outside import EVERY_OUTSIDE, Outside
 from hexdbb_truth.forms.ports import Action
 from hexdbb_truth.forms.sizes import shown_deviation, size_of
 
@@ -134,7 +134,7 @@ class Case:
         """What is driven."""
         if self.driven is not None:
             return self.driven
-        own = [FAMILIES[kind].plan if kind in FAMILIES else OUTSIDE[kind].plan for kind in self.kinds]
+        own = [FAMILIES[kind].plan if kind in FAMILIES else EVERY_OUTSIDE[kind].plan for kind in self.kinds]
         special = [name for name in own if name != "standard"]
         return plans.history(self.plan_name or (special[0] if special else "standard"))
 
@@ -239,8 +239,8 @@ class Case:
         return np.asarray(ROOM_C - RISE_C * np.expm1(-self.history.time_s[rows] / tau_s))
 
     def _hidden(self, kind: str) -> Hidden:
-        if kind in OUTSIDE:
-            return self._outside(kind, OUTSIDE[kind])
+        if kind in EVERY_OUTSIDE:
+            return self._outside(kind, EVERY_OUTSIDE[kind])
         family = FAMILIES[kind]
         formed, _, form = self._drawn(kind)
         action = formed.action()
@@ -297,6 +297,7 @@ def case(name: str) -> Case:
         return Case((), 0.0, 0.0, match["half"], int(match["seed"]), plan)
     kinds = tuple(match["kinds"].split("+"))
     for kind in kinds:
-        if kind not in FAMILIES and kind not in OUTSIDE:
-            raise InputError(f'case "{name}": kind "{kind}" (expected one of {", ".join([*FAMILIES, *OUTSIDE])})')
+        if kind not in FAMILIES and kind not in EVERY_OUTSIDE:
+            known = ", ".join([*FAMILIES, *EVERY_OUTSIDE])
+            raise InputError(f'case "{name}": kind "{kind}" (expected one of {known})')
     return Case(kinds, int(match["percent"]) / 100.0, float(match["times"]), match["half"], int(match["seed"]), plan)

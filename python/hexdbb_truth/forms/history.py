@@ -24,6 +24,9 @@ from hexdbb_truth.timeline import Arc, Drive, Timeline
 
 Rows = NDArray[np.intp]
 
+BLOCK = 16384
+"""Instants whose leg forces are solved at once: their matrices of 6 x 6 stay below 5 MB."""
+
 
 @dataclass(frozen=True)
 class Pieces:
@@ -184,6 +187,28 @@ class History:
             np.broadcast_to(self.nominal.lengths_mm, (n, 6)),
         )
         return leg_forces_n(hexapod, self.poses(rows), self.nominal.weight_n)
+
+    def bridged(self, values: Array) -> Array:
+        """Return values of all instants, (N, ...), with those of travels taken evenly from one run to the next."""
+        runs = np.flatnonzero(self.run >= 0)
+        flat = values.reshape(len(self), -1)[runs]
+        every = [np.interp(np.arange(len(self)), runs, one) for one in flat.T]
+        return np.stack(every, axis=1).reshape(values.shape)
+
+    @cached_property
+    def thrust_n(self) -> Array:
+        """Static thrust of the legs as `leg_force_n` has it, at all instants, shape (N, 6)."""
+        runs = np.flatnonzero(self.run >= 0)
+        thrust = np.zeros_like(self.drive_mm)
+        for first in range(0, len(runs), BLOCK):
+            rows = runs[first : first + BLOCK]
+            thrust[rows] = self.leg_force_n(rows)
+        return self.bridged(thrust)
+
+    @cached_property
+    def push_n(self) -> Array:
+        """Push of the legs on their sliders along the guideways, positive away from slider 0, shape (N, 6)."""
+        return np.asarray(-self.thrust_n * np.cos(self.slider_joint_angle_rad))
 
     def pieces(self, slider: int) -> Pieces:
         """Return the monotone pieces of a slider's motion (from 0)."""

@@ -26,11 +26,15 @@ def alone(
         yield Case((kind,), deviation, times, half, seed)
 
 
-def outside(half: str, times_noise: Iterable[float] = TIMES_NOISE, seeds: Iterable[int] = range(5)) -> Iterator[Case]:
+def outside(
+    half: str,
+    times_noise: Iterable[float] = TIMES_NOISE,
+    seeds: Iterable[int] = range(5),
+    kinds: Iterable[str] = tuple(OUTSIDE),
+) -> Iterator[Case]:
     """Return faults that the catalogue does not have, one at a time."""
-    for seed, times in itertools.product(seeds, times_noise):
-        for kind in OUTSIDE:
-            yield Case((kind,), 0.0, times, half, seed)
+    for seed, times, kind in itertools.product(seeds, times_noise, kinds):
+        yield Case((kind,), 0.0, times, half, seed)
 
 
 def combined(

@@ -77,6 +77,26 @@ def windup(at: Array, time: Array, pieces: Pieces, breakaway: Array | float, rel
     return path
 
 
+def relay(values: Array, low: float, high: float) -> Array:
+    """Return the state of a two-state element: 1 from where `values` exceed `high` until they fall below `low`, else 0.
+
+    Source: the non-ideal relay, Krasnosel'skii and Pokrovskii, Systems with Hysteresis (1989), chapter 5.
+    """
+    state = np.where(values > high, 1.0, 0.0)
+    known = (values > high) | (values < low)
+    last = np.maximum.accumulate(np.where(known, np.arange(len(values)), 0))
+    return np.asarray(state[last])
+
+
+def pushed_ahead(at: Array, time: Array, back_mm_s: float, begin: float) -> Array:
+    """Return a front that `at` pushes ahead of itself where it reaches it and that flows back evenly elsewhere.
+
+    It lies at `begin`, or where `at` is if that is further, at first.
+    """
+    back = back_mm_s * (time - time[0])
+    return np.asarray(np.maximum.accumulate(np.maximum(at + back, begin)) - back)
+
+
 def lowpass(values: Array, dt: float, tau: float) -> Array:
     """Return a first-order lag of `values`, exact for values that stay from instant to instant; starts settled."""
     decay = float(np.exp(-dt / tau))

@@ -1,10 +1,14 @@
 """Faults outside the catalogue: what a machine has that no effect describes, with its true place and variable.
 
-More are added as one more module with a `TABLE`, joined here.
+More are added as one more module with a `TABLE`, joined here: in `BY_NAME_ONLY`, so that the series of cases that
+studies have drawn so far stay as they are.
 """
 
 from hexdbb_truth.forms import (
     outside_blind,
+    outside_blind_three,
+    outside_blind_three_measuring,
+    outside_blind_three_structure,
     outside_blind_two,
     outside_drives,
     outside_last,
@@ -14,7 +18,7 @@ from hexdbb_truth.forms import (
 )
 from hexdbb_truth.forms.fault import Fault, Outside
 
-__all__ = ["OUTSIDE", "Fault", "Outside"]
+__all__ = ["BY_NAME_ONLY", "EVERY_OUTSIDE", "OUTSIDE", "Fault", "Outside"]
 
 OUTSIDE: dict[str, Outside] = {
     **outside_drives.TABLE,
@@ -25,4 +29,12 @@ OUTSIDE: dict[str, Outside] = {
     **outside_blind.TABLE,
     **outside_blind_two.TABLE,
 }
-"""Kinds by name."""
+"""Kinds by name: those that lists of cases mix."""
+BY_NAME_ONLY: dict[str, Outside] = {
+    **outside_blind_three.TABLE,
+    **outside_blind_three_structure.TABLE,
+    **outside_blind_three_measuring.TABLE,
+}
+"""Kinds by name that are in a list only where it is told to have them."""
+EVERY_OUTSIDE: dict[str, Outside] = {**OUTSIDE, **BY_NAME_ONLY}
+"""Kinds that a case may name."""

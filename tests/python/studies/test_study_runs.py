@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -148,6 +149,20 @@ def test_cases_of_verdicts_are_the_series_of_the_half(ran: dict[str, Ran]) -> No
     assert all("-judge-" in name for name in names)
     assert {name.startswith("none") for name in names} == {True, False}
     assert len({"+" in name for name in names}) == 2
+
+
+def test_verdicts_judge_cases_asked_for_by_name() -> None:
+    names = ["platform_corner_swings-d0-x100-judge-s0", "none-judge-s3", "chords_for_arc-d0-x3-judge-s0"]
+    study, asked = study_named("verdicts"), setting("verdicts", verdicts={"names": names})
+    assert asked.file.cases == 2
+    cases = study.cases(asked)
+    assert [case["name"] for case in cases] == names[:2]
+    assert asked.fingerprint("verdicts") == setting("verdicts", verdicts={}).fingerprint("verdicts")
+    line = json.loads(study.row(asked, cases[0])["line"])
+    assert line["case"] == names[0]
+    assert "100 x noise is beyond 300" in line["unreachable"]
+    with pytest.raises(InputError, match=r'^case "gremlin-d0-x3-judge-s0": kind "gremlin"'):
+        study.cases(setting("verdicts", verdicts={"names": ["gremlin-d0-x3-judge-s0"]}))
 
 
 def test_a_run_of_which_every_case_fails_says_why(two_workers: Cluster, tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from hexdbb_truth.forms.cases import (
     case,
 )
 from hexdbb_truth.forms.lists import alone, clean, combined, outside
+from hexdbb_truth.forms.outside import BY_NAME_ONLY, EVERY_OUTSIDE, OUTSIDE
 
 
 def test_names_tell_cases():
@@ -27,6 +28,16 @@ def test_names_tell_cases():
     for each in some:
         assert case(each.name) == each
     assert {len(each.kinds) for each in some} == {0, 1, 2, 3}
+
+
+def test_kinds_by_name_only_are_in_a_list_only_where_it_is_told_so():
+    assert set(EVERY_OUTSIDE) == set(OUTSIDE) | set(BY_NAME_ONLY)
+    assert not set(OUTSIDE) & set(BY_NAME_ONLY)
+    assert {kind for each in outside("judge") for kind in each.kinds} == set(OUTSIDE)
+    asked = list(outside("judge", (3.0, 10.0), [0], BY_NAME_ONLY))
+    assert [each.name for each in asked[:1]] == ["table_of_other_axis-d0-x3-judge-s0"]
+    assert {case(each.name).kinds[0] for each in asked} == set(BY_NAME_ONLY)
+    assert len(asked) == 2 * len(BY_NAME_ONLY)
 
 
 @pytest.mark.parametrize(

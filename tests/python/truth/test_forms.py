@@ -20,7 +20,15 @@ from hexdbb_truth.forms.deviation import Formed, measured_deviation
 from hexdbb_truth.forms.history import monotone
 from hexdbb_truth.forms.labels import VARIABLES
 from hexdbb_truth.forms.measure import Measured
-from hexdbb_truth.forms.operators import lost_motion, lowpass, presliding, travel_since_reversal, windup
+from hexdbb_truth.forms.operators import (
+    lost_motion,
+    lowpass,
+    presliding,
+    pushed_ahead,
+    relay,
+    travel_since_reversal,
+    windup,
+)
 from hexdbb_truth.simulate import true_readings_mm
 
 
@@ -152,6 +160,37 @@ def test_presliding_turns_over_within_its_stretch_and_a_lag_settles():
     step = np.where(np.arange(1000) < 100, 0.0, 1.0)
     lagged = lowpass(step, 0.01, 0.5)
     np.testing.assert_allclose(lagged[100:], -np.expm1(-0.01 * np.arange(1, 901) / 0.5), atol=1e-9)
+
+
+def test_a_relay_keeps_its_state_between_its_thresholds():
+    values = np.array([0.5, 0.9, 1.1, 0.5, 0.1, -0.1, 0.5, 0.9, 1.2])
+    np.testing.assert_array_equal(relay(values, 0.0, 1.0), [0.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
+    at, high = wandering(), 1.0
+    state = False
+    for value, ours in zip(at, relay(at, -1.0, high), strict=True):
+        state = value > high or (state and value >= -1.0)
+        assert ours == float(state)
+
+
+def test_what_is_pushed_ahead_flows_back_where_nothing_pushes():
+    at, time = wandering(), 0.01 * np.arange(3000)
+    front, expected = pushed_ahead(at, time, 0.05, 2.0), 2.0 + 0.05 * 0.01
+    for value, ours in zip(at, front, strict=True):
+        expected = max(value, expected - 0.05 * 0.01)
+        assert ours == pytest.approx(expected, abs=1e-9)
+
+
+def test_loads_of_all_instants_go_evenly_through_travels(short):
+    history = short.history
+    runs, travel = np.flatnonzero(history.run >= 0), np.flatnonzero(history.run < 0)
+    some = runs[::97]
+    np.testing.assert_allclose(history.thrust_n[some], history.leg_force_n(some), rtol=1e-12)
+    first = travel[: np.flatnonzero(np.diff(travel) > 1)[0] + 1] if np.any(np.diff(travel) > 1) else travel
+    ends = history.thrust_n[[first[0] - 1, first[-1] + 1]]
+    assert np.all(history.thrust_n[first] >= ends.min(axis=0) - 1e-9)
+    assert np.all(history.thrust_n[first] <= ends.max(axis=0) + 1e-9)
+    # A pair's sliders are pushed apart: their legs lean towards each other.
+    assert np.all(history.push_n[some, 0] < history.push_n[some, 1])
 
 
 @pytest.mark.parametrize(("kind", "half", "number"), every_form())

@@ -13,11 +13,11 @@ from hexdbb.rig.truth import TruthFile, random_truth
 from hexdbb_truth.forms import plans
 from hexdbb_truth.forms.cases import (
     FAMILIES,
-    OUTSIDE,
     case,
 )
 from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.measure import Measured
+from hexdbb_truth.forms.outside import BY_NAME_ONLY, EVERY_OUTSIDE, OUTSIDE
 from hexdbb_truth.forms.ports import Action, add
 from hexdbb_truth.simulate import Pace
 
@@ -48,9 +48,9 @@ def test_a_constant_at_a_port_is_the_error_of_geometry_that_it_is(short, port, e
     assert np.abs(shown).max() > 1e-4
 
 
-@pytest.mark.parametrize("kind", [*FAMILIES, *OUTSIDE])
+@pytest.mark.parametrize("kind", [*FAMILIES, *EVERY_OUTSIDE])
 def test_a_fault_moves_the_element_of_its_label_alone(kind):
-    one = case(f"{kind}-d{0 if kind in OUTSIDE else 10}-x3-judge-s4")
+    one = case(f"{kind}-d{0 if kind in EVERY_OUTSIDE else 10}-x3-judge-s4")
     scene = one.measured.scene(one.history.samples[::29])
     action, _ = drawn_action(one, kind)
     values = action.values(scene, 10.0)
@@ -73,15 +73,15 @@ def test_a_fault_moves_the_element_of_its_label_alone(kind):
 
 
 def drawn_action(one, kind):
-    if kind in OUTSIDE:
-        fault = OUTSIDE[kind].drawn(one._draw(kind))
+    if kind in EVERY_OUTSIDE:
+        fault = EVERY_OUTSIDE[kind].drawn(one._draw(kind))
         return fault.action, fault.equivalents
     return one._drawn(kind)[0].action(), ()
 
 
-@pytest.mark.parametrize("kind", list(OUTSIDE))
+@pytest.mark.parametrize("kind", list(EVERY_OUTSIDE))
 def test_a_fault_outside_the_catalogue_says_where_it_is_and_what_else_explains_it(kind):
-    kindred = OUTSIDE[kind]
+    kindred = EVERY_OUTSIDE[kind]
     assert kindred.variables
     for seed in range(3):
         action, equivalents = drawn_action(case(f"{kind}-d0-x3-judge-s{seed}"), kind)
@@ -118,8 +118,9 @@ def test_a_fault_stays_where_it_is_on_a_machine_that_is_driven_otherwise(short):
     assert np.abs(moved_mm[inside] - there).max() > 0.01
 
 
-def test_there_are_enough_faults_outside_the_catalogue_at_many_ports():
-    assert len(OUTSIDE) >= 12
-    actions = [drawn_action(case(f"{kind}-d0-x3-judge-s1"), kind)[0] for kind in OUTSIDE]
+@pytest.mark.parametrize("table", [OUTSIDE, BY_NAME_ONLY], ids=["mixed", "by name only"])
+def test_there_are_enough_faults_outside_the_catalogue_at_many_ports(table):
+    assert len(table) >= 12
+    actions = [drawn_action(case(f"{kind}-d0-x3-judge-s1"), kind)[0] for kind in table]
     assert {action.port for action in actions} >= {"slider", "leg", "guideway", "platform_joint", "cup", "reading"}
-    assert len(set(itertools.chain(*(kind.variables for kind in OUTSIDE.values())))) >= 8
+    assert len(set(itertools.chain(*(kind.variables for kind in table.values())))) >= 8

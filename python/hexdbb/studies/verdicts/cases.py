@@ -54,8 +54,16 @@ COLUMNS = pa.schema(
 
 
 def cases(setting: Setting) -> list[Case]:
-    """Return the first cases of an endless series that covers every kind of case early."""
-    series = _series(setting.file.verdicts.half, setting.file.seed)
+    """Return the first of the cases asked for by name, or of an endless series that covers every kind of case early.
+
+    Raises
+    ------
+    InputError
+        No case is called so.
+    """
+    asked = setting.file.verdicts.names
+    named = ((forms.case(name).name, ()) for name in asked)
+    series = named if asked else _series(setting.file.verdicts.half, setting.file.seed)
     chosen = itertools.islice(series, setting.file.cases)
     return [{"case": case, "name": name, "withheld": list(withheld)} for case, (name, withheld) in enumerate(chosen)]
 
