@@ -139,7 +139,8 @@ class Labels(Artist):
 
 def longest_in(figure: Figure, texts: Sequence[str]) -> float:
     """Return the length of the longest of some texts in the style sheet's size, inches."""
-    measured = _Measured.by(FigureCanvasAgg(figure).get_renderer(), FontProperties())
+    canvas: Any = FigureCanvasAgg(figure)
+    measured = _Measured.by(canvas.get_renderer(), FontProperties())
     return max(map(measured.length, texts), default=0.0) / figure.get_dpi()
 
 
