@@ -61,7 +61,8 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        given = (name for name in self.columns if name not in (*STATE, *DERIVED, DEFLECTION))
+        # A copy: another thread may add a column meanwhile.
+        given = (name for name in tuple(self.columns) if name not in (*STATE, *DERIVED, DEFLECTION))
         return (*given, *STATE, *DERIVED, DEFLECTION)
 
     def column(self, name: str) -> NDArray[Any] | None:
