@@ -6,10 +6,12 @@ lies beside the package because to import anything within `hexdbb` imports what 
 
 from __future__ import annotations
 
+import atexit
 import gc
 import os
 import signal
 import sys
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
@@ -84,8 +86,12 @@ def _run(module: str) -> None:
     except KeyboardInterrupt:  # between the import and the command, or after it
         _end()
     except SystemExit as ended:
-        if ended.code == INTERRUPTED:
-            _leave()
+        if ended.code == INTERRUPTED:  # fits may still run in threads, under which Python must not end
+            _leave(INTERRUPTED)
+        if _is_alone():
+            _end_at_once()
+            atexit._run_exitfuncs()
+            _leave(_status(ended.code))
         raise
     finally:
         _end_at_once()  # what was printed is flushed; an exception while the interpreter ends would be a traceback
@@ -101,12 +107,28 @@ def _end_at_once() -> bool:
     return ours
 
 
-def _leave() -> None:
-    """End an interrupted command, which has said so: fits may still run in threads, under which Python must not end."""
+def _is_alone() -> bool:
+    """Check that Python would wait for no thread, and that nobody who traces the program waits for its end."""
+    others = (each for each in threading.enumerate() if each is not threading.current_thread())
+    return all(each.daemon for each in others) and not (sys.gettrace() or sys.getprofile())
+
+
+def _status(code: str | int | None) -> int:
+    """Return the status of an exit as Python ends with it: a message is printed."""
+    if isinstance(code, str):
+        print(code, file=sys.stderr)
+    return 0 if code is None else code if isinstance(code, int) else 1
+
+
+def _leave(status: int) -> None:
+    """End the process, which has said all: Python would take apart what was imported and computed, a tenth of a second.
+
+    What waits to be written is; what was to be done at the end is the caller's.
+    """
     for stream in (sys.stdout, sys.stderr):
-        with suppress(OSError, ValueError):  # closed by the shell
+        with suppress(OSError, ValueError, AttributeError):  # closed by the shell
             stream.flush()
-    os._exit(INTERRUPTED)
+    os._exit(status)
 
 
 def _end(*_: object) -> None:

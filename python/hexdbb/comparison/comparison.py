@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,7 +24,7 @@ from hexdbb.files.plain_text import plain_text
 from hexdbb.model import Model
 from hexdbb.predictors import Predictor, Pushes, rank_predictors, record_names
 from hexdbb.samples import Samples, predict
-from hexdbb.threads import one_thread
+from hexdbb.threads import computed_beside, one_thread
 
 if TYPE_CHECKING:
     from hexdbb.discovery import LikelyCause
@@ -130,13 +131,15 @@ def compare(samples: Samples, model: Model, *, find_cause: bool = True) -> Compa
     _require_samples(samples)
     known, fitted = fit_mounts(samples, model)
     predicted = predict(samples, known)
-    cause = None
-    if find_cause:
-        from hexdbb.discovery import likely_cause  # a quarter of the start of a comparison without
+    pushes, noise_mm = Pushes.of(samples, known), noise_of(samples).sigma_mm
+    described = partial(_described, samples, predicted.reading_mm, pushes, noise_mm)
+    if not find_cause:
+        return _compared(described(), pushes, noise_mm, fitted)
+    from hexdbb.discovery import likely_cause  # a quarter of the start of a comparison without
 
+    with computed_beside(described) as rest:
         cause = likely_cause(samples, known, predicted.residual_mm)
-    noise_mm = noise_of(samples).sigma_mm
-    return compare_readings(samples, predicted.reading_mm, Pushes.of(samples, known), noise_mm, fitted, cause)
+        return _compared(rest(), pushes, noise_mm, fitted, cause)
 
 
 def compare_readings(
@@ -173,16 +176,44 @@ def compare_readings(
     InputError
         No samples in a record, or predictions that do not belong to the samples.
     """
+    described = _described(samples, predicted_mm, pushes, noise_mm)
+    return _compared(described, pushes, noise_mm, fitted_mounts, cause, is_commanded)
+
+
+@dataclass(frozen=True)
+class _Described:
+    """What a comparison has whatever the cause of its residual."""
+
+    samples: Samples
+    predicted_mm: FloatArray
+    circles: list[CircleComparison]
+    predictors: list[Predictor]
+
+
+def _described(samples: Samples, predicted_mm: FloatArray, pushes: Pushes | None, noise_mm: float) -> _Described:
+    """Compare circle by circle and rank predictors; parameters and errors are those of `compare_readings`."""
     _require_samples(samples)
     _check_prediction(samples, predicted_mm)
-    residual_mm = samples.reading_mm - predicted_mm
-    circles = compare_circles(samples, predicted_mm)
-    predictors = rank_predictors(samples, residual_mm, pushes, noise_mm)
+    predictors = rank_predictors(samples, samples.reading_mm - predicted_mm, pushes, noise_mm)
+    return _Described(samples, predicted_mm, compare_circles(samples, predicted_mm), predictors)
+
+
+def _compared(
+    described: _Described,
+    pushes: Pushes | None,
+    noise_mm: float,
+    fitted_mounts: Sequence[str],
+    cause: LikelyCause | None = None,
+    is_commanded: bool = False,
+) -> Comparison:
+    """Complete a comparison by what depends on the cause."""
+    samples, circles, predictors = described.samples, described.circles, described.predictors
+    residual_mm = samples.reading_mm - described.predicted_mm
     if cause is not None:
         predictors = marked(predictors, samples, residual_mm, pushes, noise_mm, cause)
     return Comparison(
         samples=samples,
-        predicted_mm=predicted_mm,
+        predicted_mm=described.predicted_mm,
         residual_mm=residual_mm,
         circles=tuple(circles),
         radial=radial_errors(circles),

@@ -15,11 +15,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis import FitTest, Noise, Sufficiency, assess_sufficiency, evaluate_fit, judging_noise
+from hexdbb.diagnosis import FitTest, Noise, Sufficiency, assess_sufficiency, judging_noise
 from hexdbb.discovery.discover import LEAST_READINGS, LEAST_SWEEPS, discover
 from hexdbb.discovery.result import Cause
 from hexdbb.errors import RunError
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.fitted_model import FittedModel
 from hexdbb.learned.places import KINDS, is_learned
 from hexdbb.model import Choice, Model, new_model
 from hexdbb.samples import Samples, predict
@@ -107,35 +108,42 @@ def likely_cause(samples: Samples, model: Model, residual_mm: Floats) -> LikelyC
     if not judged(model, residual_mm).matters:
         return None
     try:
-        return _own_values(samples, model, residual_mm, judging.noise, judged) or _missing(samples, model, judged)
+        fitted = _fitted_geometry(samples, model, judging.noise)
+        own = _own_values(samples, model, residual_mm, judging.noise, judged, fitted)
+        return own or _missing(samples, model, judged, fitted)
     except RunError:  # a model that cannot be fitted to these readings is compared with them all the same
         return None
 
 
-def _own_values(
-    samples: Samples, model: Model, residual_mm: Floats, noise: Noise, judged: Judged
-) -> LikelyCause | None:
-    """Return the geometry as the cause where it is not, or badly, fitted; None where it explains little."""
+def _fitted_geometry(samples: Samples, model: Model, noise: Noise) -> FittedModel:
+    """Fit what is free in a model, and all of the geometry beside."""
     geometry = {term.effect for term in new_model(model.machine).terms}
     wider = model
     for effect in geometry - {term.effect for term in model.terms}:
         wider = wider.with_effect(Choice(effect))
-    lacks_some = len(wider.terms) > len(model.terms)
-    wider = wider.with_free(wider.free | np.array([each.effect in geometry for each in wider.parameters()]))
-    fitted, result = evaluate_fit(samples, wider, wider.free, noise, hypothesis=True)
-    if _share(residual_mm, result.residual_mm, noise.sigma_mm) < MOST:
+    free = wider.free | np.array([each.effect in geometry for each in wider.parameters()])
+    return FittedModel.of(samples, wider.with_free(free), noise)
+
+
+def _own_values(
+    samples: Samples, model: Model, residual_mm: Floats, noise: Noise, judged: Judged, fitted: FittedModel
+) -> LikelyCause | None:
+    """Return the geometry as the cause where it is not, or badly, fitted; None where it explains little."""
+    left_mm = fitted.residual_mm
+    if _share(residual_mm, left_mm, noise.sigma_mm) < MOST:
         return None
+    lacks_some = len(fitted.model.terms) > len(model.terms)
     whose = "the machine's geometric errors, which the model lacks" if lacks_some else "the model's own values"
     sentence = (
         f"likely cause: {whose}; fitted to these readings (hexdbb diagnose) they leave"
-        f" {_rms_um(result.residual_mm):.2f} µm of {_rms_um(residual_mm):.2f} µm"
+        f" {_rms_um(left_mm):.2f} µm of {_rms_um(residual_mm):.2f} µm"
     )
-    return LikelyCause(sentence, (), (), result.residual_mm, not judged(fitted, result.residual_mm).matters)
+    return LikelyCause(sentence, (), (), left_mm, not judged(fitted.model, left_mm).matters)
 
 
-def _missing(samples: Samples, model: Model, judged: Judged) -> LikelyCause | None:
+def _missing(samples: Samples, model: Model, judged: Judged, fitted: FittedModel) -> LikelyCause | None:
     """Return the effect that is likely missing."""
-    found = discover(samples, model, criteria=QUICK, with_tables=False)
+    found = discover(samples, model, criteria=QUICK, with_tables=False, fitted=fitted)
     if not found.causes:
         return None
     with_all = found.learned or found.model

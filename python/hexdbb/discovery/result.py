@@ -5,21 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from hexdbb.diagnosis import Diagnosis, LackOfFit, Noise, Sufficiency
-from hexdbb.discovery.json_form import (
-    CandidateJson,
-    CauseJson,
-    DiscoveryJson,
-    HeldOutJson,
-    NextTestJson,
-    StructureJson,
-)
-from hexdbb.ledger.json_form import SizeJson, added_json
 from hexdbb.model import Model, Size
 from hexdbb.plan import Circle
 from hexdbb.samples import Samples
+
+if TYPE_CHECKING:
+    from hexdbb.discovery.json_form import CandidateJson, CauseJson, NextTestJson, StructureJson
 
 Grouping = Literal["circle", "feed", "direction", "lap"]
 GROUPINGS: tuple[Grouping, ...] = ("circle", "feed", "direction", "lap")
@@ -70,6 +64,8 @@ class Candidate:
 
     def to_json(self) -> CandidateJson:
         """Return one entry of `candidates`."""
+        from hexdbb.discovery.json_form import CandidateJson, HeldOutJson  # only --json needs them
+
         return CandidateJson(
             names=self.names,
             log_evidence=self.log_evidence,
@@ -128,6 +124,9 @@ class Cause:
 
     def to_json(self) -> CauseJson:
         """Return one entry of `causes`."""
+        from hexdbb.discovery.json_form import CauseJson  # only --json needs them
+        from hexdbb.ledger.json_form import SizeJson
+
         keys = {name: value for name, value in vars(self).items() if name not in ("values", "elements")}
         elements = tuple(int(each) if each.isdecimal() else each for each in self.elements)
         return CauseJson(**keys, elements=elements, parameters=tuple(SizeJson(**vars(each)) for each in self.values))
@@ -152,6 +151,8 @@ class Structure:
 
     def to_json(self) -> StructureJson:
         """Return one entry of `structure`."""
+        from hexdbb.discovery.json_form import StructureJson  # only --json needs it
+
         return StructureJson(**vars(self))
 
 
@@ -166,6 +167,8 @@ class NextTest:
 
     def to_json(self) -> NextTestJson:
         """Return `next_test`: a circle as in a plan."""
+        from hexdbb.discovery.json_form import NextTestJson  # only --json needs it
+
         circle = self.circle
         return NextTestJson(
             id=circle.id,
@@ -278,6 +281,9 @@ class Discovery:
 
     def to_json(self, steps: Sequence[Diagnosis] = (), closing: str | None = None) -> dict[str, Any]:
         """Return the object that ``hexdbb discover --json`` prints; `steps` and `closing` are those of ``--auto``."""
+        from hexdbb.discovery.json_form import DiscoveryJson  # only --json needs them
+        from hexdbb.ledger.json_form import added_json
+
         return DiscoveryJson(
             verdict=self.verdict,
             sentence=self.sentence,

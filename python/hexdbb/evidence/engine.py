@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -10,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.diagnosis import Noise, evaluate_fit
+from hexdbb.diagnosis import Noise
 from hexdbb.errors import RunError
 from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
+from hexdbb.evidence.fitted_model import FittedModel
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
 from hexdbb.learned import Learned
@@ -23,13 +25,18 @@ from hexdbb.samples import Samples, effect_pushes, of_its_own
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
-
+Signatures = tuple[Floats, list[tuple[str, str, str, float]]]
+"""A column each, and whose it is: effect, element, parameter, prior standard deviation."""
 
 FEW_ROWS = 100
 """Rows that tell where an effect pushes: several in every reversal and on every circle of a plan."""
 UNSEEN = 1e-3
 """Information, in values' worth, below which a direction of a learned function that the model has already is left out:
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
+
+KEPT = 4
+"""Tables of signatures kept, some megabytes each: those about one model, at each start of a shape, are asked for where
+effects are screened one by one and again in sets."""
 
 
 @dataclass(frozen=True)
@@ -58,12 +65,22 @@ class Engine:
         That knows the samples' mounts.
     noise : Noise
     criteria : Criteria
+    fitted : FittedModel, optional
+        To these samples, with this noise, already: of this model, or of one that stems from the same.
     """
 
-    def __init__(self, samples: Samples, model: Model, noise: Noise, criteria: Criteria = DEFAULT) -> None:
+    def __init__(
+        self,
+        samples: Samples,
+        model: Model,
+        noise: Noise,
+        criteria: Criteria = DEFAULT,
+        fitted: FittedModel | None = None,
+    ) -> None:
         self.samples, self.noise, self.criteria = samples, noise, criteria
-        self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
-        self.residual_mm = result.residual_mm
+        if fitted is None or not fitted.is_of(model):
+            fitted = FittedModel.of(samples, model, noise)
+        self.base, self.residual_mm = fitted.model, fitted.residual_mm
         begin, count = blocks_of(samples["sweep"], criteria.max_rows)
         chosen = begin + count // 2
         self.part = samples.part(chosen)
@@ -74,6 +91,7 @@ class Engine:
         self._fitted_part = samples.part(chosen[self._fitted_rows])
         self._blocks: dict[tuple[int, tuple[MountKey, ...], frozenset[str]], _core.Samples] = {}
         self._tables: dict[OwnEffect, Tabulated] = {}
+        self._signatures: OrderedDict[tuple[int, tuple[str, ...], float], tuple[Model, Signatures]] = OrderedDict()
 
     @cached_property
     def readings(self) -> Readings:
@@ -217,10 +235,8 @@ class Engine:
         alone = replace(self.base, terms=(_held(self.base, effect),))
         return frozenset(port for port, pushes in effect_pushes(few, alone).items() if np.any(pushes != 0.0))
 
-    def signatures(
-        self, model: Model, effects: Sequence[str], shape: float = 0.0
-    ) -> tuple[Floats, list[tuple[str, str, str, float]]]:
-        """Return first-order signatures of absent effects, per prior standard deviation.
+    def signatures(self, model: Model, effects: Sequence[str], shape: float = 0.0) -> Signatures:
+        """Return first-order signatures of absent effects, per prior standard deviation; the last few are kept.
 
         Parameters
         ----------
@@ -234,6 +250,15 @@ class Engine:
         signatures : ndarray, shape (n, k)
         whose : list of (effect, element, parameter, prior standard deviation)
         """
+        key = (id(model), tuple(effects), shape)
+        if key not in self._signatures:
+            # The model is kept with them: meanwhile no other has its identity.
+            self._signatures[key] = model, self._made_signatures(model, effects, shape)
+            if len(self._signatures) > KEPT:
+                self._signatures.popitem(last=False)
+        return self._signatures[key][1]
+
+    def _made_signatures(self, model: Model, effects: Sequence[str], shape: float) -> Signatures:
         present = {term.effect for term in model.terms}
         terms = [_held(model, name) for name in effects if name not in present]
         full = replace(model, terms=(*model.terms, *terms))

@@ -128,14 +128,18 @@ class Trials:
         Yields
         ------
         callable
-            Returns the next trial, as `of` does. The engine fits without Python's lock.
+            Returns the next trial, as `of` does, while those behind it are fitted: the engine fits without Python's
+            lock.
         """
         new, at_once = list(every), fits_at_once()
-        for first in range(0, len(new), at_once):
-            few = new[first : first + at_once]
-            with ThreadPoolExecutor(at_once) as pool:
-                self._ahead |= {_key(each): pool.submit(self._fitted, each) for each in few if not self.has(each)}
-            yield from (partial(self.of, each) for each in few)
+        with ThreadPoolExecutor(at_once) as pool:
+            for place, each in enumerate(new):
+                # As many again wait, so that no core does while a trial is weighed about its fit.
+                for later in new[place : place + 2 * at_once]:
+                    key = _key(later)
+                    if not (self.has(later) or key in self._ahead):
+                        self._ahead[key] = pool.submit(self._fitted, later)
+                yield partial(self.of, each)
 
     def has(self, members: Sequence[Member]) -> bool:
         """Check whether a model with hypotheses was fitted already."""

@@ -156,9 +156,11 @@ class Space:
         low, high, sign_width, warp_width = 0.0, period or 1.0, 0.0, 0.0
         if variable.column:
             values = np.concatenate([_of(samples, variable, each) for each in elements])
-            known = values[np.isfinite(values) & (np.abs(values) < NEVER)]
-            least = max(variable.least, SMALLEST_RANGE * max(float(np.abs(known).max(initial=0.0)), 1.0))
-            if len(known) and float(np.ptp(known)) <= least:
+            usual = np.abs(values) < NEVER  # which nan is not
+            known = values if usual.all() else values[usual]
+            lowest, highest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+            least = max(variable.least, SMALLEST_RANGE * max(-lowest, highest, 1.0))
+            if len(known) and highest - lowest <= least:
                 raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
             some = known[:: max(1, len(known) // COUNTED)]
             different = min(len(np.unique(some)), len(known) // len(elements))

@@ -60,12 +60,15 @@ def _cubics(place: Floats, intervals: int) -> Floats:
     interval = np.minimum(place.astype(np.intp), intervals - 1)
     t = place - interval
     left = 1.0 - t
-    parts = (left**3, 3.0 * t**3 - 6.0 * t**2 + 4.0, 3.0 * left**3 - 6.0 * left**2 + 4.0, t**3)
-    found = np.zeros((len(place), intervals + DEGREE))
-    row = np.arange(len(place))
+    square, left_square = t * t, left * left
+    cube, left_cube = square * t, left_square * left  # a power of an array takes twenty times as long
+    parts = (left_cube, 3.0 * cube - 6.0 * square + 4.0, 3.0 * left_cube - 6.0 * left_square + 4.0, cube)
+    width = intervals + DEGREE
+    found = np.zeros(len(place) * width)
+    first = width * np.arange(len(place)) + interval
     for later, part in enumerate(parts):
-        found[row, interval + later] = part / 6.0
-    return found
+        found[first + later] = part / 6.0
+    return found.reshape(-1, width)
 
 
 @lru_cache(maxsize=512)

@@ -14,7 +14,9 @@ from weakref import WeakKeyDictionary, proxy
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgba
+from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
 from matplotlib.transforms import Bbox, BboxTransformTo, Transform
@@ -133,6 +135,13 @@ class Labels(Artist):
         begins = np.asarray(self.get_transform().transform(self.places), dtype=np.float64)
         offsets: NDArray[np.float64] = np.column_stack([up, -along] if self._upright else [-along, -up])
         return begins + offsets
+
+
+def longest_in(figure: Figure, texts: Sequence[str]) -> float:
+    """Return the length of the longest of some texts in the style sheet's size, inches."""
+    canvas: Any = FigureCanvasAgg(figure)
+    measured = _Measured.by(canvas.get_renderer(), FontProperties())
+    return max(map(measured.length, texts), default=0.0) / figure.get_dpi()
 
 
 class _Measured:

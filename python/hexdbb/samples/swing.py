@@ -17,10 +17,12 @@ from hexdbb.kinematics import engine_machine, forward
 from hexdbb.machine import MachineFile
 
 Floats = NDArray[np.float64]
+Pose = tuple[Floats, Floats]
 
 DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "time_in_sweep_s")
 DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep")
 """Columns that these follow from."""
+LEGS = 6
 STEP_S = 1e-3
 """Half the time over which the swing is differenced: sliders move some 0.1 mm in it, far above rounding, far below
 lengths over which the swing bends."""
@@ -40,23 +42,30 @@ def derived_columns(
         That the column ``set_up`` counts.
     """
     sliders_mm, way_mm = columns["sliders_mm"], STEP_S * np.nan_to_num(columns["velocity_mm_s"])
-    (swing, inclination), (later, _), (earlier, _) = (
-        _stance(machine, sliders_mm + way) for way in (np.zeros(1), way_mm, -way_mm)
+    pose = _pose(machine, sliders_mm)
+    reach_mm = _reach_mm(machine, sliders_mm, pose)
+    later, earlier = (
+        _swing(machine, _reach_mm(machine, there_mm, _pose(machine, there_mm)))
+        for there_mm in (sliders_mm + way_mm, sliders_mm - way_mm)
     )
     return {
-        "swing_angle_rad": swing,
+        "swing_angle_rad": _swing(machine, reach_mm),
         "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
-        "leg_inclination_rad": inclination,
-        "bar_angle_rad": _bar_angle(machine, sliders_mm, columns["set_up"], set_ups),
+        "leg_inclination_rad": np.arctan2(np.hypot(reach_mm[0], reach_mm[1]), reach_mm[2]),
+        "bar_angle_rad": _bar_angle(pose, columns["set_up"], set_ups),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
     }
 
 
-def _bar_angle(
-    machine: MachineFile, sliders_mm: Floats, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_core.SetUp]
-) -> Floats:
-    """Return the angle of the bar about the platform's z, of the nominal machine; shape (n,)."""
+def _pose(machine: MachineFile, sliders_mm: Floats) -> Pose:
+    """Return position, shape (n, 3), and rotation, (n, 3, 3), of the nominal machine's platform."""
     position_mm, rotation, _ = forward(machine, sliders_mm)
+    return position_mm, rotation
+
+
+def _bar_angle(pose: Pose, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_core.SetUp]) -> Floats:
+    """Return the angle of the bar about the platform's z, of the nominal machine; shape (n,)."""
+    position_mm, rotation = pose
     cup_mm = np.array([each.cup_mm for each in set_ups])[set_up]
     ball_mm = np.array([each.ball_offset_mm for each in set_ups])[set_up]
     bar_mm = np.einsum("nij,ni->nj", rotation, position_mm - cup_mm) + ball_mm
@@ -73,17 +82,24 @@ def _begin_s(time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
     return found
 
 
-def _stance(machine: MachineFile, sliders_mm: Floats) -> tuple[Floats, Floats]:
-    """Return the swing of each leg about its guideway, and its inclination to the vertical, each shape (n, 6)."""
-    position_mm, rotation, _ = forward(machine, sliders_mm)
+def _reach_mm(machine: MachineFile, sliders_mm: Floats, pose: Pose) -> Floats:
+    """Return each leg from its slider's joint to the platform's, shape (3, n, 6)."""
+    position_mm, rotation = pose
     nominal = engine_machine(machine)
-    swing, inclination = np.empty(sliders_mm.shape), np.empty(sliders_mm.shape)
-    for leg in range(6):
-        guideway = leg // 2
-        axes = _core.guideway_axes(nominal, guideway)
-        along = _core.guideway_direction(nominal, guideway)
-        foot = _core.guideway_vertex(nominal, guideway) + sliders_mm[:, [leg]] * along
-        reach = position_mm + rotation @ _core.platform_joint(nominal, guideway) - foot
-        swing[:, leg] = np.arctan2(reach @ axes[:, 2], reach @ axes[:, 0])
-        inclination[:, leg] = np.arctan2(np.hypot(reach[:, 0], reach[:, 1]), reach[:, 2])
-    return swing, inclination
+    joints = np.column_stack([_core.platform_joint(nominal, leg // 2) for leg in range(LEGS)])
+    vertices = np.column_stack([_core.guideway_vertex(nominal, leg // 2) for leg in range(LEGS)])
+    along = np.column_stack([_core.guideway_direction(nominal, leg // 2) for leg in range(LEGS)])
+    found = np.empty((3, *sliders_mm.shape))
+    for axis in range(3):
+        foot_mm = vertices[axis] + sliders_mm * along[axis]
+        found[axis] = position_mm[:, [axis]] + rotation[:, axis, :] @ joints - foot_mm
+    return found
+
+
+def _swing(machine: MachineFile, reach_mm: Floats) -> Floats:
+    """Return the swing of each leg about its guideway, shape (n, 6)."""
+    nominal = engine_machine(machine)
+    axes = np.stack([_core.guideway_axes(nominal, leg // 2) for leg in range(LEGS)], axis=-1)
+    across, up = (sum(reach_mm[axis] * axes[axis, which] for axis in range(3)) for which in (2, 0))
+    found: Floats = np.arctan2(across, up)
+    return found

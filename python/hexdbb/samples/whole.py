@@ -64,7 +64,8 @@ class Whole:
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
         later = (*STATE, *DERIVED, *LOADS, DEFLECTION, DEFLECTION_DIRECTION)
-        return (*(name for name in self.columns if name not in later), *later)
+        # A copy: another thread may add a column meanwhile.
+        return (*(name for name in tuple(self.columns) if name not in later), *later)
 
     def column(self, name: str) -> NDArray[Any] | None:
         """Return a column, None where there is no such; threads that ask at once both derive the same."""

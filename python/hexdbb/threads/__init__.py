@@ -7,7 +7,9 @@ OpenBLAS divides each product among all cores, which wait for one another: on a 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import cache, wraps
 from typing import ParamSpec, TypeVar
 
@@ -41,3 +43,19 @@ def fits_at_once() -> int:
     """
     cores, wanted = len(os.sched_getaffinity(0)), os.environ.get("OMP_NUM_THREADS", "")
     return min(cores, int(wanted)) if wanted.isdecimal() and int(wanted) > 0 else cores
+
+
+@contextmanager
+def computed_beside(function: Callable[[], R]) -> Iterator[Callable[[], R]]:
+    """Let a function run in a thread of its own while the block does; on one core, when its result is asked for.
+
+    Yields
+    ------
+    callable
+        Waits for the function and returns its result, or raises its error. At the block's end it is waited for anyway.
+    """
+    if fits_at_once() < 2:
+        yield function
+        return
+    with ThreadPoolExecutor(1) as pool:
+        yield pool.submit(function).result

@@ -18,7 +18,7 @@ NOT_DRAWN = (
     "hexdbb.trend",
 )
 """What the first page of a comparison, a PNG, needs none of."""
-ONLY_JSON = ("hexdbb.diagnosis.json_form", "hexdbb.ledger.json_form", "hexdbb.comparison.json_form")
+ONLY_JSON = tuple(f"hexdbb.{each}.json_form" for each in ("diagnosis", "ledger", "comparison", "discovery"))
 """Declarations of what --json prints."""
 
 
@@ -45,6 +45,10 @@ def test_effects_of_ones_own_are_loaded_where_a_file_is_named(command: str) -> N
 @pytest.mark.parametrize("command", ["diagnose", "compare"])
 def test_what_json_holds_is_declared_where_it_is_printed(command: str) -> None:
     assert loaded_of(ONLY_JSON, f"import hexdbb.cli.{command}") == "[]"
+
+
+def test_the_search_for_causes_declares_no_json() -> None:
+    assert loaded_of(ONLY_JSON, "from hexdbb.discovery import likely_cause") == "[]"
 
 
 def test_the_first_page_is_drawn_without() -> None:
