@@ -2,7 +2,7 @@
 // double.
 //
 // GCC 12 takes lanes that are wider than the processor's registers apart at comparisons, shuffles and copies: eight of
-// them took ten times as long with AVX2 as four do. Work on blocks is therefore written for any number of lanes and
+// them took two to five times as long with AVX2 as twice four. Work on blocks is therefore written for any number of lanes and
 // compiled for the number that each processor's registers hold (multiversion.hpp).
 #pragma once
 
