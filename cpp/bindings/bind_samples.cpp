@@ -115,6 +115,26 @@ void bind_samples(py::module_& module) {
       .def_readonly("mount", &Samples::mount)
       .def_readonly("set_ups", &Samples::set_ups)
       .def_property_readonly("state", &state_of, "Columns of the state that are known, by name.")
+      .def_property_readonly(
+          "known",
+          [](const Samples& samples) {
+            std::vector<std::string> out;
+            for_each_column(samples.state, [&](const ColumnInfo& info, const auto& column) {
+              if (column.size() > 0) out.emplace_back(info.name);
+            });
+            return out;
+          },
+          "Names of the columns of the state that are known.")
+      .def(
+          "column",
+          [](const Samples& samples, const std::string& name) {
+            py::object out = py::none();
+            for_each_column(samples.state, [&](const ColumnInfo& info, const auto& column) {
+              if (name == info.name && column.size() > 0) out = py::cast(column);
+            });
+            return out;
+          },
+          py::arg("name"), "Return a column of the state, None where it is not known.")
       .def(
           "rows",
           [](const Samples& samples,

@@ -7,10 +7,11 @@ namespace hexdbb {
 
 namespace {
 
+template <class L>
 struct LanesAt {
-  using Number = Lanes;
-  static constexpr Eigen::Index kRows = kLanes;
-  static Number of(const double* from) { return load(from); }
+  using Number = L;
+  static constexpr Eigen::Index kRows = kLanesIn<L>;
+  static Number of(const double* from) { return load<L>(from); }
   static void put(const Number& value, double* to) { store(value, to); }
 };
 
@@ -41,11 +42,9 @@ inline void set_rows(const AffineRate* first, const AffineRate* last, Eigen::Ind
   for (int i = 0; i < Count; ++i) At::put(sum[i], derivative + row + i * At::kRows);
 }
 
-}  // namespace
-
-HEXDBB_MULTIVERSION_WIDE
-void chain_affine(const std::vector<AffineRate>& rates, Eigen::Index rows, Columns<const double> sliders_mm,
-                  Columns<const double> sensitivity, Eigen::Index values, Columns<double> derivative) noexcept {
+template <class L>
+inline void chain_affine_in(const std::vector<AffineRate>& rates, Eigen::Index rows, Columns<const double> sliders_mm,
+                            Columns<const double> sensitivity, Eigen::Index values, Columns<double> derivative) {
   constexpr int kTogether = 4;  // a rate is read once for so many rows of lanes
   const AffineRate *first = rates.data(), *const end = first + rates.size();
   for (Eigen::Index value = 0; value < values; ++value) {
@@ -53,12 +52,19 @@ void chain_affine(const std::vector<AffineRate>& rates, Eigen::Index rows, Colum
     while (last != end && last->value == value) ++last;
     double* const out = derivative.column(value);
     Eigen::Index row = 0;
-    for (; row + kTogether * kLanes <= rows; row += kTogether * kLanes) {
-      set_rows<LanesAt, kTogether>(first, last, row, sliders_mm, sensitivity, out);
+    for (; row + kTogether * kLanesIn<L> <= rows; row += kTogether * kLanesIn<L>) {
+      set_rows<LanesAt<L>, kTogether>(first, last, row, sliders_mm, sensitivity, out);
     }
     for (; row < rows; ++row) set_rows<OneAt, 1>(first, last, row, sliders_mm, sensitivity, out);
     first = last;
   }
 }
+
+}  // namespace
+
+HEXDBB_BY_LANES(chain_affine,
+                (const std::vector<AffineRate>& rates, Eigen::Index rows, Columns<const double> sliders_mm,
+                 Columns<const double> sensitivity, Eigen::Index values, Columns<double> derivative),
+                (rates, rows, sliders_mm, sensitivity, values, derivative))
 
 }  // namespace hexdbb

@@ -13,33 +13,34 @@ void set_column(double constant, double slope, const double* slider_mm, double* 
   for (Eigen::Index row = 0; row < Block::kRows; ++row) out[row] = constant + slope * slider_mm[row];
 }
 
-inline double sum_of(const Lanes& lanes) {
-  double sum = 0.0;
-  for (int lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
-  return sum;
-}
-
 /// Add residual times sensitivity for all ports, and times the slider's coordinate for some; whole lanes of rows, as they
 /// are solved.
-HEXDBB_MULTIVERSION_WIDE
-void add_products(const Block& block, Eigen::Index rows, const double* residual, const std::vector<int>& sloping,
-                  PortGradient& sums) noexcept {
+template <class L>
+inline void add_products_in(const Block& block, Eigen::Index rows, const double* residual,
+                            const std::vector<int>& sloping, PortGradient& sums) {
   for (int port = 0; port < port::kCount; ++port) {
     const double* const sensitivity = &block.sensitivity(0, port);
-    Lanes sum = {};
-    for (Eigen::Index row = 0; row < rows; row += kLanes) sum += load(residual + row) * load(sensitivity + row);
+    L sum = {};
+    for (Eigen::Index row = 0; row < rows; row += kLanesIn<L>) {
+      sum += load<L>(residual + row) * load<L>(sensitivity + row);
+    }
     sums.constant.value[port] += sum_of(sum);
   }
   for (const int port : sloping) {
     const double *const sensitivity = &block.sensitivity(0, port), *const slider_mm =
                                                                        &block.sliders_mm(0, leg_of(port));
-    Lanes sum = {};
-    for (Eigen::Index row = 0; row < rows; row += kLanes) {
-      sum += load(residual + row) * load(sensitivity + row) * load(slider_mm + row);
+    L sum = {};
+    for (Eigen::Index row = 0; row < rows; row += kLanesIn<L>) {
+      sum += load<L>(residual + row) * load<L>(sensitivity + row) * load<L>(slider_mm + row);
     }
     sums.slope.value[port] += sum_of(sum);
   }
 }
+
+HEXDBB_BY_LANES(add_products,
+                (const Block& block, Eigen::Index rows, const double* residual, const std::vector<int>& sloping,
+                 PortGradient& sums),
+                (block, rows, residual, sloping, sums))
 
 }  // namespace
 

@@ -9,9 +9,9 @@ namespace hexdbb {
 
 namespace {
 
-// Width of a bracket, in standard deviations of its value, at which the value rests: a third of what a stated value may
-// be off.
-constexpr double kNarrow = 3e-4;
+// Width of a bracket, in standard deviations of its value, at which the value rests: what all values together may be off
+// where the cost has no kinks.
+constexpr double kNarrow = 1e-3;
 // Part of a bracket that a step leaves on its far side; its square after the second step to the same side, and so on.
 constexpr double kFewer = 0.5;
 // Of the cost: where brackets begun anew lower it by less, all rest. What a bracket was learned from is out of date as far

@@ -178,17 +178,27 @@ class Accumulator::GradientSums {
  public:
   GradientSums(const Model& model, const BlockSolver& solver, NormalEquations& out)
       : model_(model), solver_(solver), out_(out) {
-    for (std::size_t term = 0; term < model.terms.size(); ++term) has_others_ |= !solver.affine().has(term);
-    if (has_others_) others_.setZero(Block::kRows, padded(model.size()));
+    Eigen::Index column = 0;
+    for (std::size_t term = 0; term < model.terms.size(); ++term) {
+      const Eigen::Index end = column + model.terms[term].values.size();
+      for (; column < end && !solver.affine().has(term); ++column) {
+        const Eigen::Index four = column / 4 * 4;
+        if (fours_.empty() || fours_.back() != four) fours_.push_back(four);
+      }
+      column = end;
+    }
+    if (!fours_.empty()) others_.setZero(Block::kRows, padded(model.size()));
   }
 
   /// `weighted`: residuals times the square of their weight, zeros beyond the block's rows.
   void add_block(const SampleBlock& rows, const Block& block, const Eigen::VectorXd& weighted) {
     solver_.affine().add(block, rows.count, weighted.data(), ports_);
-    if (!has_others_) return;
+    if (fours_.empty()) return;
     solver_.chain_others(rows, others_.leftCols(model_.size()));
     others_.bottomRows(Block::kRows - rows.count).setZero();
-    add_gradient({others_.data(), Block::kRows, Block::kRows, others_.cols()}, weighted.data(), out_.gradient.data());
+    for (const Eigen::Index four : fours_) {
+      add_gradient({&others_(0, four), Block::kRows, Block::kRows, 4}, weighted.data(), &out_.gradient[four]);
+    }
   }
 
   void flush() {
@@ -206,8 +216,8 @@ class Accumulator::GradientSums {
   const BlockSolver& solver_;
   NormalEquations& out_;
   PortGradient ports_;
-  bool has_others_ = false;
   Eigen::MatrixXd others_;  // columns of the Jacobian of the effects that are not affine; zeros for the affine ones
+  std::vector<Eigen::Index> fours_;  // first of each four columns in which any is not affine
 };
 
 /// Keep the Jacobian of a block, columns those of all values, where that is asked for.

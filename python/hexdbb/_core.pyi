@@ -37,8 +37,10 @@ __all__: list[str] = [
     "Zone",
     "autocorrelation_time",
     "chi_square_tail",
+    "circular_hysteresis_mm",
     "compensation_of",
     "design_sums",
+    "deviation_at",
     "effect_info",
     "effect_names",
     "effect_pushes",
@@ -53,12 +55,17 @@ __all__: list[str] = [
     "guideway_vertex",
     "identifiability",
     "inverse_table",
+    "lap_differences",
+    "largest_gap_rad",
     "least_squares_circle",
     "limit_threads",
     "log_normal_below",
+    "make_path",
+    "mean_path",
     "minimum_zone",
     "normal_equations",
     "orthonormal_harmonics",
+    "path_points_mm",
     "platform_joint",
     "port_sensitivity",
     "predict",
@@ -72,6 +79,7 @@ __all__: list[str] = [
     "schur_complement",
     "state_columns",
     "status_name",
+    "without_harmonics",
 ]
 
 class Machine:
@@ -209,6 +217,10 @@ class Samples:
         ValueError
             An unknown column, a column of another length, an index out of range.
         """
+    def column(self, name: str) -> typing.Any:
+        """
+        Return a column of the state, None where it is not known.
+        """
     def derive(self, machine: Machine, columns: collections.abc.Sequence[str] = []) -> None:
         """
         Compute columns that follow from time_s, sweep, angle_rad and the sliders: those named, and what is found on
@@ -223,6 +235,11 @@ class Samples:
     def rows(self, which: typing.Annotated[numpy.typing.ArrayLike, numpy.int64]) -> Samples:
         """
         Return some rows, by index from 0; they remember their place in the table. ValueError where there is no such row.
+        """
+    @property
+    def known(self) -> list[str]:
+        """
+        Names of the columns of the state that are known.
         """
     @property
     def mount(self) -> typing.Annotated[numpy.typing.NDArray[numpy.int32], "[m, 1]"]: ...
@@ -769,6 +786,20 @@ def chi_square_tail(
     Return the probability that chi-square with these degrees of freedom (above 0) exceeds a value.
     """
 
+def circular_hysteresis_mm(
+    one: tuple[
+        typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    ],
+    other: tuple[
+        typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+        typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    ],
+) -> float:
+    """
+    Return the largest difference (mm) of two paths, angles and deviations each, at an angle that either has.
+    """
+
 def compensation_of(
     model: Model,
     *,
@@ -830,6 +861,15 @@ def design_sums(
     ------
     ValueError
         Shapes that differ, or a place or group out of range.
+    """
+
+def deviation_at(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    deviation_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    at_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Return a path's deviation (mm) at other angles (m,), by periodic linear interpolation.
     """
 
 def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIndex, name: str) -> EffectInfo:
@@ -1031,6 +1071,33 @@ def inverse_table(
         Leg at fault from 0, or -1.
     """
 
+def lap_differences(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    lap: typing.Annotated[numpy.typing.NDArray[numpy.int64], "[m, 1]"],
+    values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    highest: typing.SupportsInt | typing.SupportsIndex,
+) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]:
+    """
+    Return the differences of each two consecutive laps of a sweep at one angle, in units of one value's noise.
+
+    Parameters
+    ----------
+    angle_rad, values : ndarray, shape (n,)
+    lap : ndarray of int, shape (n,)
+    highest : int
+        Harmonics that are removed from the values first.
+
+    Raises
+    ------
+    ValueError
+        Lengths that differ.
+    """
+
+def largest_gap_rad(angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> float:
+    """
+    Return the largest arc without one of the angles (n,) of a path.
+    """
+
 def least_squares_circle(
     points_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]", "flags.f_contiguous"],
 ) -> FittedCircle:
@@ -1051,6 +1118,43 @@ def limit_threads(most: typing.SupportsInt | typing.SupportsIndex) -> None:
 def log_normal_below(value: typing.SupportsFloat | typing.SupportsIndex) -> float:
     """
     Return the logarithm of the probability that a standard normal value lies below a value.
+    """
+
+def make_path(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    deviation_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+) -> tuple[
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+]:
+    """
+    Return angles (n,) in [0, 2 pi), rising, and the deviations at them. ValueError where lengths differ.
+    """
+
+def mean_path(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    deviation_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    turn: typing.Annotated[numpy.typing.NDArray[numpy.int64], "[m, 1]"],
+    most_gap_rad: typing.SupportsFloat | typing.SupportsIndex,
+) -> tuple[
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+]:
+    """
+    Return angles and deviations, each (m,), of the mean of laps.
+
+    Parameters
+    ----------
+    angle_rad, deviation_mm : ndarray, shape (n,)
+    turn : ndarray of int, shape (n,)
+        Lap of each sample.
+    most_gap_rad : float
+        Laps with a longer arc without a sample do not count as long as another one does.
+
+    Raises
+    ------
+    ValueError
+        Lengths that differ, or no samples.
     """
 
 def minimum_zone(
@@ -1085,6 +1189,15 @@ def orthonormal_harmonics(
     ------
     ValueError
         A negative number of harmonics.
+    """
+
+def path_points_mm(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    deviation_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    nominal_radius_mm: typing.SupportsFloat | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 2]"]:
+    """
+    Return a path's places in its plane, (n, 2), about the nominal centre.
     """
 
 def platform_joint(
@@ -1179,6 +1292,15 @@ def state_columns() -> list[StateColumn]:
 def status_name(code: typing.SupportsInt | typing.SupportsIndex) -> str:
     """
     Return what a status code of the kinematics means. ValueError for an unknown code.
+    """
+
+def without_harmonics(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    highest: typing.SupportsInt | typing.SupportsIndex,
+) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]:
+    """
+    Return values (n,) less their mean and their harmonics 1 to highest of angles (n,).
     """
 
 CORRECTION_LIMIT: int = 6

@@ -203,11 +203,14 @@ def lap_mean_path(part: Samples, circle: Circle, bar_mm: float, reading_mm: Floa
     reading_mm : (n,) array
         Readings that the path is made of: measured ones, or predicted by any model.
     """
-    angle_rad, deviation_mm = part["angle_rad"], reading_mm + (bar_mm - circle.radius_mm)
-    sweep, lap = part["sweep"].astype(np.int64), part["lap"].astype(np.int64)
-    turn_of = (sweep - sweep.min()) * (int(lap.max()) - int(lap.min()) + 1) + lap - lap.min()
-    here = [turn_of == turn for turn in np.flatnonzero(np.bincount(turn_of))]
-    return iso230.mean_path([iso230.make_path(angle_rad[one], deviation_mm[one], circle.radius_mm) for one in here])
+    turn = numbered_turns(part["sweep"], part["lap"])
+    return iso230.lap_mean_path(part["angle_rad"], reading_mm + (bar_mm - circle.radius_mm), circle.radius_mm, turn)
+
+
+def numbered_turns(sweep: npt.NDArray[np.int32], lap: npt.NDArray[np.int32]) -> npt.NDArray[np.int64]:
+    """Return one number (n,) for each lap of each sweep, in the order of sweeps and laps."""
+    first = int(lap.min())
+    return sweep.astype(np.int64) * (int(lap.max()) - first + 1) + (lap - first)
 
 
 def _radial_mm(

@@ -61,8 +61,7 @@ class Path:
     @cached_property
     def points_mm(self) -> FloatArray:
         """The path in its plane, (n, 2), origin at the nominal centre."""
-        radius = self.nominal_radius_mm + self.deviation_mm
-        return np.column_stack([radius * np.cos(self.angle_rad), radius * np.sin(self.angle_rad)])
+        return _core.path_points_mm(self.angle_rad, self.deviation_mm, self.nominal_radius_mm)
 
     @cached_property
     def least_squares(self) -> _core.FittedCircle:
@@ -72,22 +71,11 @@ class Path:
     @cached_property
     def is_full_circle(self) -> bool:
         """Whether no arc longer than `MAX_GAP_RAD` is without a sample."""
-        angle = self.angle_rad
-        closing = angle[0] + FULL_TURN_RAD - angle[-1]
-        return bool(np.max(angle[1:] - angle[:-1], initial=closing) <= MAX_GAP_RAD)
+        return _core.largest_gap_rad(self.angle_rad) <= MAX_GAP_RAD
 
     def deviation_at(self, angle_rad: FloatArray) -> FloatArray:
         """Return the deviation (mm) at other angles, by periodic linear interpolation."""
-        return np.interp(np.mod(angle_rad, FULL_TURN_RAD), *self._around)
-
-    @cached_property
-    def _around(self) -> tuple[FloatArray, FloatArray]:
-        """Angles and deviations with the last sample before the first and the first after the last, a turn away."""
-        angle, deviation = self.angle_rad, self.deviation_mm
-        return (
-            np.concatenate([angle[-1:] - FULL_TURN_RAD, angle, angle[:1] + FULL_TURN_RAD]),
-            np.concatenate([deviation[-1:], deviation, deviation[:1]]),
-        )
+        return _core.deviation_at(self.angle_rad, self.deviation_mm, angle_rad)
 
     def about(self, centre_mm: FloatArray) -> Path:
         """Return the path with its radii from another centre (2,), in mm; the commanded angles stay."""
@@ -112,6 +100,27 @@ def make_path(angle_rad: FloatArray, deviation_mm: FloatArray, nominal_radius_mm
     InputError
         No samples, arrays of different shape, a value that is not finite or a radius that is not positive.
     """
+    angle, deviation = _checked(angle_rad, deviation_mm, nominal_radius_mm)
+    return Path(*_core.make_path(angle, deviation), float(nominal_radius_mm))
+
+
+def lap_mean_path(
+    angle_rad: FloatArray, deviation_mm: FloatArray, nominal_radius_mm: float, turn: npt.NDArray[np.int64]
+) -> Path:
+    """Return the `mean_path` of laps from samples in any order; `turn` (n,) numbers the lap of each.
+
+    Raises
+    ------
+    InputError
+        As `make_path`.
+    """
+    angle, deviation = _checked(angle_rad, deviation_mm, nominal_radius_mm)
+    return Path(*_core.mean_path(angle, deviation, turn, MAX_GAP_RAD), float(nominal_radius_mm))
+
+
+def _checked(
+    angle_rad: FloatArray, deviation_mm: FloatArray, nominal_radius_mm: float
+) -> tuple[FloatArray, FloatArray]:
     angle, deviation = np.asarray(angle_rad, dtype=np.float64), np.asarray(deviation_mm, dtype=np.float64)
     if angle.ndim != 1 or angle.shape != deviation.shape or angle.size == 0:
         raise InputError(f"a path needs angles and deviations of one length, got {angle.shape} and {deviation.shape}")
@@ -119,10 +128,7 @@ def make_path(angle_rad: FloatArray, deviation_mm: FloatArray, nominal_radius_mm
         raise InputError("a path needs finite angles and deviations")
     if not nominal_radius_mm > 0.0:
         raise InputError(f"a path needs a positive nominal radius, got {nominal_radius_mm} mm")
-    wrapped = np.mod(angle, FULL_TURN_RAD)
-    wrapped[wrapped >= FULL_TURN_RAD] = 0.0  # np.mod rounds tiny negative angles up to a whole turn
-    order = np.argsort(wrapped, kind="stable")
-    return Path(wrapped[order], deviation[order], float(nominal_radius_mm))
+    return angle, deviation
 
 
 def mean_path(laps: Sequence[Path]) -> Path:
@@ -140,14 +146,11 @@ def mean_path(laps: Sequence[Path]) -> Path:
         raise InputError("a mean path needs at least one lap")
     if len({lap.nominal_radius_mm for lap in laps}) != 1:
         raise InputError(f"laps of different nominal radius: {sorted({lap.nominal_radius_mm for lap in laps})} mm")
-    whole = [lap for lap in laps if lap.is_full_circle]
-    if not whole:
-        return max(laps, key=lambda lap: len(lap.angle_rad))
-    if len(whole) == 1:
-        return whole[0]
-    grid = even_angles(min(len(lap.angle_rad) for lap in whole))
-    deviation = np.mean([lap.deviation_at(grid) for lap in whole], axis=0)
-    return Path(grid, deviation, whole[0].nominal_radius_mm)
+    turn = np.repeat(np.arange(len(laps), dtype=np.int64), [len(lap.angle_rad) for lap in laps])
+    angle_rad, deviation_mm = (
+        np.concatenate([getattr(lap, name) for lap in laps]) for name in ("angle_rad", "deviation_mm")
+    )
+    return lap_mean_path(angle_rad, deviation_mm, laps[0].nominal_radius_mm, turn)
 
 
 def even_angles(count: int) -> FloatArray:
@@ -177,8 +180,7 @@ def circular_hysteresis_mm(ccw: Path, cw: Path) -> float:
 
     ISO 230-4:2005. Both paths are interpolated onto every angle that either of them has, so no sample is left out.
     """
-    angles = np.union1d(ccw.angle_rad, cw.angle_rad)
-    return float(np.abs(ccw.deviation_at(angles) - cw.deviation_at(angles)).max())
+    return _core.circular_hysteresis_mm((ccw.angle_rad, ccw.deviation_mm), (cw.angle_rad, cw.deviation_mm))
 
 
 def set_up_centre_mm(*paths: Path) -> FloatArray:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from hexdbb.comparison.circles import DIRECTION_NAMES, lap_mean_path
+from hexdbb.comparison.circles import numbered_turns
+from hexdbb.comparison.iso230 import Path, lap_mean_path
 from hexdbb.comparison.quantities import QUANTITIES, Quantities, Quantity, evaluate_quantities
 from hexdbb.samples import Samples
-from hexdbb.samples.distinct import distinct_rows
+from hexdbb.samples.distinct import distinct_rows, rows_by_number
 
 
 def largest_quantities(samples: Samples, keys: Sequence[str]) -> Quantities:
@@ -36,14 +37,16 @@ def largest_quantities(samples: Samples, keys: Sequence[str]) -> Quantities:
 
 def _of_circles(samples: Samples, chosen: list[Quantity]) -> Iterator[Quantities]:
     """Yield the quantities of every circle, feed and direction."""
-    first, member = distinct_rows(samples["set_up"], samples["feed_mm_s"])
-    for number in range(len(first)):
-        part = samples.part(member == number)
-        record = samples.records[int(part["record"][0])]
-        circle, bar_mm = record.circle(int(part["circle"][0])), record.gauge.bar_length_mm
-        paths = {}
-        for direction in DIRECTION_NAMES:
-            own = part.part(part["direction"] == direction)
-            if len(own):
-                paths[direction] = lap_mean_path(own, circle, bar_mm, own.reading_mm)
+    first, member = distinct_rows(samples["set_up"], samples["feed_mm_s"], samples["direction"])
+    of_circle: dict[tuple[int, float], dict[int, Path]] = {}
+    columns = [samples[name] for name in ("angle_rad", "reading_mm", "sweep", "lap")]
+    for row, rows in zip(first, rows_by_number(member), strict=True):
+        angle_rad, reading_mm, sweep, lap = (column[rows] for column in columns)
+        record = samples.records[int(samples["record"][row])]
+        circle = record.circle(int(samples["circle"][row]))
+        deviation_mm = reading_mm + (record.gauge.bar_length_mm - circle.radius_mm)
+        path = lap_mean_path(angle_rad, deviation_mm, circle.radius_mm, numbered_turns(sweep, lap))
+        key = int(samples["set_up"][row]), float(samples["feed_mm_s"][row])
+        of_circle.setdefault(key, {})[int(samples["direction"][row])] = path
+    for paths in of_circle.values():
         yield from evaluate_quantities(paths, chosen).values()

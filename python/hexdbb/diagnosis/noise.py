@@ -16,20 +16,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from statistics import NormalDist
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis.harmonics import orthonormal_harmonics
+from hexdbb import _core
 from hexdbb.plan import LEAST_NOISE_MM
 from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
 
-TURN = 2.0 * np.pi
 MIN_REPEATS = 100
 """Repeated readings below which laps are not used: a standard deviation from n differences scatters by 1 / sqrt(2 n),
 7 % here."""
@@ -108,34 +106,16 @@ def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iter
         What a model leaves of their readings; the readings themselves where not given.
     """
     whole_mm = samples.reading_mm if residual_mm is None else residual_mm
+    angle_rad, lap = samples["angle_rad"], samples["lap"]
     for rows in samples.sweeps():
-        lap, angle, reading_mm = samples["lap"][rows], samples["angle_rad"][rows], whole_mm[rows]
-        numbers = np.unique(lap)
-        if len(numbers) > 1:
-            reading_mm = _without_contour(angle, reading_mm)
-        for earlier, later in pairwise(numbers):
-            first, second = lap == earlier, lap == later
-            if first.sum() > 2 and second.sum() > 2:
-                yield _difference(angle[first], reading_mm[first], angle[second], reading_mm[second])
+        yield from _core.lap_differences(angle_rad[rows], lap[rows], whole_mm[rows], _highest(len(rows)))
+
+
+def _highest(count: int) -> int:
+    """Return the harmonics that are removed from so many readings."""
+    return min(HARMONICS, count // READINGS_PER_VALUE // 2)
 
 
 def _without_contour(angle_rad: Floats, reading_mm: Floats) -> Floats:
     """Remove the lowest harmonics from a sweep's readings, as many as their number allows."""
-    highest = min(HARMONICS, len(angle_rad) // READINGS_PER_VALUE // 2)
-    basis = orthonormal_harmonics(angle_rad, highest)
-    left: Floats = reading_mm - basis @ (reading_mm @ basis)
-    return left
-
-
-def _difference(first_rad: Floats, first_mm: Floats, second_rad: Floats, second_mm: Floats) -> Floats:
-    order = np.argsort(first_rad % TURN)
-    at, value = (first_rad % TURN)[order], first_mm[order]
-    wanted = second_rad % TURN
-    right = np.searchsorted(at, wanted)
-    inside = (right > 0) & (right < len(at))
-    right, wanted, measured = right[inside], wanted[inside], second_mm[inside]
-    gap = at[right] - at[right - 1]
-    part = np.divide(wanted - at[right - 1], gap, out=np.zeros_like(gap), where=gap > 0.0)
-    between = (1.0 - part) * value[right - 1] + part * value[right]
-    difference: Floats = (measured - between) / np.sqrt(1.0 + part**2 + (1.0 - part) ** 2)
-    return difference
+    return _core.without_harmonics(angle_rad, reading_mm, _highest(len(angle_rad)))

@@ -31,3 +31,9 @@ def distinct_rows(*columns: NDArray[Any]) -> tuple[Ints, Ints]:
         values, code = np.unique(column[begins], return_inverse=True)
         _, first, member = np.unique(member * len(values) + code, return_index=True, return_inverse=True)
     return begins[first], np.repeat(member, np.diff(begins, append=len(columns[0])))
+
+
+def rows_by_number(member: Ints) -> list[Ints]:
+    """Return the rows of each number from 0, rising; `member`, of shape (n,), holds every number up to its largest."""
+    order = np.argsort(member, kind="stable")
+    return np.split(order, np.cumsum(np.bincount(member))[:-1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -133,10 +134,14 @@ class Whole:
         return deflection_mm(self.machine, self.mounts, block, self.columns["reading_mm"], nominal_mm)
 
     def _derived_state(self, name: str) -> Columns:
-        """Return a column of the engine's state that follows from the given ones, and what is found on the way."""
-        block = self._engine(self.mounts, ("time_s", "sweep", "angle_rad"))
+        """Return a column of the engine's state that follows from the given ones; what is found on the way is kept."""
+        given = ("time_s", "sweep", "angle_rad")
+        block = self._engine(self.mounts, given)
         block.derive(engine_machine(self.machine), [name])
-        return {name: column for name, column in block.state.items() if name not in self.columns}
+        for each in block.known:
+            if each not in (*given, *self.columns):
+                self.pending[each] = partial(block.column, each)
+        return {name: block.column(name)}
 
 
 def of_records(records: Sequence[Record]) -> Whole:
