@@ -28,10 +28,12 @@ def verdict_sentence(grade: Verdict, causes: Sequence[Cause], share: float, held
     heldout : mapping of str to HeldOut
         How they predict what was left out.
     """
-    explained = explained_words(len(causes), share, heldout)
     if grade == "unknown":
-        what = UNKNOWN if any(is_learned(each.choice) for each in causes) else NEAR
-        return f"{what}: {_list([each.clause for each in causes])}; {explained}"
+        is_near = not any(is_learned(each.choice) for each in causes)
+        # Known effects that are not named for sure do not predict, or not what the readings need them for.
+        explained = explained_words(len(causes), share, {} if is_near else heldout)
+        return f"{NEAR if is_near else UNKNOWN}: {_list([each.clause for each in causes])}; {explained}"
+    explained = explained_words(len(causes), share, heldout)
     named = [each.clause for each in causes if each.verdict != "unknown"]
     clause = capital("; ".join(named))
     if grade == "ambiguous":

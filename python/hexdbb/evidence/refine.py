@@ -156,11 +156,11 @@ def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | 
     proposed = (
         proposals(linear, readings, search.thinned, criteria) if with_time else [*periods(linear, readings, criteria)]
     )
-    search.propose(proposed)
+    search.learnable.propose(proposed)
     of_forms = all_varying(readings, of_forms=True)
-    further = search.further.values() if any(map(search.is_further, node.hypotheses)) else ()
+    further = search.learnable.further.values() if any(map(search.learnable.is_further, node.hypotheses)) else ()
     every = dict.fromkeys(
-        (*search.hypotheses, *of_forms, *search.products, *further, *(p.hypothesis for p in proposed))
+        (*search.learnable.simple, *of_forms, *search.learnable.products, *further, *(p.hypothesis for p in proposed))
     )
     return [
         each
@@ -175,6 +175,6 @@ def _homes(search: Search, cause: Hypothesis) -> list[Learned]:
     """Return the functions at whose places a cause acts."""
     if isinstance(cause, Learned):
         return [cause]
-    by_name, ports = search.by_name, search.engine.ports(cause.effect)
+    by_name, ports = search.learnable.by_name, search.engine.ports(cause.effect)
     homes = [by_name[name] for name in search.kin.get(cause.name, set())]
     return [each for each in homes if each.port in ports]

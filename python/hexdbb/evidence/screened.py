@@ -46,9 +46,9 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
     if not search.learns:
         return known, []
     proposed = proposals(screen.sums.linear, engine.readings, search.thinned, criteria)
-    search.propose(proposed)
+    search.learnable.propose(proposed)
     _add_kin(search, screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
-    every = [*search.hypotheses, *(each.hypothesis for each in proposed)]
+    every = [*search.learnable.simple, *(each.hypothesis for each in proposed)]
     return known, screen.learned([each for each in every if each not in present])
 
 
@@ -63,7 +63,7 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
         Of its linearisation.
     """
     present = {each.hypothesis for each in base.members}
-    return screen.learned([each for each in search.further.values() if each not in present])
+    return screen.learned([each for each in search.learnable.further.values() if each not in present])
 
 
 def in_other_words(search: Search, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:

@@ -19,17 +19,16 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.learnable import Learnable
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.number import best_number
-from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import in_other_words, known_sets, screened, screened_further
 from hexdbb.evidence.shortlist import shortlist
-from hexdbb.evidence.signatures import all_varying, varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
-from hexdbb.learned import ALL, Learned, further_hypotheses, has_chosen_number, products
+from hexdbb.learned import ALL, Learned, has_chosen_number
 
 Floats = NDArray[np.float64]
 
@@ -80,29 +79,14 @@ class Search:
         # An effect that the model has already has its home too: what its own values take away is not geometry's.
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
-        self.hypotheses = all_varying(readings)
-        """The simple learned hypotheses."""
-        self.products = list(varying(products(), readings)) if self.learns else []
+        self.learnable = Learnable(readings, learns=self.learns)
         self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
-        self.homes = Homes(linear, self.thinned, [*self.hypotheses, *self.products], self.criteria)
+        self.homes = Homes(linear, self.thinned, [*self.learnable.simple, *self.learnable.products], self.criteria)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
-        self._chosen: dict[Hypothesis, float] = {}
-        self._further: dict[str, Learned] = {}
-
-    @property
-    def further(self) -> dict[str, Learned]:
-        """Learned hypotheses that are looked at where no simple one settles, by name; made when first asked for."""
-        if not self._further:
-            self._further = {each.name: each for each in varying(further_hypotheses(), self.engine.readings)}
-        return self._further
-
-    def is_further(self, hypothesis: Hypothesis) -> bool:
-        """Check whether a hypothesis is one of those that are looked at where no simple one settles."""
-        return hypothesis.name in self._further
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
@@ -208,7 +192,7 @@ class Search:
         for each in self.nodes:
             if each.trial is trial:
                 return each
-        prior = float(np.log(len(self.hypotheses))) * (len(near.members) - len(trial.members))
+        prior = float(np.log(len(self.learnable.simple))) * (len(near.members) - len(trial.members))
         found = Node(trial, near.score + trial.log_evidence - near.trial.log_evidence + prior)
         self.nodes.append(found)
         return found
@@ -259,28 +243,15 @@ class Search:
             found.append(Node(trial, score))
         return found
 
-    @property
-    def by_name(self) -> dict[str, Learned]:
-        """Learned hypotheses, those that the readings propose among them."""
-        proposed = [each for each in self._chosen if isinstance(each, Learned)]
-        return self._further | {each.name: each for each in (*self.products, *self.hypotheses, *proposed)}
-
     def log_prior(self, hypothesis: Hypothesis) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
-        count = len(self.kin) if isinstance(hypothesis, Known) else len(self.hypotheses)
-        if self.is_further(hypothesis):
-            count += len(self._further)
-        return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
-
-    def propose(self, proposed: Sequence[Proposal]) -> None:
-        """Keep what the choice of hypotheses' instants or periods costs."""
-        self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+        if isinstance(hypothesis, Learned):
+            return self.learnable.log_prior(hypothesis)
+        return -float(np.log(max(len(self.kin), 1)))
 
     def count_as(self, hypothesis: Learned, same: Learned) -> None:
         """Let a hypothesis stand for one that it was made of: its choice costs as much, it is the same cause."""
-        self._chosen[hypothesis] = self._chosen.get(same, 0.0)
-        if self.is_further(same):
-            self._further[hypothesis.name] = hypothesis
+        self.learnable.count_as(hypothesis, same)
         for names in self.kin.values():
             if same.name in names:
                 names.add(hypothesis.name)

@@ -104,7 +104,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = with_tuned_numbers(search, of_better_form(search, settled(search, node)))
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
-    known, by_name = {each.name for each in node.hypotheses}, search.by_name
+    known, by_name = {each.name for each in node.hypotheses}, search.learnable.by_name
     for each in wider.hypotheses:
         there = (one for one in causes if isinstance(each, Learned) and _at_its_place(search, one, each, by_name))
         cause = next(there, None)
@@ -169,7 +169,7 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     """Split a set into causes, and learned functions that refine one of them at its own place."""
     causes: list[Hypothesis] = [each for each in node.hypotheses if isinstance(each, Known)]
     refinements: dict[str, tuple[str, ...]] = {}
-    by_name = search.by_name
+    by_name = search.learnable.by_name
     for each in node.hypotheses:
         if isinstance(each, Known):
             continue

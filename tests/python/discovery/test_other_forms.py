@@ -21,6 +21,8 @@ from hexdbb_truth.forms.cases import case
         ("joint_seat_warms-d0-x10-calibrate-s0", "learned:platform_joint:4:time"),
         ("leg_bows-d0-x10-calibrate-s0", "learned:leg:1:inclination"),
         ("carriages_float-d0-x3-calibrate-s0", "learned:vertical:1:velocity"),
+        ("droops_when_pushed-d0-x10-calibrate-s0", "learned:slider:3:velocity_drive_load"),
+        ("plate_warms-d0-x10-calibrate-s0", "learned:platform:time"),
     ],
 )
 def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
@@ -29,6 +31,17 @@ def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
     assert [each["name"] for each in line["found"]] == [learned]
     before, after = line["left"]
     assert after < 1.1 < before
+
+
+def test_what_remembers_is_learned_with_the_time_that_it_lasts() -> None:
+    """A boot whose strain wears off within 10.5 s: the readings choose that time, and the run-up of a circle counts."""
+    line = line_of(case("boot_relaxes-d0-x10-calibrate-s0"), ())
+    assert line["outcome"] == "right"
+    (found,) = line["found"]
+    name, _, constant_s = found["name"].partition("@")
+    assert name == "learned:leg:6:joint_angle_relaxing"
+    assert 10.0 < float(constant_s) < 11.0
+    assert line["left"][1] < 1.1
 
 
 def test_a_gauge_that_drifts_is_not_put_down_to_legs_for_sure() -> None:

@@ -58,6 +58,14 @@ def test_a_learned_cause_alone_and_beside_a_known_one() -> None:
     )
 
 
+def test_what_does_not_predict_is_not_said_to() -> None:
+    assert verdict_sentence("unknown", [PLAY], 0.99, UNSEEN) == (
+        "something is missing that known effects explain in part only, or do not predict: slider 4 has 15.0 ± 0.1 µm of"
+        " play between drive and carriage; it explains 99 % of what the model missed"
+    )
+    assert "not used to find it" in verdict_sentence("unknown", [DENT], 0.99, UNSEEN)
+
+
 def test_the_likely_cause() -> None:
     assert likely_sentence([PLAY], 0.99, {}).startswith("likely cause: slider 4 has 15.0 ± 0.1 µm of play")
     assert likely_sentence([DENT], 0.99, {}).startswith("likely cause: no known effect, slider 5 along its guideway")

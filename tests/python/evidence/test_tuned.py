@@ -62,7 +62,7 @@ def test_a_period_is_moved_to_the_readings_own(search: Search, turns_off: float)
     duration_s = float(np.ptp(search.engine.readings.state["time_s"]))
     assert 1.0 / found.variable.period == pytest.approx(TONE_HZ, abs=0.01 / duration_s)
     assert tuned.trial.left < 1.2 < 3.0 < node.trial.left
-    assert found in search.by_name.values()
+    assert found in search.learnable.by_name.values()
 
 
 def test_what_a_function_explains_is_what_a_set_without_it_leaves(search: Search) -> None:

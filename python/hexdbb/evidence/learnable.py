@@ -1,0 +1,68 @@
+"""The learned hypotheses of a search: simple ones, further ones, those that the readings propose; and their priors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hexdbb.evidence.proposals import Proposal
+from hexdbb.evidence.readings import Readings
+from hexdbb.evidence.screen import Hypothesis
+from hexdbb.evidence.signatures import all_varying, varying
+from hexdbb.learned import Learned, further_hypotheses, products
+
+
+class Learnable:
+    """Learned hypotheses whose variable varies in some readings.
+
+    Parameters
+    ----------
+    readings : Readings
+    learns : bool
+        Whether they are looked at; if not, the simple ones tell only where known effects live.
+
+    Attributes
+    ----------
+    simple : list of Learned
+    products : list of Learned
+        Further ones in which a known effect's form may be wrong.
+    """
+
+    def __init__(self, readings: Readings, *, learns: bool) -> None:
+        self._readings = readings
+        self.simple = all_varying(readings)
+        self.products = list(varying(products(), readings)) if learns else []
+        self._further: dict[str, Learned] = {}
+        self._chosen: dict[Learned, float] = {}
+
+    @property
+    def further(self) -> dict[str, Learned]:
+        """Those that are looked at where no simple one settles, by name; made when first asked for."""
+        if not self._further:
+            self._further = {each.name: each for each in varying(further_hypotheses(), self._readings)}
+        return self._further
+
+    def is_further(self, hypothesis: Hypothesis) -> bool:
+        """Check whether a hypothesis is one of those that are looked at where no simple one settles."""
+        return hypothesis.name in self._further
+
+    @property
+    def by_name(self) -> dict[str, Learned]:
+        """All that were looked at, those that the readings propose among them."""
+        return self._further | {each.name: each for each in (*self.products, *self.simple, *self._chosen)}
+
+    def log_prior(self, hypothesis: Learned) -> float:
+        """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
+        count = len(self.simple) + (len(self._further) if self.is_further(hypothesis) else 0)
+        return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
+
+    def propose(self, proposed: Sequence[Proposal]) -> None:
+        """Keep what the choice of hypotheses' instants or periods costs."""
+        self._chosen |= {each.hypothesis: each.log_prior for each in proposed}
+
+    def count_as(self, hypothesis: Learned, same: Learned) -> None:
+        """Let a hypothesis stand for one that it was made of: its choice costs as much."""
+        self._chosen[hypothesis] = self._chosen.get(same, 0.0)
+        if self.is_further(same):
+            self._further[hypothesis.name] = hypothesis
