@@ -178,6 +178,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   const double noise_mm = options.noise_mm;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
+  few.accumulator().keep_jacobian();  // every step's acceleration asks for it: from the first pass on
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, noise_mm, at, sums);
   };

@@ -30,7 +30,6 @@ from hexdbb.discovery.words import NOTHING
 from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.fitted_model import FittedModel
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sufficiency import repeats_but_for_forms
 from hexdbb.evidence.verdict import judge
@@ -58,7 +57,6 @@ def discover(
     known_only: bool = False,
     criteria: Criteria = DEFAULT,
     with_tables: bool = True,
-    fitted: FittedModel | None = None,
 ) -> Discovery:
     """Look for what is missing from a model.
 
@@ -79,8 +77,6 @@ def discover(
         Constants that decide.
     with_tables : bool
         Whether other hypotheses are held out, and predictors of what remains ranked, to be shown beside the verdict.
-    fitted : FittedModel, optional
-        To these samples already, with the noise they are judged by: of this model, or of one that stems from the same.
 
     Raises
     ------
@@ -96,7 +92,7 @@ def discover(
     names = _asked(samples, known, candidates)
     require_usable_effects(samples, known, names)
     progress("fitting the model as it is")
-    begun = _begun(samples, with_judged_free(samples.unmeasured, known), criteria, fitted)
+    begun = _begun(samples, with_judged_free(samples.unmeasured, known), criteria)
     engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
     test = FitTest(samples, noise)
 
@@ -127,9 +123,9 @@ class _Begun:
     left_out: str | None
 
 
-def _begun(samples: Samples, model: Model, criteria: Criteria, fitted: FittedModel | None) -> _Begun:
+def _begun(samples: Samples, model: Model, criteria: Criteria) -> _Begun:
     judging = judging_noise(samples)
-    engine = Engine(samples, model, judging.noise, criteria, fitted)
+    engine = Engine(samples, model, judging.noise, criteria)
     alone = glitches_in(samples, engine.residual_mm, judging.noise.sigma_mm)
     if not alone.any():
         return _Begun(engine, judging, None)

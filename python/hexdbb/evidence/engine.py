@@ -11,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.diagnosis import Noise
+from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
 from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
-from hexdbb.evidence.fitted_model import FittedModel
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
 from hexdbb.learned import Learned
@@ -65,22 +64,12 @@ class Engine:
         That knows the samples' mounts.
     noise : Noise
     criteria : Criteria
-    fitted : FittedModel, optional
-        To these samples, with this noise, already: of this model, or of one that stems from the same.
     """
 
-    def __init__(
-        self,
-        samples: Samples,
-        model: Model,
-        noise: Noise,
-        criteria: Criteria = DEFAULT,
-        fitted: FittedModel | None = None,
-    ) -> None:
+    def __init__(self, samples: Samples, model: Model, noise: Noise, criteria: Criteria = DEFAULT) -> None:
         self.samples, self.noise, self.criteria = samples, noise, criteria
-        if fitted is None or not fitted.is_of(model):
-            fitted = FittedModel.of(samples, model, noise)
-        self.base, self.residual_mm = fitted.model, fitted.residual_mm
+        self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
+        self.residual_mm = result.residual_mm
         begin, count = blocks_of(samples["sweep"], criteria.max_rows)
         chosen = begin + count // 2
         self.part = samples.part(chosen)

@@ -1,4 +1,4 @@
-"""What is asked for twice is made once: the fit that a search begins with, and signatures about one model."""
+"""Signatures that are asked for twice about one model are made once."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ import pytest
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.fitted_model import FittedModel
-from hexdbb.model import Model, new_model
+from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import case
 from hexdbb_truth.plans import PACE
@@ -24,38 +23,8 @@ def samples() -> Samples:
 
 
 @pytest.fixture(scope="module")
-def model(samples: Samples) -> Model:
-    return new_model(samples.machine).with_mounts(samples.mounts)
-
-
-@pytest.fixture(scope="module")
-def fitted(samples: Samples, model: Model) -> FittedModel:
-    return FittedModel.of(samples, model, noise_of(samples))
-
-
-@pytest.fixture(scope="module")
-def engine(samples: Samples, model: Model, fitted: FittedModel) -> Engine:
-    return Engine(samples, model, noise_of(samples), fitted=fitted)
-
-
-def test_a_fit_serves_the_model_it_is_of(engine: Engine, samples: Samples, model: Model, fitted: FittedModel) -> None:
-    assert engine.base is fitted.model
-    alone = Engine(samples, model, noise_of(samples))
-    assert np.array_equal(alone.base.values, fitted.model.values)
-    assert np.array_equal(alone.residual_mm, fitted.residual_mm)
-
-
-@pytest.mark.parametrize("differs", ["free", "values", "effects"])
-def test_a_fit_of_another_model_does_not(differs: str, samples: Samples, model: Model, fitted: FittedModel) -> None:
-    held = model.free.copy()
-    held[0] = False
-    other = {
-        "free": model.with_free(held),
-        "values": model.with_values(model.values + 0.01 * model.prior_sigma),
-        "effects": replace(model, terms=model.terms[:-1]),
-    }[differs]
-    assert not fitted.is_of(other)
-    assert Engine(samples, other, noise_of(samples), fitted=fitted).base is not fitted.model
+def engine(samples: Samples) -> Engine:
+    return Engine(samples, new_model(samples.machine).with_mounts(samples.mounts), noise_of(samples))
 
 
 def test_signatures_about_one_model_are_made_once(engine: Engine) -> None:
