@@ -81,6 +81,9 @@ def in_known_words(search: Search, node: Node) -> Node:
             near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
             if near and not trial.refused:
                 others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
+        if search.learnable.is_further(learned):
+            # What is more than any simple function is no known effect that errs by all that it explains.
+            others = [each for each in others if search.misses_most(each) <= search.misses_most(node)]
         others.sort(key=lambda each: -each.score)
         search.nodes += others
         node = next((each for each in others if _predicts_no_worse(search, each, node)), node)
@@ -88,9 +91,9 @@ def in_known_words(search: Search, node: Node) -> Node:
 
 
 def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
-    """Check that a set predicts, and is neither excused from it nor errs by most where another is not or does not."""
+    """Check that a set predicts, and is not excused from it where another is not."""
     one, other = search.checked(node), search.checked(than)
-    return not one.reasons and one.excused <= other.excused and search.misses_most(node) <= search.misses_most(than)
+    return not one.reasons and one.excused <= other.excused
 
 
 def of_better_form(search: Search, node: Node) -> Node:

@@ -102,15 +102,22 @@ def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | 
     variables = {each.variable.name for each in node.hypotheses if isinstance(each, Learned)}
     most = 1.0 + (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0)
     by_evidence = sorted(worth, key=lambda each: -each.log_evidence)
-    by_share = sorted(worth, key=lambda each: -each.heldout_share)
-    # Elements that differ in what all have alike are the simplest form, though others may seem to explain more.
+    # Elements that differ in what all have alike are the simplest form, though others may seem to explain more; then
+    # what is no product of two states.
     of_elements = [each for each in by_evidence if _variable(each) in variables]
-    for tried in (of_elements[:1], dict.fromkeys((*by_evidence[:1], *by_share[:1]))):
+    simple = [each for each in by_evidence if each.hypothesis in search.learnable.simple]
+    for tried in (of_elements[:1], _best_two(simple), _best_two(by_evidence)):
         found = [_with(search, node, linear, each) for each in tried]
         good = [each for each in found if each is not None and each.trial.left < most]
         if good:
             return max(good, key=lambda each: each.score)
     return None
+
+
+def _best_two(by_evidence: list[Scored]) -> list[Scored]:
+    """Return what has the most evidence and what predicts best, of several in the order of their evidence."""
+    by_share = sorted(by_evidence, key=lambda each: -each.heldout_share)
+    return list(dict.fromkeys((*by_evidence[:1], *by_share[:1])))
 
 
 def _variable(scored: Scored) -> str:
@@ -141,7 +148,9 @@ def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float
 def _is_asked_for(search: Search, scored: Scored) -> bool:
     assert isinstance(scored.hypothesis, Learned)
     gain = scored.log_evidence + search.log_prior(scored.hypothesis)
-    return gain > search.criteria.detect_nats and (scored.heldout_share > 0.0 or scored.hypothesis.is_of_time)
+    # To first order, with splines not chosen yet, what predicts in a full fit may fall a little short.
+    least = -search.criteria.heldout_share_min
+    return gain > search.criteria.detect_nats and (scored.heldout_share > least or scored.hypothesis.is_of_time)
 
 
 def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | None) -> list[Learned]:
