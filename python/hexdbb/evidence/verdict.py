@@ -143,8 +143,8 @@ def _is_form(search: Search) -> bool:
 
 
 def _predicting(search: Search, node: Node) -> Node:
-    """Prefer a set of another kind that explains nearly all and predicts to one that is excused from predicting."""
-    if not search.checked(node).excused:
+    """Prefer a set of another kind that explains nearly all and predicts to one that does not."""
+    if not search.is_doubtful(node):
         return node
     others = [
         each
