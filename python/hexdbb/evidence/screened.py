@@ -63,7 +63,11 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
         Of its linearisation.
     """
     present = {each.hypothesis for each in base.members}
-    return screen.learned([each for each in search.learnable.further.values() if each not in present])
+    every = [each for each in search.learnable.further.values() if each not in present]
+    # Those products that lend no functions to a known effect's form may still say the same as one.
+    others = [each for each in every if each.variable.times and each not in search.learnable.products]
+    _add_kin(search, screen.sums.linear, others, *search.engine.signatures(base.model, search.known))
+    return screen.learned(every)
 
 
 def in_other_words(search: Search, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:

@@ -162,7 +162,8 @@ def _explains_and_predicts(search: Search, node: Node) -> bool:
     excess = search.root.trial.left - 1.0
     if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
         return False
-    return not (search.checked(node).reasons or search.is_doubtful(node))
+    # A free function of time claims nothing of what was left out, and so predicts nothing of it either.
+    return not (search.checked(node).reasons or search.is_doubtful(node) or node.trial.is_free_in_time)
 
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:

@@ -34,6 +34,8 @@ FACTORS = {
     "deflection_direction": ("deflection_direction", "sense in which the gauge moves"),
 }
 """What may multiply a function: name, column and words."""
+SLOW = (ELAPSED, FACTORS["warming"][0])
+"""Columns that change over a whole test."""
 
 
 def product(factor: str, variable: Variable) -> Variable:
@@ -103,15 +105,13 @@ OF_BALL = (
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (
-    *(v.POSITION, v.DIRECTION_POSITION, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME, v.TIME_POSITION),
+    *(v.POSITION, v.DIRECTION_POSITION, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_POSITION),
     product("leg_force", v.POSITION),
 )
 """Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
-OF_PAIR_OF_JOINTS = (
-    *(replace(each, from_start=True) for each in (v.TIME, v.WARMING)),
-    *(v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED),
-)
-"""Variables of the platform's joint that two legs share: those that both have."""
+OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED)
+"""Variables of the platform's joint that two legs share: those that both have. No function of time is among those of
+several axes here: such follow any drift, and claim nothing of a time that was left out."""
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 

@@ -248,12 +248,13 @@ def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
 def products() -> Iterator[Learned]:
     """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too.
 
-    In them a known effect's form may be wrong. What changes with time is no form of what does not.
+    In them a known effect's form may be wrong. What changes with time or warmth is no form of what does not, and
+    a growth that goes by the place is another cause.
     """
     for place, variables in further.FURTHER.items():
         for element in _single(place):
             every = (Learned(place, element, each) for each in variables if each.times)
-            yield from (each for each in every if not each.is_of_time)
+            yield from (each for each in every if not each.is_of_time and each.variable.times not in further.SLOW)
 
 
 def further_hypotheses() -> Iterator[Learned]:
