@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -54,12 +55,25 @@ def remembered_column(
     values = np.asarray(column, np.float64).reshape(len(column), -1)
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
     sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
-    ways = [_way(time_s[rows], angle_rad[rows], values[rows]) for rows in sweeps]
-    at_s, given = _joined(ways)
-    whole = _lagged(given, (at_s - at_s[0]) / constant_s, given[0])
-    lagged = np.vstack([whole[np.searchsorted(at_s, time_s[rows])] for rows in sweeps])
+    lagged = np.empty_like(values)
+    for chain in _chains(sweeps, time_s):
+        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows]) for rows in chain])
+        whole = _lagged(given, (at_s - at_s[0]) / constant_s, given[0])
+        for rows in chain:
+            lagged[rows] = whole[np.searchsorted(at_s, time_s[rows])]
     found: Floats = lagged if how == "lagged" else values - lagged
     return found.reshape(column.shape)
+
+
+def _chains(sweeps: Sequence[slice], time_s: Floats) -> list[list[slice]]:
+    """Return the sweeps of each stretch of time: with every record it begins anew."""
+    found = [[sweeps[0]]]
+    for before, rows in pairwise(sweeps):
+        if time_s[rows.start] > time_s[before.stop - 1]:
+            found[-1].append(rows)
+        else:
+            found.append([rows])
+    return found
 
 
 @dataclass(frozen=True)

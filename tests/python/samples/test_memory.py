@@ -70,6 +70,14 @@ def test_a_circle_is_run_up_to_as_it_comes_round_again() -> None:
     assert abs(lagged[0]) > 0.1
 
 
+def test_with_every_record_it_begins_anew() -> None:
+    time_s = np.tile(np.linspace(0.0, 10.0, 200), 2)
+    sweep = np.repeat(np.array([0, 1], np.int32), 200)
+    column = np.where(sweep == 0, 1.0, 2.0) * np.cos(time_s)
+    lagged = remembered_column("lagged", 5.0, column, time_s, sweep, NOT_TURNED)
+    assert lagged[200:] == pytest.approx(2.0 * lagged[:200])
+
+
 def test_samples_know_such_columns_by_name(record: Record) -> None:
     samples = Samples.of([record])
     lagged, relaxing = (samples[f"sliders_mm.{how}@2.5"] for how in ("lagged", "relaxing"))
