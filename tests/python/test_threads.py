@@ -19,6 +19,8 @@ def test_a_worker_fits_one_at_a_time(stated: str, expected: int | None, monkeypa
 @pytest.mark.parametrize("cores", ["1", "2"])
 def test_what_is_computed_beside_is_there_when_asked_for(cores: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(int(cores)))
+    # Other tests of the same process may have set it.
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     with computed_beside(threading.current_thread) as result:
         assert (result() is threading.current_thread()) == (cores == "1")
 
