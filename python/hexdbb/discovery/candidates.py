@@ -6,8 +6,9 @@ import numpy as np
 
 from hexdbb.discovery.result import GROUPINGS, Candidate, GroupError, Grouping
 from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
 from hexdbb.learned import Learned
 from hexdbb.model import Choice
 

@@ -18,8 +18,9 @@ from hexdbb.discovery.result import Candidate, Cause, NextTest, Verdict
 from hexdbb.discovery.sentences import likely_sentence, verdict_sentence
 from hexdbb.effects.words import effect_clause
 from hexdbb.errors import RunError
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
 from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.verdict import Found, is_for_sure
 from hexdbb.evidence.verdict import Verdict as Judged

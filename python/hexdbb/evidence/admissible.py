@@ -23,12 +23,17 @@ class Checked:
     heldout: Mapping[str, HeldOut]
     share: float
     reasons: tuple[str, ...]
-    excused: bool = False
-    """Whether something that is not predicted was put down to its form."""
+    excused_from: tuple[str, ...] = ()
+    """What would be reasons, were it not put down to its form."""
     claimed: tuple[str, ...] = ()
     """Groupings that the hypotheses claim to predict."""
     missed: float = 0.0
     """Error of the grouping predicted worst, beyond what the fit expects of it, over the RMS explained where fitted."""
+
+    @property
+    def excused(self) -> bool:
+        """Whether something that is not predicted was put down to its form."""
+        return bool(self.excused_from)
 
 
 def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Checked:
@@ -45,7 +50,8 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     predicted = heldout(trial, base, trials)
     excess = base.left - 1.0
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
-    reasons, excused = [], False
+    reasons: list[str] = []
+    excused: list[str] = []
     if all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members):
         return Checked(predicted, share, _not_between(predicted, share, criteria), claimed=(ARC,))
     for grouping, held in predicted.items():
@@ -55,17 +61,15 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         if held.share >= criteria.heldout_share_min * share or held.after <= criteria.heldout_ratio * expected:
             continue
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
-        if extrapolates and _bends_geometry(trial, share, criteria):
-            excused = True
-        else:
-            reasons.append(f"does not predict {WORDS[grouping]}")
+        is_excused = extrapolates and _bends_geometry(trial, share, criteria)
+        (excused if is_excused else reasons).append(f"does not predict {WORDS[grouping]}")
     claimed = [held for grouping, held in predicted.items() if grouping != ARC]
     if claimed and not (
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
     missed = max((_missed(held, trial, base) for held in claimed), default=0.0)
-    return Checked(predicted, share, tuple(reasons), excused, tuple(predicted), missed)
+    return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed)
 
 
 def _missed(held: HeldOut, trial: Trial, base: Trial) -> float:

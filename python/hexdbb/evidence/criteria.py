@@ -100,6 +100,9 @@ class Criteria:
         Effects looked for at once.
     heldout_share_min : float
         Part of the share explained where fitted that must be explained where held out.
+    refined_heldout_min : float
+        Share, held out to first order, below which a refinement is not fitted in full: with splines not chosen yet, what
+        predicts in the end may miss by half of what it explains.
     heldout_ratio : float
         Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
     beam : int
@@ -204,6 +207,7 @@ class Criteria:
     change_part: float = 0.05
     max_effects: int = 4
     heldout_share_min: float = 0.5
+    refined_heldout_min: float = -0.5
     heldout_ratio: float = 1.5
     beam: int = 2
     known_sets: int = 3

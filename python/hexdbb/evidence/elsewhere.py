@@ -6,8 +6,9 @@ the measuring loop, they are different causes: legs that grow alike, and a gauge
 
 from __future__ import annotations
 
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
 from hexdbb.learned import Learned
 
 INSTRUMENT = frozenset({"reading", "ball", "cup"})

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.needed import is_better, needs, needs_all
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import is_doubtful, misses_most
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
 
@@ -39,7 +41,7 @@ def _may_replace(search: Search, one: Node, other: Node) -> bool:
     """Check that a set neither says the same in fewer known words, nor misses most where the other predicts."""
     if _names_fewer(search, one, other):
         return False
-    return search.is_doubtful(other) or not search.is_doubtful(one)
+    return is_doubtful(search, other) or not is_doubtful(search, one)
 
 
 def _names_fewer(search: Search, one: Node, other: Node) -> bool:
@@ -83,7 +85,7 @@ def in_known_words(search: Search, node: Node) -> Node:
                 others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
         if search.learnable.is_further(learned):
             # What is more than any simple function is no known effect that errs by all that it explains.
-            others = [each for each in others if search.misses_most(each) <= search.misses_most(node)]
+            others = [each for each in others if misses_most(search, each) <= misses_most(search, node)]
         others.sort(key=lambda each: -each.score)
         search.nodes += others
         node = next((each for each in others if _predicts_no_worse(search, each, node)), node)

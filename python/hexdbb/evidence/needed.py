@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
-    from hexdbb.evidence.search import Node, Search
+    from hexdbb.evidence.node import Node
+    from hexdbb.evidence.search import Search
 
 
 SLOW_DRIFTS = 3
@@ -35,6 +37,13 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
         return False
     least = search.criteria.form_described**2 * _explained(search, than)
     return len(node.members) <= len(than.members) or than.trial.left - node.trial.left > least
+
+
+def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
+    """Return the best of some sets, each better than the one before."""
+    for each in others:
+        best = each if is_better(search, each, best) else best
+    return best
 
 
 def needs(search: Search, node: Node, member: Member) -> bool:

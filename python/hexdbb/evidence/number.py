@@ -8,13 +8,18 @@ Time constants are tried at a few values only, and move from there by several su
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
-from hexdbb.learned import Learned, number_of
+from hexdbb.learned import Learned, has_chosen_number, number_of
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
 
 TURN_STEP = 0.02
 """Change of a period, in turns at the readings' ends, over which a function's change is taken: small against a turn,
@@ -54,3 +59,23 @@ def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
     wider = replace(linear, own=np.column_stack([linear.own, column]), standing=np.append(linear.standing, 0.0))
     moved = float(Sums(wider, readings, ()).whole.own_values()[-1])
     return learned.with_number(number * (1.0 + step * float(np.clip(moved, -MOST_STEPS, MOST_STEPS))))
+
+
+def with_best_number(search: Search, trial: Trial, place: int) -> Trial:
+    """Return a trial with the number of one member where it fits best; the same where that gains nothing."""
+    hypothesis = trial.members[place].hypothesis
+    if not isinstance(hypothesis, Learned) or not has_chosen_number(hypothesis.variable):
+        return trial
+    for _ in range(1 if hypothesis.variable.period else search.criteria.constant_rounds):
+        member = trial.members[place]
+        moved = best_number(search.trials, trial, member)
+        search.count_as(moved, hypothesis)
+        try:
+            members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])
+            found = search.trials.of(members)
+        except RunError:
+            break
+        if found.log_evidence <= trial.log_evidence or found.refused:
+            break
+        trial = found
+    return trial

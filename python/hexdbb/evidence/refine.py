@@ -10,10 +10,11 @@ from __future__ import annotations
 from itertools import islice
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
@@ -148,8 +149,7 @@ def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float
 def _is_asked_for(search: Search, scored: Scored) -> bool:
     assert isinstance(scored.hypothesis, Learned)
     gain = scored.log_evidence + search.log_prior(scored.hypothesis)
-    # To first order, with splines not chosen yet, what predicts in a full fit may fall a little short.
-    least = -search.criteria.heldout_share_min
+    least = search.criteria.refined_heldout_min
     return gain > search.criteria.detect_nats and (scored.heldout_share > least or scored.hypothesis.is_of_time)
 
 

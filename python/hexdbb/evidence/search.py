@@ -7,7 +7,7 @@ so that two faults of one size, of which either alone explains half, are found t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -19,36 +19,21 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.known_together import or_known_together
 from hexdbb.evidence.learnable import Learnable
-from hexdbb.evidence.needed import is_better, needs, needs_all
-from hexdbb.evidence.number import best_number
+from hexdbb.evidence.needed import best_of, needs
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import in_other_words, known_sets, screened, screened_further
+from hexdbb.evidence.screened import in_other_words, screened, screened_further
+from hexdbb.evidence.settling import is_complete, predicts, settles
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
-from hexdbb.learned import ALL, Learned, has_chosen_number
+from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Node:
-    """A set of hypotheses with its trial and score: log evidence with the hypotheses' prior probabilities."""
-
-    trial: Trial
-    score: float
-
-    @property
-    def members(self) -> tuple[Member, ...]:
-        """Hypotheses of the set, in the order found."""
-        return self.trial.members
-
-    @property
-    def hypotheses(self) -> tuple[Hypothesis, ...]:
-        """The same without their priors."""
-        return tuple(each.hypothesis for each in self.trial.members)
 
 
 @dataclass
@@ -130,51 +115,18 @@ class Search:
             children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
             children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
             beam = self._kept(children)
-            best = self._best(best, filter(self._predicts, beam))
+            best = best_of(self, best, (each for each in beam if predicts(self, each)))
             if size == 0 and best.trial.left > self.criteria.refined_to:
-                together = self._or_known_together(best)
+                together = or_known_together(self, best)
                 beam = [together, *beam] if len(together.members) > 1 else beam
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
-                best = together if self._is_complete(together) else best
+                best = together if is_complete(self, together) else best
             if not beam:
                 break
-            if self._is_complete(best):
+            if is_complete(self, best):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
-                beam = [each for each in beam if _is_known(each)] if _is_free_in_time(best) else []
-        return self._best(best, [together])
-
-    def _or_known_together(self, best: Node) -> Node:
-        """Return the best set of known effects, chosen together, where it is better than what explains most alone.
-
-        Of three faults none explains much alone, and a free function that explains all three a little stands first.
-        """
-        found = [best]
-        alone = {h for each in self.nodes if self._explains_all_alone(each) for h in each.hypotheses}
-        for together in known_sets(self, 2 if alone else self.criteria.max_effects):
-            # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
-            if any(len(each.members) < len(together.members) and self._leaves_nothing(each) for each in found[1:]):
-                break
-            if together.effects & alone:
-                continue
-            members = tuple(Member(each.known) for each in together.members)
-            try:
-                trial = self.trials.of(members)
-            except RunError:
-                continue
-            node = next((each for each in self.nodes if each.trial is trial), None)
-            if node is None:
-                prior = sum(self.log_prior(each.hypothesis) for each in members)
-                node = Node(trial, trial.log_evidence + prior)
-                self.nodes.append(node)
-            # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
-            if node.score > best.score and not trial.refused and self._predicts(node) and needs_all(self, node):
-                found.append(node)
-        return self._best(best, found[1:])
-
-    def _best(self, best: Node, others: Iterable[Node]) -> Node:
-        for each in others:
-            best = each if is_better(self, each, best) else best
-        return best
+                beam = [each for each in beam if each.is_known] if best.is_free_in_time else []
+        return best_of(self, best, [together])
 
     def expand(self, node: Node) -> list[Node]:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
@@ -224,7 +176,7 @@ class Search:
         most = self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
         found = self._tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
-        if self.learns and not any(self._settles(each) for each in found):
+        if self.learns and not any(settles(self, each) for each in found):
             found += self._tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 
@@ -237,7 +189,7 @@ class Search:
                 trial = fitted()
             except RunError:
                 continue
-            trial = self.with_tuned_number(trial, len(node.members))
+            trial = with_best_number(self, trial, len(node.members))
             prior = self.log_prior(scored.hypothesis)
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
@@ -256,69 +208,18 @@ class Search:
             if same.name in names:
                 names.add(hypothesis.name)
 
-    def with_tuned_number(self, trial: Trial, place: int) -> Trial:
-        """Return a trial with the number of one member where it fits best; the same where that gains nothing."""
-        hypothesis = trial.members[place].hypothesis
-        if not isinstance(hypothesis, Learned) or not has_chosen_number(hypothesis.variable):
-            return trial
-        for _ in range(1 if hypothesis.variable.period else self.criteria.constant_rounds):
-            member = trial.members[place]
-            moved = best_number(self.trials, trial, member)
-            self.count_as(moved, hypothesis)
-            try:
-                members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])
-                found = self.trials.of(members)
-            except RunError:
-                break
-            if found.log_evidence <= trial.log_evidence or found.refused:
-                break
-            trial = found
-        return trial
-
-    def _settles(self, node: Node) -> bool:
-        """Check that nothing less simple need be looked at: a set explains, and predicts, what is missing."""
-        if node.trial.refused or not self._is_complete(node) or not self._predicts(node):
-            return False
-        if not _is_known(node) and node.trial.left >= self.criteria.leaves_structure:
-            return False
-        return not self.misses_most(node)
-
-    def misses_most(self, node: Node) -> bool:
-        """Check whether a set errs on what was left out by about as much as all that it explains where fitted."""
-        return self.checked(node).missed > self.criteria.missed_most
-
-    def is_doubtful(self, node: Node) -> bool:
-        """Check whether a set stands although it does not predict: excused by its form, or one that misses most."""
-        return self.checked(node).excused or self.misses_most(node)
-
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""
         kept: list[Node] = []
         for child in children:
             alike = any(_alike(self, child, other) for other in kept)
-            if len(kept) < self.criteria.beam and not alike and self._predicts(child):
+            if len(kept) < self.criteria.beam and not alike and predicts(self, child):
                 kept.append(child)
         # Of two faults neither predicts alone, and one of another form may not either: the best is looked at further.
-        best = next((each for each in children if _is_known(each)), None)
+        best = next((each for each in children if each.is_known), None)
         if best is not None and not any(best is each for each in kept):
             kept.append(best)
         return sorted(kept, key=lambda each: -each.score)
-
-    def _predicts(self, node: Node) -> bool:
-        return not self.checked(node).reasons
-
-    def _is_complete(self, node: Node) -> bool:
-        excess = self.root.trial.left - 1.0
-        return node.trial.left - 1.0 < max(self.criteria.complete * excess, 0.03)
-
-    def _leaves_nothing(self, node: Node) -> bool:
-        """Check that a set explains all, and predicts what is left out to within what its fit expects of itself."""
-        ratio = self.criteria.heldout_ratio * max(node.trial.left, 1.0) ** 0.5
-        heldout = self.checked(node).heldout.values()
-        return self._is_complete(node) and all(held.after <= ratio * held.expected for held in heldout)
-
-    def _explains_all_alone(self, node: Node) -> bool:
-        return len(node.members) == 1 and _is_known(node) and self._is_complete(node) and not node.trial.refused
 
     def is_whole(self, effect: str) -> bool:
         """Check whether an effect has one element only, so that its name needs none."""
@@ -336,11 +237,3 @@ class Search:
 def _alike(search: Search, one: Node, other: Node) -> bool:
     """Check whether every hypothesis of one set has one of its kind in another."""
     return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
-
-
-def _is_known(node: Node) -> bool:
-    return all(isinstance(each, Known) for each in node.hypotheses)
-
-
-def _is_free_in_time(node: Node) -> bool:
-    return all(isinstance(each, Learned) and each.is_of_time for each in node.hypotheses)

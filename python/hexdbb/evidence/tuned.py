@@ -11,9 +11,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Scored, Screen
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
 from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
@@ -76,7 +78,7 @@ def with_other_splines(search: Search, linear: Linear, hypothesis: Learned, left
 def with_tuned_numbers(search: Search, node: Node) -> Node:
     """Return a set whose functions have the periods and time constants that fit best; the same set where none gains."""
     for place in range(len(node.members)):
-        trial = search.with_tuned_number(node.trial, place)
+        trial = with_best_number(search, node.trial, place)
         if trial is not node.trial:
             node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
             search.nodes.append(node)

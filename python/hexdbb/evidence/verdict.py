@@ -12,9 +12,11 @@ from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.formula import left_by_formulas
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.learned import Learned, part_of
@@ -144,7 +146,7 @@ def _is_form(search: Search) -> bool:
 
 def _predicting(search: Search, node: Node) -> Node:
     """Prefer a set of another kind that explains nearly all and predicts to one that does not."""
-    if not search.is_doubtful(node):
+    if not is_doubtful(search, node):
         return node
     others = [
         each
@@ -163,7 +165,7 @@ def _explains_and_predicts(search: Search, node: Node) -> bool:
     if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
         return False
     # A free function of time claims nothing of what was left out, and so predicts nothing of it either.
-    return not (search.checked(node).reasons or search.is_doubtful(node) or node.trial.is_free_in_time)
+    return not (search.checked(node).reasons or is_doubtful(search, node) or node.trial.is_free_in_time)
 
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:
@@ -217,7 +219,7 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
         is_rival = lead < max(margin, search.criteria.margin_nats) and other is not search.root
         # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
         is_rival = is_rival and (len(other.members) <= len(node.members) or lead < -search.criteria.margin_nats)
-        if is_rival and (search.checked(other).reasons or _bent(search, other)):
+        if is_rival and (_is_refuted(search, other, node, lead) or _bent(search, other)):
             continue
         # What would not be named for sure itself makes nothing less sure that is.
         if is_rival and is_sure and not is_for_sure(search, other):
@@ -253,6 +255,17 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
         and other.trial.left - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
     ]
+
+
+def _is_refuted(search: Search, node: Node, chosen: Node, lead: float) -> bool:
+    """Check whether what was held out speaks against a set as a rival of the chosen one.
+
+    What the chosen one is excused from, circles that its form does not predict, refutes no set that fits better.
+    """
+    reasons = set(search.checked(node).reasons)
+    if lead < -search.criteria.margin_nats:
+        reasons -= set(search.checked(chosen).excused_from)
+    return bool(reasons)
 
 
 def _bent(search: Search, node: Node) -> bool:

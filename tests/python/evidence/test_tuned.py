@@ -11,8 +11,9 @@ import pytest
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Screen
-from hexdbb.evidence.search import Node, Search
+from hexdbb.evidence.search import Search
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.tuned import around, retunings, with_tuned_numbers
 from hexdbb.learned import Learned, periodic

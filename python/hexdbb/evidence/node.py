@@ -1,0 +1,37 @@
+"""A set of hypotheses that a search has tried."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.trial import Member, Trial
+from hexdbb.learned import Learned
+
+
+@dataclass(frozen=True, eq=False)
+class Node:
+    """A set of hypotheses with its trial and score: log evidence with the hypotheses' prior probabilities."""
+
+    trial: Trial
+    score: float
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """Hypotheses of the set, in the order found."""
+        return self.trial.members
+
+    @property
+    def hypotheses(self) -> tuple[Hypothesis, ...]:
+        """The same without their priors."""
+        return tuple(each.hypothesis for each in self.trial.members)
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all are known effects."""
+        return all(isinstance(each, Known) for each in self.hypotheses)
+
+    @property
+    def is_free_in_time(self) -> bool:
+        """Whether all are free functions of time, which explain any drift."""
+        return all(isinstance(each, Learned) and each.is_of_time for each in self.hypotheses)
