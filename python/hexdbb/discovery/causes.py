@@ -21,8 +21,9 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Trial
-from hexdbb.evidence.verdict import Found, is_for_sure
+from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
 from hexdbb.learned import Learned
 from hexdbb.model import Choice, Model, Size

@@ -101,8 +101,8 @@ class Criteria:
     heldout_share_min : float
         Part of the share explained where fitted that must be explained where held out.
     refined_heldout_min : float
-        Share, held out to first order, below which a refinement is not fitted in full: with splines not chosen yet, what
-        predicts in the end may miss by half of what it explains.
+        Share, held out to first order, below which a refinement is not fitted in full: with splines not chosen yet,
+        what predicts in the end may miss by half of what it explains.
     heldout_ratio : float
         Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
     beam : int

@@ -8,16 +8,15 @@ from typing import Literal
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
-from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
-from hexdbb.evidence.form import Form
-from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import refined, refined_forms
+from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.sufficiency import left_over
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.learned import Learned, part_of
 
@@ -120,25 +119,6 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     return Verdict(grade, found, node, search.checked(node), before, wider)
 
 
-def is_for_sure(search: Search, node: Node) -> bool:
-    """Check that causes together explain enough to be named for sure.
-
-    One effect of another form need not predict circles that geometry alone does not predict either. Several that are
-    excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
-    several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
-    as much as all that it explains where fitted stands in for something else, however much worse geometry alone errs.
-    """
-    checked, is_one = search.checked(node), len(node.members) == 1
-    if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
-        return False
-    if not checked.excused and checked.missed > search.criteria.missed_most:
-        return False
-    if is_one and not checked.excused:
-        return True
-    left = left_by_formulas(node.trial.forms, search.trials.linear(node.trial))
-    return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
-
-
 def _is_form(search: Search) -> bool:
     """Check that what nothing explains is no more than the forms of the effects in the model may be off."""
     return search.root.trial.left - 1.0 < search.criteria.form_named**2 * search.trials.explained_before
@@ -209,64 +189,7 @@ def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: 
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
-    rivals, alike, margin = [], [], float("inf")
-    is_sure = is_for_sure(search, node)
-    # The best first: what lies behind the margin found need not be held out.
-    for other in sorted(search.nodes, key=lambda each: -each.score):
-        if other.trial.refused or any(search.same_kind(each, cause) for each in other.hypotheses):
-            continue
-        lead = (node.score - other.score) / max(node.trial.left, 1.0)
-        is_rival = lead < max(margin, search.criteria.margin_nats) and other is not search.root
-        # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
-        is_rival = is_rival and (len(other.members) <= len(node.members) or lead < -search.criteria.margin_nats)
-        if is_rival and (_is_refuted(search, other, node, lead) or _bent(search, other)):
-            continue
-        # What would not be named for sure itself makes nothing less sure that is.
-        if is_rival and is_sure and not is_for_sure(search, other):
-            continue
-        if isinstance(cause, Known) and any(
-            isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses
-        ):
-            if lead < search.criteria.margin_nats:
-                alike.append(" + ".join(other.trial.names))
-            continue
-        margin = min(margin, lead)
-        if lead < search.criteria.margin_nats and other is not search.root:
-            rivals.append(" + ".join(other.trial.names))
+    rivals = rivals_of(search, node, cause)
     form = node.trial.forms[node.hypotheses.index(cause)]
-    if form is not None and form.deviation > search.criteria.form_named:
-        rivals += [name for name in _nearly_as_good(search, node, cause, form) if name not in rivals]
-    if isinstance(cause, Known):
-        rivals += [name for name in rivals_elsewhere(search, node, cause) if name not in rivals]
-    return Found(cause, tuple(rivals), margin, tuple(alike), refinements, form.deviation if form is not None else 0.0)
-
-
-def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:
-    """Return sets without a cause that explain nearly as much, at once or better than with so different a form.
-
-    What explains more than the effect's formula does, all but the square of its deviation, needs no form at all.
-    """
-    excess = search.root.trial.left - 1.0
-    share = max(search.criteria.same_kind_share, form.deviation**2)
-    return [
-        " + ".join(other.trial.names)
-        for other in search.nodes
-        if not any(search.same_kind(each, cause) for each in other.hypotheses)
-        and other.trial.left - node.trial.left < share * excess
-        and not (other.trial.refused or search.checked(other).reasons)
-    ]
-
-
-def _is_refuted(search: Search, node: Node, chosen: Node, lead: float) -> bool:
-    """Check whether what was held out speaks against a set as a rival of the chosen one.
-
-    What the chosen one is excused from, circles that its form does not predict, refutes no set that fits better.
-    """
-    reasons = set(search.checked(node).reasons)
-    if lead < -search.criteria.margin_nats:
-        reasons -= set(search.checked(chosen).excused_from)
-    return bool(reasons)
-
-
-def _bent(search: Search, node: Node) -> bool:
-    return any(form is not None and form.deviation > search.criteria.form_limit for form in node.trial.forms)
+    deviation = 0.0 if form is None else form.deviation
+    return Found(cause, rivals.others, rivals.margin, rivals.alike, refinements, deviation)

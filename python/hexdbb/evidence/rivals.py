@@ -1,0 +1,105 @@
+"""Other explanations of what a cause explains: sets without it that fit as well, and predict as well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from hexdbb.evidence.elsewhere import rivals_elsewhere
+from hexdbb.evidence.form import Form
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.sure import is_for_sure
+
+
+@dataclass(frozen=True)
+class Rivals:
+    """Names of sets that explain the readings as well.
+
+    Attributes
+    ----------
+    others : tuple of str
+        Of another kind than the cause.
+    alike : tuple of str
+        The same effect at other elements.
+    margin : float
+        Log evidence over the best set that has none of the cause's kind, over what the chosen set leaves.
+    """
+
+    others: tuple[str, ...]
+    alike: tuple[str, ...]
+    margin: float
+
+
+def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
+    """Return the rivals of a cause of the chosen set."""
+    others: list[str] = []
+    alike: list[str] = []
+    margin = float("inf")
+    for other, lead in _without(search, node, cause):
+        is_close = lead < search.criteria.margin_nats and other is not search.root
+        is_known_too = isinstance(cause, Known) and any(
+            isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses
+        )
+        # The best come first: what lies behind the margin found need not be held out.
+        if not (is_close or lead < margin) or not _is_rival(search, other, node, lead):
+            continue
+        if is_close:
+            (alike if is_known_too else others).append(" + ".join(other.trial.names))
+        if not is_known_too:
+            margin = min(margin, lead)
+    form = node.trial.forms[node.hypotheses.index(cause)]
+    if form is not None and form.deviation > search.criteria.form_named:
+        others += [name for name in _nearly_as_good(search, node, cause, form) if name not in others]
+    if isinstance(cause, Known):
+        others += [name for name in rivals_elsewhere(search, node, cause) if name not in others]
+    return Rivals(tuple(others), tuple(alike), margin)
+
+
+def _without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[Node, float]]:
+    """Yield the sets without a cause, the best first, and how far the chosen one leads."""
+    for other in sorted(search.nodes, key=lambda each: -each.score):
+        if not other.trial.refused and not any(search.same_kind(each, cause) for each in other.hypotheses):
+            yield other, (node.score - other.score) / max(node.trial.left, 1.0)
+
+
+def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
+    """Check that a set is another explanation, against which nothing speaks that does not against the chosen one.
+
+    That there is nothing to explain is one too, by which a lead is told where there is no other.
+    """
+    if other is search.root:
+        return True
+    is_ahead = lead < -search.criteria.margin_nats
+    # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
+    if len(other.members) > len(node.members) and not is_ahead:
+        return False
+    reasons = set(search.checked(other).reasons)
+    # What the chosen one is excused from, circles that its form does not predict, refutes no set that fits better.
+    if is_ahead and reasons and reasons <= set(search.checked(node).excused_from):
+        return not _is_bent(search, other)
+    if reasons or _is_bent(search, other):
+        return False
+    # What would not be named for sure itself makes nothing less sure that is.
+    return is_for_sure(search, other) or not is_for_sure(search, node)
+
+
+def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:
+    """Return sets without a cause that explain nearly as much, at once or better than with so different a form.
+
+    What explains more than the effect's formula does, all but the square of its deviation, needs no form at all.
+    """
+    excess = search.root.trial.left - 1.0
+    share = max(search.criteria.same_kind_share, form.deviation**2)
+    return [
+        " + ".join(other.trial.names)
+        for other in search.nodes
+        if not any(search.same_kind(each, cause) for each in other.hypotheses)
+        and other.trial.left - node.trial.left < share * excess
+        and not (other.trial.refused or search.checked(other).reasons)
+    ]
+
+
+def _is_bent(search: Search, node: Node) -> bool:
+    return any(form is not None and form.deviation > search.criteria.form_limit for form in node.trial.forms)

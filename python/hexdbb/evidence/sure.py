@@ -1,0 +1,26 @@
+"""Whether causes explain enough, and predict well enough, to be named for sure."""
+
+from __future__ import annotations
+
+from hexdbb.evidence.formula import left_by_formulas
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.search import Search
+
+
+def is_for_sure(search: Search, node: Node) -> bool:
+    """Check that causes together explain enough to be named for sure.
+
+    One effect of another form need not predict circles that geometry alone does not predict either. Several that are
+    excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
+    several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
+    as much as all that it explains where fitted stands in for something else, however much worse geometry alone errs.
+    """
+    checked, is_one = search.checked(node), len(node.members) == 1
+    if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
+        return False
+    if not checked.excused and checked.missed > search.criteria.missed_most:
+        return False
+    if is_one and not checked.excused:
+        return True
+    left = left_by_formulas(node.trial.forms, search.trials.linear(node.trial))
+    return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
