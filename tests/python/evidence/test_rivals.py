@@ -1,0 +1,73 @@
+"""Which sets of hypotheses are other explanations of a cause."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hexdbb.evidence.admissible import Checked
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.rivals import rivals_of
+from hexdbb.evidence.screen import Known
+from hexdbb.learned import Learned
+
+CAUSE = Known("ball_eccentricity", ("2",))
+TILT = Learned.parse("learned:ball:pitch")
+DRIFT, GAIN = Known("bar_drift", ("bar",), is_whole=True), Known("bar_gain", ("bar",), is_whole=True)
+CIRCLES, FEED = "does not predict other circles", "does not predict the other feed"
+
+
+def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> Any:
+    names = tuple(each.name for each in hypotheses)
+    trial = SimpleNamespace(refused=(), left=left, names=names, forms=(None,) * len(names))
+    return SimpleNamespace(trial=trial, score=score, hypotheses=hypotheses, members=hypotheses)
+
+
+def rivals(chosen: Checked, other: Checked, rival: Any) -> tuple[str, ...]:
+    """Return the names of those that rival CAUSE, which has a score of 0."""
+    node, root = node_of(0.0, CAUSE), node_of(-1000.0, left=11.0)
+    noise = Linear(residual=np.ones(4), own=np.zeros((4, 0)), standing=np.zeros(0))
+    checks = {id(node): chosen, id(rival): other}
+    search: Any = SimpleNamespace(
+        nodes=[root, node, rival],
+        root=root,
+        criteria=DEFAULT,
+        checked=lambda each: checks[id(each)],
+        same_kind=lambda one, two: one.name == two.name,
+        kin={},
+        trials=SimpleNamespace(linear=lambda trial: noise),
+        engine=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
+    )
+    return rivals_of(search, node, CAUSE).others
+
+
+@pytest.mark.parametrize(
+    ("score", "reasons", "is_rival"),
+    [
+        (50.0, (CIRCLES,), True),
+        (50.0, (CIRCLES, FEED), False),
+        (0.0, (CIRCLES,), False),
+        (-50.0, (CIRCLES,), False),
+    ],
+    ids=["fits better", "misses more", "fits as well", "fits worse"],
+)
+def test_what_a_cause_is_excused_from_refutes_nothing_that_fits_better(
+    score: float, reasons: tuple[str, ...], is_rival: bool
+) -> None:
+    excused = Checked({}, 1.0, (), excused_from=(CIRCLES,), missed=15.0)
+    found = rivals(excused, Checked({}, 1.0, reasons, missed=25.0), node_of(score, TILT))
+    assert found == ((TILT.name,) if is_rival else ())
+
+
+def test_a_cause_that_predicts_has_no_rival_that_does_not() -> None:
+    assert rivals(Checked({}, 1.0, ()), Checked({}, 1.0, (CIRCLES,)), node_of(50.0, TILT)) == ()
+
+
+@pytest.mark.parametrize(("score", "is_rival"), [(0.0, False), (50.0, True)])
+def test_more_causes_are_a_rival_only_where_they_explain_more(score: float, is_rival: bool) -> None:
+    found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(score, DRIFT, GAIN))
+    assert found == (("bar_drift + bar_gain",) if is_rival else ())
