@@ -66,12 +66,17 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
     throw std::invalid_argument("free has " + std::to_string(options.free.size()) + " entries, expected " +
                                 std::to_string(model.size()));
   }
+  const bool is_scaled = options.prior_scale.size() > 0;
+  if (is_scaled && (options.prior_scale.size() != model.size() || !(options.prior_scale.array() > 0.0).all())) {
+    throw std::invalid_argument("prior_scale: expected " + std::to_string(model.size()) + " factors greater than 0");
+  }
   Unknowns out;
   out.start = model.values();
   for (int j = 0; j < model.size(); ++j) {
     if (options.free.empty() || options.free[j]) out.columns.push_back(j);
   }
   out.scale = prior_sigmas(model)(out.columns);
+  if (is_scaled) out.scale.array() *= options.prior_scale(out.columns).array();
   out.limit = physical_limits(model)(out.columns);
   const Eigen::VectorXd shapes =
       of_each_value(model, [](const ParameterInfo& parameter) { return parameter.is_shape ? 1.0 : 0.0; });

@@ -947,6 +947,7 @@ def fit(
     hypothesis: bool = False,
     from_minimum: bool = False,
     covariance: bool = True,
+    prior_scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.
@@ -972,6 +973,8 @@ def fit(
         Of a hypothesis: the start is the minimum of nearly the same readings.
     covariance : bool
         Whether covariance and correlation are wanted; else they are empty and 1.
+    prior_scale : ndarray, shape (size,), optional
+        Factors on the prior standard deviations.
 
     Raises
     ------

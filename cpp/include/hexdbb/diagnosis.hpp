@@ -28,6 +28,9 @@ namespace hexdbb {
 struct FitOptions {
   double noise_mm = 0.5e-3;  // standard deviation of one reading
   std::vector<bool> free;    // one per value of the model; empty: all
+  // Factors on the prior standard deviations, one per value of the model; empty: 1. A heavy-tailed prior is a normal one
+  // whose standard deviation follows the value (West 1987).
+  Eigen::VectorXd prior_scale;
   int max_iterations = 50;
   // Huber's loss: residuals beyond this many mm count linearly, so that a gauge glitch cannot bend the fit. 0: least
   // squares.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
+from collections import OrderedDict, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -33,6 +33,12 @@ UNSEEN = 1e-3
 """Information, in values' worth, below which a direction of a learned function that the model has already is left out:
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
 
+LEAST_SCALE = 1.5
+"""Factor on a prior standard deviation from which it counts: an effect of one value has it at 2.7 standard deviations,
+below which a normal prior costs it less than four nats and moves no value by more than readings tell."""
+SCALE_ROUNDS = 2
+"""Fits again with the prior as wide as the last one's values ask for: the second moves them by a hundredth."""
+
 KEPT = 4
 """Tables of signatures kept, some megabytes each: those about one model, at each start of a shape, are asked for where
 effects are screened one by one and again in sets."""
@@ -46,6 +52,8 @@ class Fitted:
     linear: Linear
     free: Ints
     """Places of the free values in the model's."""
+    prior_sigma: Floats
+    """Their prior standard deviations, engine units."""
 
     @cached_property
     def spread(self) -> Floats:
@@ -135,10 +143,36 @@ class Engine:
         shaped = np.array([each.shape is not None for each in model.parameters()])
         rounds = self.criteria.shape_rounds if (shaped & model.free).any() else 1
         for _ in range(rounds):
-            model = self._fitted_once(model, shaped)
+            used = self.prior_scale(model)
+            model = self._fitted_once(model, shaped, used)
+        # An effect that turns out larger than expected is fitted again, where its prior no longer pulls at it.
+        for _ in range(SCALE_ROUNDS):
+            scale = self.prior_scale(model)
+            if np.max(np.abs(np.log(scale / used)), initial=0.0) < np.log(LEAST_SCALE):
+                break
+            model, used = self._fitted_once(model, shaped, scale), scale
         return self.linearised(model)
 
-    def _fitted_once(self, model: Model, shaped: NDArray[np.bool_]) -> Model:
+    def prior_scale(self, model: Model) -> Floats:
+        """Return factors on the prior standard deviations, those of effects that could be missing: shape (size,).
+
+        The prior of what an effect's element pushes is Student's t: near zero the normal one of its description, far
+        from it with tails in which a large fault costs its logarithm, not its square. About a value it is the normal
+        prior of a standard deviation that follows the value (West 1987, On scale mixtures of normal distributions).
+        """
+        mine, tail = self._mine(), self.criteria.prior_tail
+        moved = (model.values - model.start) / model.prior_sigma
+        places: dict[tuple[str, str], list[int]] = defaultdict(list)
+        for place, (each, is_free) in enumerate(zip(model.parameters(), model.free, strict=True)):
+            if is_free and each.effect in mine and not (each.is_shape or each.shape):
+                places[each.effect, each.element].append(place)
+        found = np.ones(len(moved))
+        for at in places.values():
+            scale = np.sqrt((tail + np.sum(moved[at] ** 2)) / (tail + len(at)))
+            found[at] = scale if scale > LEAST_SCALE else 1.0
+        return found
+
+    def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats) -> Model:
         """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""
         fewer = self._fitted_rows
         part = self._fitted_part
@@ -149,6 +183,7 @@ class Engine:
             noise_mm=float(np.mean(self.row_noise_mm)) * float(np.sqrt(len(fewer) / len(self.reading_mm))),
             free=[bool(each) for each in model.free],
             hypothesis=True,
+            prior_scale=prior_scale,
         )
         if not result.usable:
             raise RunError(f"{self.samples.name}: the fit did not succeed: {result.termination}")
@@ -164,7 +199,7 @@ class Engine:
         engine, block = self._plain(model)
         prediction = _core.predict(engine, block, want_jacobian=True)
         free = np.flatnonzero(model.free)
-        prior = model.prior_sigma[free]
+        prior = (model.prior_sigma * self.prior_scale(model))[free]
         own = self._jacobian(model, prediction.jacobian, engine, block)[:, free]
         own *= prior
         own /= self.row_noise_mm[:, None]
@@ -173,7 +208,7 @@ class Engine:
             own=own,
             standing=(model.values - model.start)[free] / prior,
         )
-        return Fitted(model, linear, free)
+        return Fitted(model, linear, free, prior)
 
     def _jacobian(self, model: Model, plain: Floats, engine: _core.Model, block: _core.Samples) -> Floats:
         """Return the derivatives of the readings by all values, from those without learned functions, mm per unit."""

@@ -155,7 +155,6 @@ class Forms:
     def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[tuple[Learned, ...]]]:
         """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy by variable."""
         model, readings = fitted.model, self.engine.readings
-        sigmas = model.prior_sigma
         square = 0.0
         groups: list[tuple[Learned, ...]] = []
         for place, column in enumerate(fitted.free):
@@ -163,13 +162,14 @@ class Forms:
             if parameter.effect != known.effect or parameter.element not in known.elements or parameter.is_shape:
                 continue
             # Columns of the discrepancies stand behind those of the free values.
-            homes = self._homes_of(parameter, fitted.linear.own[:, place])
+            sigma = model.prior_sigma[column]
+            homes = self._homes_of(parameter, fitted.linear.own[:, place] * (sigma / fitted.prior_sigma[place]))
             if homes:
                 places = self._places(parameter, homes)
                 nearest = max(places[0], key=lambda each: each.explained)
                 # The simplest function that says the same may be larger, by what geometry takes of it: so may a form.
                 rms_mm = max(nearest.rms_mm, homes[0].rms_mm)
-                square += (rms_mm * float(model.values[column]) / sigmas[column]) ** 2
+                square += (rms_mm * float(model.values[column]) / sigma) ** 2
                 groups += [group for place in places for group in discrepancy(place)]
         assert len(readings) > 0
         return float(np.sqrt(square)), list(dict.fromkeys(groups))

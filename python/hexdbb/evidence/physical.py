@@ -30,14 +30,14 @@ def outside_domain(
     log_evidence : float
         Change of the log evidence by the one-sided priors and by values beyond their limits.
     """
-    parameters, sigmas = fitted.model.parameters(), fitted.model.prior_sigma
+    parameters = fitted.model.parameters()
     known = {(each.effect, element) for each in hypotheses if isinstance(each, Known) for element in each.elements}
     refused, change = [], 0.0
     for place, column in enumerate(fitted.free):
         each = parameters[column]
         if (each.effect, each.element) not in known:
             continue
-        value, sigma = float(fitted.model.values[column]), float(fitted.spread[place] * sigmas[column])
+        value, sigma = float(fitted.model.values[column]), float(fitted.spread[place] * fitted.prior_sigma[place])
         shown = f"{value * shown_factor(each.unit):.3g} {shown_unit(each.unit)}"
         if _is_one_sided(fitted.model.info(each.effect), each.name):
             change += float(np.log(2.0)) + _core.log_normal_below(value / sigma)

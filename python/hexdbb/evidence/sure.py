@@ -5,6 +5,7 @@ from __future__ import annotations
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import NOTHING_LEFT
 
 
 def is_for_sure(search: Search, node: Node) -> bool:
@@ -13,14 +14,23 @@ def is_for_sure(search: Search, node: Node) -> bool:
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
     excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
     several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
-    as much as all that it explains where fitted stands in for something else, however much worse geometry alone errs.
+    as much as all that it explains where fitted stands in for something else, however much worse geometry alone errs;
+    unless its formula nearly as it is leaves only noise: other circles hardly tell its size, but that it is there.
     """
     checked, is_one = search.checked(node), len(node.members) == 1
     if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
         return False
-    if not checked.excused and checked.missed > search.criteria.missed_most:
+    if not checked.excused and checked.missed > search.criteria.missed_most and not _is_exact(search, node):
         return False
     if is_one and not checked.excused:
         return True
     left = left_by_formulas(node.trial.forms, search.trials.linear(node.trial))
     return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
+
+
+def _is_exact(search: Search, node: Node) -> bool:
+    """Check that one effect's formula, hardly bent, leaves only noise, or what a form so near to it leaves."""
+    form, exact = node.trial.forms[0], search.criteria.form_exact
+    if len(node.members) > 1 or form is None or form.deviation > exact:
+        return False
+    return node.trial.left - 1.0 < max(exact**2 * (search.root.trial.left - 1.0), NOTHING_LEFT)
