@@ -153,6 +153,21 @@ TEST_F(Diagnosis, NullDirectionsKeepTheirPrior) {
   EXPECT_LT(std::abs(direction.dot(result.values)), 1e-3);
 }
 
+TEST_F(Diagnosis, APriorThreeTimesAsWideHoldsAThirdAsMuch) {
+  FitOptions wide = options;
+  wide.prior_scale = Eigen::VectorXd::Constant(model.size(), 3.0);
+  const Eigen::VectorXd measured = measure(draw_truth(7), 107);
+  const FitResult normal = fit(model, samples, measured, options), wider = fit(model, samples, measured, wide);
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(40);
+  direction[6] = direction[7] = direction[13] = 1.0;  // what no reading sees, as above
+  const auto sigma = [&](const FitResult& result) { return std::sqrt(direction.dot(result.covariance * direction)); };
+  EXPECT_NEAR(sigma(wider), 3.0 * sigma(normal), 0.01 * sigma(wider));
+  // What the prior pulls at is what readings hardly tell: all of it together is smaller in the wider prior's units.
+  const auto pulled = [&](const FitResult& result) { return result.values.cwiseQuotient(scale).norm(); };
+  EXPECT_GT(pulled(wider), pulled(normal));
+  EXPECT_LE(wider.rms_after_mm, normal.rms_after_mm);
+}
+
 TEST_F(Diagnosis, StartDoesNotMatter) {
   const Eigen::VectorXd measured = measure(draw_truth(8), 108);
   const FitResult first = fit(model, samples, measured, options);
@@ -269,6 +284,13 @@ TEST_F(Diagnosis, ShapesThatDisagreeAreRefused) {
   FitOptions held = options;
   held.free.assign(static_cast<std::size_t>(model.size()), false);
   EXPECT_EQ(refusal([&] { fit(model, samples, measured, held); }), "no value of the model is free");
+  FitOptions unscaled = options;
+  unscaled.prior_scale = Eigen::VectorXd::Ones(3);
+  EXPECT_EQ(refusal([&] { fit(model, samples, measured, unscaled); }),
+            "prior_scale: expected 40 factors greater than 0");
+  unscaled.prior_scale = Eigen::VectorXd::Zero(model.size());
+  EXPECT_EQ(refusal([&] { fit(model, samples, measured, unscaled); }),
+            "prior_scale: expected 40 factors greater than 0");
   FitOptions silent = options;
   silent.noise_mm = 0.0;
   EXPECT_THROW(fit(model, samples, measured, silent), std::invalid_argument);

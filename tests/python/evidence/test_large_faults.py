@@ -1,0 +1,63 @@
+"""Faults far larger than their effects' priors expect: a joint millimetres off its place is still a joint off its place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hexdbb.diagnosis import judging_noise
+from hexdbb.discovery import discover
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.engine import Engine
+from hexdbb.model import Model, new_model
+from hexdbb.samples import Samples
+from hexdbb_truth.forms.cases import case
+
+THREE_VALUES = (0.3, 27.0, -21.0)
+"""Of a joint's place, in prior standard deviations."""
+
+
+@pytest.fixture(scope="module")
+def samples() -> Samples:
+    return Samples.of([case("joint_offset-d0-x30-calibrate-s6").record()])
+
+
+@pytest.fixture(scope="module")
+def engine(samples: Samples) -> Engine:
+    return Engine(samples, new_model(samples.machine).with_mounts(samples.mounts), judging_noise(samples).noise)
+
+
+def moved(engine: Engine, sigmas: tuple[float, ...]) -> Model:
+    """Return a model whose joint 3 is off its place by so many prior standard deviations."""
+    model = engine.with_effect(engine.start, "joint_offset", ["3"])
+    mine = [each.effect == "joint_offset" and each.element == "3" for each in model.parameters()]
+    values = model.values.copy()
+    values[mine] = np.array(sigmas) * model.prior_sigma[mine]
+    return model.with_values(values)
+
+
+def test_what_is_as_expected_keeps_its_normal_prior(engine: Engine) -> None:
+    assert (engine.prior_scale(moved(engine, (1.0, -1.5, 0.5))) == 1.0).all()
+
+
+def test_what_is_larger_has_a_wider_prior(engine: Engine) -> None:
+    model = moved(engine, THREE_VALUES)
+    scale = engine.prior_scale(model)
+    mine = [each.effect == "joint_offset" and each.element == "3" for each in model.parameters()]
+    tail = DEFAULT.prior_tail
+    expected = ((tail + sum(each**2 for each in THREE_VALUES)) / (tail + 3.0)) ** 0.5
+    assert scale[mine] == pytest.approx(np.full(3, expected))
+    assert (np.delete(scale, np.flatnonzero(mine)) == 1.0).all()
+    fitted = engine.linearised(model)
+    assert np.sum(fitted.linear.standing**2) == pytest.approx(
+        np.sum((fitted.model.values[fitted.free] / fitted.prior_sigma) ** 2)
+    )
+
+
+def test_a_joint_far_off_its_place_is_named_for_sure(samples: Samples) -> None:
+    found = discover(samples, new_model(samples.machine), with_tables=False)
+    assert found.verdict == "effect"
+    (cause,) = found.causes
+    assert cause.effect == "joint_offset"
+    assert {each.element for each in cause.values} == {"3"}
+    assert max(abs(each.value) for each in cause.values) > 1.0  # millimetres, where some hundredths are expected
