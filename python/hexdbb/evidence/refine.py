@@ -11,6 +11,7 @@ from itertools import islice
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import homes_of
 from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -181,9 +182,9 @@ def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | 
 
 
 def _homes(search: Search, cause: Hypothesis) -> list[Learned]:
-    """Return the functions at whose places a cause acts."""
+    """Return the functions at whose places a cause acts; at another port its form reads the same and goes wrong."""
+    homes = homes_of(search, cause)
     if isinstance(cause, Learned):
-        return [cause]
-    by_name, ports = search.learnable.by_name, search.engine.ports(cause.effect)
-    homes = [by_name[name] for name in search.kin.get(cause.name, set())]
+        return homes
+    ports = search.engine.ports(cause.effect)
     return [each for each in homes if each.port in ports]

@@ -8,9 +8,11 @@ from dataclasses import dataclass
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sure import is_for_sure
+from hexdbb.learned import Learned
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,8 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
         )
         # The best come first: what lies behind the margin found need not be held out.
         if not (is_close or lead < margin) or not _is_rival(search, other, node, lead):
+            continue
+        if len(other.members) > len(node.members) and _describe(search, other, cause):
             continue
         if is_close:
             (alike if is_known_too else others).append(" + ".join(other.trial.names))
@@ -83,6 +87,11 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
         return False
     # What would not be named for sure itself makes nothing less sure that is.
     return is_for_sure(search, other) or not is_for_sure(search, node)
+
+
+def _describe(search: Search, other: Node, cause: Hypothesis) -> bool:
+    """Check for several functions at a cause's own place: they describe its form, however far that is off."""
+    return all(isinstance(each, Learned) and at_its_place(search, cause, each) for each in other.hypotheses)
 
 
 def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:

@@ -32,8 +32,11 @@ def leaves_nothing(search: Search, node: Node) -> bool:
 
 
 def explains_all_alone(search: Search, node: Node) -> bool:
-    """Check that a set is one known effect that leaves nothing."""
-    return len(node.members) == 1 and node.is_known and is_complete(search, node) and not node.trial.refused
+    """Check that a set is one known effect that leaves nothing which one more could explain (`is_better`)."""
+    if len(node.members) > 1 or not node.is_known or node.trial.refused or not is_complete(search, node):
+        return False
+    explained = search.root.trial.left - node.trial.left + search.trials.explained_before
+    return node.trial.left - 1.0 < max(search.criteria.form_described**2 * explained, NOTHING_LEFT)
 
 
 def settles(search: Search, node: Node) -> bool:

@@ -10,6 +10,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -18,7 +19,7 @@ from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.tuned import with_tuned_numbers
-from hexdbb.learned import Learned, part_of
+from hexdbb.learned import Learned
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -105,9 +106,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = with_tuned_numbers(search, of_better_form(search, settled(search, node)))
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
-    known, by_name = {each.name for each in node.hypotheses}, search.learnable.by_name
+    known = {each.name for each in node.hypotheses}
     for each in wider.hypotheses:
-        there = (one for one in causes if isinstance(each, Learned) and _at_its_place(search, one, each, by_name))
+        there = (one for one in causes if isinstance(each, Learned) and at_its_place(search, one, each))
         cause = next(there, None)
         if cause is not None and each.name not in known:
             refinements[cause.name] = (*refinements.get(cause.name, ()), each.name)
@@ -125,15 +126,19 @@ def _is_form(search: Search) -> bool:
 
 
 def _predicting(search: Search, node: Node) -> Node:
-    """Prefer a set of another kind that explains nearly all and predicts to one that does not."""
+    """Prefer another set that explains nearly all and predicts to one that does not.
+
+    A single cause gives way to one of another kind; of several, some may be right.
+    """
     if not is_doubtful(search, node):
         return node
+    is_one = len(node.members) == 1
     others = [
         each
         for each in search.nodes
         if len(each.members) <= len(node.members)
         and not each.trial.refused
-        and not any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses)
+        and not (is_one and any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses))
     ]
     # The best first: what lies behind it need not be held out.
     others.sort(key=lambda each: -each.score)
@@ -152,11 +157,10 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     """Split a set into causes, and learned functions that refine one of them at its own place."""
     causes: list[Hypothesis] = [each for each in node.hypotheses if isinstance(each, Known)]
     refinements: dict[str, tuple[str, ...]] = {}
-    by_name = search.learnable.by_name
     for each in node.hypotheses:
         if isinstance(each, Known):
             continue
-        there = (one for one in causes if _at_its_place(search, one, each, by_name))
+        there = (one for one in causes if at_its_place(search, one, each))
         of = next((one for one in there if _is_refined(search, node, one, each)), None)
         if of is None:
             causes.append(each)
@@ -181,11 +185,6 @@ def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned)
     except RunError:
         return False
     return one - other < search.criteria.same_kind_share * excess
-
-
-def _at_its_place(search: Search, cause: Hypothesis, learned: Learned, by_name: dict[str, Learned]) -> bool:
-    homes = [by_name[name] for name in search.kin.get(cause.name, set())] if isinstance(cause, Known) else [cause]
-    return any(learned.is_within(part_of(home), home.element) for home in homes)
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:

@@ -17,6 +17,7 @@ from hexdbb.learned import Learned
 
 CAUSE = Known("ball_eccentricity", ("2",))
 TILT = Learned.parse("learned:ball:pitch")
+HOME, TURN = Learned.parse("learned:ball:time"), Learned.parse("learned:ball:yaw")
 DRIFT, GAIN = Known("bar_drift", ("bar",), is_whole=True), Known("bar_gain", ("bar",), is_whole=True)
 CIRCLES, FEED = "does not predict other circles", "does not predict the other feed"
 
@@ -38,7 +39,8 @@ def rivals(chosen: Checked, other: Checked, rival: Any) -> tuple[str, ...]:
         criteria=DEFAULT,
         checked=lambda each: checks[id(each)],
         same_kind=lambda one, two: one.name == two.name,
-        kin={},
+        kin={CAUSE.name: {HOME.name}},
+        learnable=SimpleNamespace(by_name={HOME.name: HOME}),
         trials=SimpleNamespace(linear=lambda trial: noise),
         engine=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
     )
@@ -71,3 +73,7 @@ def test_a_cause_that_predicts_has_no_rival_that_does_not() -> None:
 def test_more_causes_are_a_rival_only_where_they_explain_more(score: float, is_rival: bool) -> None:
     found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(score, DRIFT, GAIN))
     assert found == (("bar_drift + bar_gain",) if is_rival else ())
+
+
+def test_several_functions_at_the_place_of_a_cause_describe_its_form() -> None:
+    assert rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, TILT, TURN)) == ()
