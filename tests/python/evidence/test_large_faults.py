@@ -1,4 +1,4 @@
-"""Faults far larger than their effects' priors expect: a joint millimetres off its place is still a joint off its place."""
+"""Faults far larger than their effects' priors expect: a joint millimetres off its place is still one off its place."""
 
 from __future__ import annotations
 
