@@ -157,7 +157,8 @@ class Criteria:
         the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
     form_exact : float
         The same up to which an effect is its formula as it is: what leaves only noise so is named for sure though it
-        errs on circles left out by more than `missed_most`. A tenth off leaves a hundredth of what it explains.
+        errs on circles left out by more than `missed_most`: a joint, a screw that warms. A platform that warms reads as
+        legs that grow a hundredth off, but leaves a quarter of the noise's variance.
     same_kind_share : float
         Part of the unexplained by which a known effect may lag behind the learned function that contains it.
     secondary : float

@@ -8,7 +8,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.needed import best_of, needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screened import known_sets
-from hexdbb.evidence.settling import explains_all_alone, leaves_nothing, predicts
+from hexdbb.evidence.settling import explains_all_alone, is_doubtful, leaves_nothing, leaves_room, predicts
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -22,18 +22,20 @@ def or_known_together(search: Search, best: Node) -> Node:
     Of three faults none explains much alone, and a free function that explains all three a little stands first.
     """
     found = [best]
-    alone = {h for each in search.nodes if explains_all_alone(search, each) for h in each.hypotheses}
+    alone = {each.hypotheses[0]: each for each in search.nodes if explains_all_alone(search, each)}
     for together in known_sets(search, 2 if alone else search.criteria.max_effects):
         # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
         if any(len(each.members) < len(together.members) and leaves_nothing(search, each) for each in found[1:]):
             break
-        if together.effects & alone:
+        # What explains all alone may be of an odd form because of another: only where the two predict.
+        in_form = [alone[each] for each in together.effects if each in alone]
+        if not all(leaves_room(search, each) for each in in_form):
             continue
         node = _fitted(search, together)
         # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
         if node is None or node.score <= best.score or node.trial.refused or not predicts(search, node):
             continue
-        if needs_all(search, node):
+        if not (in_form and is_doubtful(search, node)) and needs_all(search, node):
             found.append(node)
     return best_of(search, best, found[1:])
 

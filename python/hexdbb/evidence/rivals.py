@@ -76,9 +76,6 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
     if other is search.root:
         return True
     is_ahead = lead < -search.criteria.margin_nats
-    # A set of more causes that explains as much is no other explanation of this one; one that explains more is.
-    if len(other.members) > len(node.members) and not is_ahead:
-        return False
     reasons = set(search.checked(other).reasons)
     # What the chosen one is excused from, circles that its form does not predict, refutes no set that fits better.
     if is_ahead and reasons and reasons <= set(search.checked(node).excused_from):

@@ -32,18 +32,21 @@ def leaves_nothing(search: Search, node: Node) -> bool:
 
 
 def explains_all_alone(search: Search, node: Node) -> bool:
-    """Check that a set is one known effect that leaves nothing which one more could explain (`is_better`)."""
-    if len(node.members) > 1 or not node.is_known or node.trial.refused or not is_complete(search, node):
-        return False
+    """Check that a set is one known effect that leaves no more than its form may."""
+    return len(node.members) == 1 and node.is_known and is_complete(search, node) and not node.trial.refused
+
+
+def leaves_room(search: Search, node: Node) -> bool:
+    """Check that a set leaves as much as one more effect would have to explain (`is_better`)."""
     explained = search.root.trial.left - node.trial.left + search.trials.explained_before
-    return node.trial.left - 1.0 < max(search.criteria.form_described**2 * explained, NOTHING_LEFT)
+    return node.trial.left - 1.0 >= max(search.criteria.form_described**2 * explained, NOTHING_LEFT)
 
 
 def settles(search: Search, node: Node) -> bool:
     """Check that nothing less simple need be looked at: a set explains, and predicts, what is missing."""
     if node.trial.refused or not is_complete(search, node) or not predicts(search, node):
         return False
-    if not node.is_known and node.trial.left >= search.criteria.leaves_structure:
+    if leaves_room(search, node) if node.is_known else node.trial.left >= search.criteria.leaves_structure:
         return False
     return not misses_most(search, node)
 

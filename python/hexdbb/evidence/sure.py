@@ -29,8 +29,7 @@ def is_for_sure(search: Search, node: Node) -> bool:
 
 
 def _is_exact(search: Search, node: Node) -> bool:
-    """Check that one effect's formula, hardly bent, leaves only noise, or what a form so near to it leaves."""
-    form, exact = node.trial.forms[0], search.criteria.form_exact
-    if len(node.members) > 1 or form is None or form.deviation > exact:
-        return False
-    return node.trial.left - 1.0 < max(exact**2 * (search.root.trial.left - 1.0), NOTHING_LEFT)
+    """Check that one effect's formula, hardly bent, leaves only noise."""
+    form = node.trial.forms[0]
+    is_formula = len(node.members) == 1 and form is not None and form.deviation <= search.criteria.form_exact
+    return is_formula and node.trial.left - 1.0 < NOTHING_LEFT

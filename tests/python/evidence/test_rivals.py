@@ -69,9 +69,11 @@ def test_a_cause_that_predicts_has_no_rival_that_does_not() -> None:
     assert rivals(Checked({}, 1.0, ()), Checked({}, 1.0, (CIRCLES,)), node_of(50.0, TILT)) == ()
 
 
-@pytest.mark.parametrize(("score", "is_rival"), [(0.0, False), (50.0, True)])
-def test_more_causes_are_a_rival_only_where_they_explain_more(score: float, is_rival: bool) -> None:
-    found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(score, DRIFT, GAIN))
+@pytest.mark.parametrize(("reasons", "is_rival"), [((), True), ((FEED,), False)])
+def test_more_causes_that_explain_as_much_are_a_rival_where_they_predict(
+    reasons: tuple[str, ...], is_rival: bool
+) -> None:
+    found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, reasons), node_of(0.0, DRIFT, GAIN))
     assert found == (("bar_drift + bar_gain",) if is_rival else ())
 
 
