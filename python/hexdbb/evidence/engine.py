@@ -142,35 +142,59 @@ class Engine:
         """
         shaped = np.array([each.shape is not None for each in model.parameters()])
         rounds = self.criteria.shape_rounds if (shaped & model.free).any() else 1
+        used = np.ones(len(shaped))
         for _ in range(rounds):
-            used = self.prior_scale(model)
             model = self._fitted_once(model, shaped, used)
+        found = self.linearised(model)
         # An effect that turns out larger than expected is fitted again, where its prior no longer pulls at it.
         for _ in range(SCALE_ROUNDS):
-            scale = self.prior_scale(model)
+            scale = self._scale_of(model, found.linear.residual)
             if np.max(np.abs(np.log(scale / used)), initial=0.0) < np.log(LEAST_SCALE):
                 break
             model, used = self._fitted_once(model, shaped, scale), scale
-        return self.linearised(model)
+            found = self.linearised(model)
+        return found
 
     def prior_scale(self, model: Model) -> Floats:
-        """Return factors on the prior standard deviations, those of effects that could be missing: shape (size,).
+        """Return factors on the prior standard deviations, those of the one effect that is tried: shape (size,).
 
         The prior of what an effect's element pushes is Student's t: near zero the normal one of its description, far
         from it with tails in which a large fault costs its logarithm, not its square. About a value it is the normal
         prior of a standard deviation that follows the value (West 1987, On scale mixtures of normal distributions).
+        Several effects keep their normal priors: two that are both far too large mostly undo each other.
         """
-        mine, tail = self._mine(), self.criteria.prior_tail
+        tail, there = self.criteria.prior_tail, {(effect, at[0]) for effect, at, _ in self._present}
+        mine = self._mine()
         moved = (model.values - model.start) / model.prior_sigma
         places: dict[tuple[str, str], list[int]] = defaultdict(list)
         for place, (each, is_free) in enumerate(zip(model.parameters(), model.free, strict=True)):
-            if is_free and each.effect in mine and not (each.is_shape or each.shape):
-                places[each.effect, each.element].append(place)
+            of = (each.effect, each.element)
+            if is_free and each.effect in mine and of not in there and not (each.is_shape or each.shape):
+                places[of].append(place)
         found = np.ones(len(moved))
-        for at in places.values():
+        for at in places.values() if len(places) == 1 else ():
             scale = np.sqrt((tail + np.sum(moved[at] ** 2)) / (tail + len(at)))
             found[at] = scale if scale > LEAST_SCALE else 1.0
         return found
+
+    def _scale_of(self, model: Model, residual: Floats) -> Floats:
+        """Return the factors where they count: where the effect, held back, explains nearly all as it is.
+
+        What explains a part only and is far too large stands in for something else.
+        """
+        scale = self.prior_scale(model)
+        if (scale == 1.0).all():
+            return scale
+        left, before = float(np.mean(residual**2)), float(np.mean(self._before.residual**2))
+        return scale if left - 1.0 < self.criteria.complete * (before - 1.0) else np.ones(len(scale))
+
+    @cached_property
+    def _present(self) -> list[tuple[str, tuple[str, ...], bool]]:
+        return self.present()
+
+    @cached_property
+    def _before(self) -> Linear:
+        return self.linearised(self.start).linear
 
     def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats) -> Model:
         """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""
@@ -199,15 +223,12 @@ class Engine:
         engine, block = self._plain(model)
         prediction = _core.predict(engine, block, want_jacobian=True)
         free = np.flatnonzero(model.free)
-        prior = (model.prior_sigma * self.prior_scale(model))[free]
+        residual = (self.reading_mm - prediction.reading_mm) / self.row_noise_mm
+        prior = (model.prior_sigma * self._scale_of(model, residual))[free]
         own = self._jacobian(model, prediction.jacobian, engine, block)[:, free]
         own *= prior
         own /= self.row_noise_mm[:, None]
-        linear = Linear(
-            residual=(self.reading_mm - prediction.reading_mm) / self.row_noise_mm,
-            own=own,
-            standing=(model.values - model.start)[free] / prior,
-        )
+        linear = Linear(residual=residual, own=own, standing=(model.values - model.start)[free] / prior)
         return Fitted(model, linear, free, prior)
 
     def _jacobian(self, model: Model, plain: Floats, engine: _core.Model, block: _core.Samples) -> Floats:
