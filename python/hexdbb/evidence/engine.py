@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict, defaultdict
+from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -15,6 +15,7 @@ from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
 from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
+from hexdbb.evidence.prior import LEAST_SCALE, prior_scale
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
 from hexdbb.learned import Learned
@@ -33,9 +34,6 @@ UNSEEN = 1e-3
 """Information, in values' worth, below which a direction of a learned function that the model has already is left out:
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
 
-LEAST_SCALE = 1.5
-"""Factor on a prior standard deviation from which it counts: an effect of one value has it at 2.7 standard deviations,
-below which a normal prior costs it less than four nats and moves no value by more than readings tell."""
 SCALE_ROUNDS = 2
 """Fits again with the prior as wide as the last one's values ask for: the second moves them by a hundredth."""
 
@@ -156,26 +154,8 @@ class Engine:
         return found
 
     def prior_scale(self, model: Model) -> Floats:
-        """Return factors on the prior standard deviations, those of the one effect that is tried: shape (size,).
-
-        The prior of what an effect's element pushes is Student's t: near zero the normal one of its description, far
-        from it with tails in which a large fault costs its logarithm, not its square. About a value it is the normal
-        prior of a standard deviation that follows the value (West 1987, On scale mixtures of normal distributions).
-        Several effects keep their normal priors: two that are both far too large mostly undo each other.
-        """
-        tail, there = self.criteria.prior_tail, {(effect, at[0]) for effect, at, _ in self._present}
-        mine = self._mine()
-        moved = (model.values - model.start) / model.prior_sigma
-        places: dict[tuple[str, str], list[int]] = defaultdict(list)
-        for place, (each, is_free) in enumerate(zip(model.parameters(), model.free, strict=True)):
-            of = (each.effect, each.element)
-            if is_free and each.effect in mine and of not in there and not (each.is_shape or each.shape):
-                places[of].append(place)
-        found = np.ones(len(moved))
-        for at in places.values() if len(places) == 1 else ():
-            scale = np.sqrt((tail + np.sum(moved[at] ** 2)) / (tail + len(at)))
-            found[at] = scale if scale > LEAST_SCALE else 1.0
-        return found
+        """Return factors on the prior standard deviations, those of the one effect that is tried: shape (size,)."""
+        return prior_scale(model, self._mine(), {(effect, at[0]) for effect, at, _ in self._present}, self.criteria)
 
     def _scale_of(self, model: Model, residual: Floats) -> Floats:
         """Return the factors where they count: where the effect, held back, explains nearly all as it is.
