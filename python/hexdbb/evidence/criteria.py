@@ -57,8 +57,9 @@ class Criteria:
     most_of_one_effect : int
         Elements of one effect that get a full fit in one step: neighbours look alike to first order.
     prior_tail : float
-        Degrees of freedom of Student's t, the prior of what an effect pushes: with 4 a play as expected costs what a
-        normal prior makes it cost, one of 28 standard deviations (a joint 1.4 mm off its place) ten nats, not 390.
+        Degrees of freedom of Student's t, the prior of what an effect pushes: with 4 an effect of the size
+        expected costs what a normal prior makes it cost, three values of 35 standard deviations together (a joint
+        1.8 mm off its place) twenty nats, not 600.
     form_sigma : float
         Standard deviation (half-normal) of the relative difference between an effect's form and the machine's.
     form_grid : tuple of float

@@ -35,7 +35,8 @@ UNSEEN = 1e-3
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
 
 SCALE_ROUNDS = 2
-"""Fits again with the prior as wide as the last one's values ask for: the second moves them by a hundredth."""
+"""Fits with a wider prior, at most: the first follows the value that the normal prior held back, the second what the
+first found."""
 
 KEPT = 4
 """Tables of signatures kept, some megabytes each: those about one model, at each start of a shape, are asked for where
@@ -165,16 +166,16 @@ class Engine:
         scale = self.prior_scale(model)
         if (scale == 1.0).all():
             return scale
-        left, before = float(np.mean(residual**2)), float(np.mean(self._before.residual**2))
-        return scale if left - 1.0 < self.criteria.complete * (before - 1.0) else np.ones(len(scale))
+        left = float(np.mean(residual**2))
+        return scale if left - 1.0 < self.criteria.complete * (self._left_before - 1.0) else np.ones(len(scale))
 
     @cached_property
     def _present(self) -> list[tuple[str, tuple[str, ...], bool]]:
         return self.present()
 
     @cached_property
-    def _before(self) -> Linear:
-        return self.linearised(self.start).linear
+    def _left_before(self) -> float:
+        return float(np.mean(self.linearised(self.start).linear.residual ** 2))
 
     def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats) -> Model:
         """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.screen import Known
+from hexdbb.evidence.settling import explained, must_explain
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -35,8 +36,7 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
     """
     if node.score <= than.score:
         return False
-    least = search.criteria.form_described**2 * _explained(search, than)
-    return len(node.members) <= len(than.members) or than.trial.left - node.trial.left > least
+    return len(node.members) <= len(than.members) or than.trial.left - node.trial.left > must_explain(search, than)
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
@@ -63,11 +63,11 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     criteria, trials = search.criteria, search.trials
     others = trials.of(_without(node, member))
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
-    explained = search.root.trial.left - others.left + trials.explained_before
+    before = search.root.trial.left - others.left + trials.explained_before
     beyond = others.left - node.trial.left
-    if gain < criteria.detect_nats or beyond < criteria.form_described**2 * explained:
+    if gain < criteria.detect_nats or beyond < criteria.form_described**2 * before:
         return False
-    least = criteria.secondary * criteria.form_sigma**2 * explained
+    least = criteria.secondary * criteria.form_sigma**2 * before
     if beyond >= least or search.checked_trial(others).reasons:
         return True
     return isinstance(member.hypothesis, Known) and _is_of_size(search, node, member.hypothesis, least)
@@ -87,12 +87,8 @@ def _are_of_size(search: Search, node: Node) -> bool:
     sizes = _sizes(search, node)
     if len(sizes) < max(len(node.members), SLOW_DRIFTS):
         return True
-    explained = _explained(search, node)
-    return search.criteria.of_size <= sum(sizes.values()) / max(explained, 1e-9) <= 1.0 / search.criteria.of_size
-
-
-def _explained(search: Search, node: Node) -> float:
-    return search.root.trial.left - node.trial.left + search.trials.explained_before
+    ratio = sum(sizes.values()) / max(explained(search, node), 1e-9)
+    return search.criteria.of_size <= ratio <= 1.0 / search.criteria.of_size
 
 
 def _sizes(search: Search, node: Node) -> dict[Known, float]:

@@ -15,7 +15,7 @@ Floats = NDArray[np.float64]
 
 LEAST_SCALE = 1.5
 """Factor on a prior standard deviation from which it counts: an effect of one value has it at 2.7 standard deviations,
-below which a normal prior costs it less than four nats and moves no value by more than readings tell."""
+below which a normal prior costs it less than four nats."""
 
 
 def prior_scale(

@@ -38,8 +38,17 @@ def explains_all_alone(search: Search, node: Node) -> bool:
 
 def leaves_room(search: Search, node: Node) -> bool:
     """Check that a set leaves as much as one more effect would have to explain (`is_better`)."""
-    explained = search.root.trial.left - node.trial.left + search.trials.explained_before
-    return node.trial.left - 1.0 >= max(search.criteria.form_described**2 * explained, NOTHING_LEFT)
+    return node.trial.left - 1.0 >= max(must_explain(search, node), NOTHING_LEFT)
+
+
+def must_explain(search: Search, node: Node) -> float:
+    """Return what a further effect must explain of what a set leaves, in noise variances: more than forms may hide."""
+    return search.criteria.form_described**2 * explained(search, node)
+
+
+def explained(search: Search, node: Node) -> float:
+    """Return what a set and the effects in the model explain, in noise variances."""
+    return search.root.trial.left - node.trial.left + search.trials.explained_before
 
 
 def settles(search: Search, node: Node) -> bool:

@@ -13,8 +13,8 @@ from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case
 
-THREE_VALUES = (0.3, 27.0, -21.0)
-"""Of a joint's place, in prior standard deviations."""
+JOINT_OFF_BY = (0.3, 27.0, -21.0)
+"""Error of a joint's place along x, y and z, in multiples of its prior standard deviation of 0.05 mm."""
 
 
 @pytest.fixture(scope="module")
@@ -41,11 +41,11 @@ def test_what_is_as_expected_keeps_its_normal_prior(engine: Engine) -> None:
 
 
 def test_what_is_larger_has_a_wider_prior(engine: Engine) -> None:
-    model = moved(engine, THREE_VALUES)
+    model = moved(engine, JOINT_OFF_BY)
     scale = engine.prior_scale(model)
     mine = [each.effect == "joint_offset" and each.element == "3" for each in model.parameters()]
     tail = DEFAULT.prior_tail
-    expected = ((tail + sum(each**2 for each in THREE_VALUES)) / (tail + 3.0)) ** 0.5
+    expected = ((tail + sum(each**2 for each in JOINT_OFF_BY)) / (tail + 3.0)) ** 0.5
     assert scale[mine] == pytest.approx(np.full(3, expected))
     assert (np.delete(scale, np.flatnonzero(mine)) == 1.0).all()
     fitted = engine.linearised(model)
