@@ -134,8 +134,11 @@ class Criteria:
         it, of sets that stood in for others down to 0.05.
     missed_most : float
         Error of what was left out, beyond what the fit expects of itself, over the RMS explained where fitted, above
-        which causes that predict are not named for sure: effects 20 % off their formula, the largest that the
+        which causes that predict are looked at further: effects 20 % off their formula, the largest that the
         calibration has, reach 0.76, those that stood in for faults outside the catalogue 0.8 to 1.2.
+    missed_sure : float
+        The same above which they are not named for sure: of forty effects up to 20 % off, ten times the noise, all
+        whose formula bends had 0.3 and less, drifting legs that stood in for a screw 0.78.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float
@@ -158,7 +161,7 @@ class Criteria:
         the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
     form_exact : float
         The same up to which an effect is its formula as it is: what leaves only noise so is named for sure though it
-        errs on circles left out by more than `missed_most`: a joint, a screw that warms. A platform that warms reads as
+        errs on circles left out by more than `missed_sure`: a joint, a screw that warms. A platform that warms reads as
         legs that grow a hundredth off, but leaves a quarter of the noise's variance.
     same_kind_share : float
         Part of the unexplained by which a known effect may lag behind the learned function that contains it.
@@ -228,6 +231,7 @@ class Criteria:
     form_explains: float = 0.9
     formula_explains: float = 1.0 / 3.0
     missed_most: float = 0.8
+    missed_sure: float = 0.5
     most_refinements: int = 8
     refined_by: float = 0.1
     refinement_rounds: int = 2

@@ -6,6 +6,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_doubtful, misses_most
 from hexdbb.evidence.trial import Member
@@ -70,6 +71,8 @@ def in_known_words(search: Search, node: Node) -> Node:
     for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
         if learned not in node.hypotheses:
             continue
+        if learned.variable.period:
+            add_kin(search, [learned])  # it may have moved since it was proposed
         at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
         kept = tuple(each for each in node.members if each not in at_place)
         others = []

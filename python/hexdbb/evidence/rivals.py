@@ -82,8 +82,8 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
         return not _is_bent(search, other)
     if reasons or _is_bent(search, other):
         return False
-    # What would not be named for sure itself makes nothing less sure that is.
-    return is_for_sure(search, other) or not is_for_sure(search, node)
+    # What stands in for something else makes nothing less sure that is for sure.
+    return is_for_sure(search, other, search.criteria.missed_most) or not is_for_sure(search, node)
 
 
 def _describe(search: Search, other: Node, cause: Hypothesis) -> bool:

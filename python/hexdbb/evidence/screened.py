@@ -104,6 +104,12 @@ def known_sets(search: Search, most: int) -> list[Together]:
     return sets.best(most, criteria.most_of_one_effect)
 
 
+def add_kin(search: Search, learned: Sequence[Learned]) -> None:
+    """Count learned functions among the kin of the known effects whose form they contain, about the model as it is."""
+    root = search.root.trial
+    _add_kin(search, search.trials.linear(root), learned, *search.engine.signatures(root.model, search.known))
+
+
 def _add_kin(
     search: Search,
     linear: Linear,

@@ -8,19 +8,27 @@ from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT
 
 
-def is_for_sure(search: Search, node: Node) -> bool:
+def is_for_sure(search: Search, node: Node, missed_most: float | None = None) -> bool:
     """Check that causes together explain enough to be named for sure.
 
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
     excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
     several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
-    as much as all that it explains where fitted stands in for something else, however much worse geometry alone errs;
+    half of all that it explains where fitted may stand in for something else, however much worse geometry alone errs;
     unless its formula nearly as it is leaves only noise: other circles hardly tell its size, but that it is there.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+    missed_most : float, optional
+        Part of what is explained by which it may err on what was left out; `Criteria.missed_sure` where not given.
     """
+    missed_most = search.criteria.missed_sure if missed_most is None else missed_most
     checked, is_one = search.checked(node), len(node.members) == 1
     if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
         return False
-    if not checked.excused and checked.missed > search.criteria.missed_most and not _is_exact(search, node):
+    if not checked.excused and checked.missed > missed_most and not _is_exact(search, node):
         return False
     if is_one and not checked.excused:
         return True

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from hexdbb.diagnosis import Sufficiency
-from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
@@ -103,7 +103,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         if not _is_form(search):
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
-    node = with_tuned_numbers(search, of_better_form(search, settled(search, node)))
+    node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
+    node = with_tuned_numbers(search, node)
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
     known = {each.name for each in node.hypotheses}
@@ -157,34 +158,15 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     """Split a set into causes, and learned functions that refine one of them at its own place."""
     causes: list[Hypothesis] = [each for each in node.hypotheses if isinstance(each, Known)]
     refinements: dict[str, tuple[str, ...]] = {}
-    for each in node.hypotheses:
-        if isinstance(each, Known):
-            continue
+    learned = [each for each in node.hypotheses if isinstance(each, Learned)]
+    for each in sorted(learned, key=lambda each: -left_without(search, node, each)) if len(learned) > 1 else learned:
         there = (one for one in causes if at_its_place(search, one, each))
-        of = next((one for one in there if _is_refined(search, node, one, each)), None)
+        of = next((one for one in there if is_refined(search, node, one, each)), None)
         if of is None:
             causes.append(each)
         else:
             refinements[of.name] = (*refinements.get(of.name, ()), each.name)
     return causes, refinements
-
-
-def _is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) -> bool:
-    """Check that a cause alone explains nearly as much as the learned function at its place alone, beside the others.
-
-    A function that explains more by far is the cause, and the effect a part of its form. One function that pushes
-    across a guideway in both of its directions is two learned ones, of which each may explain any part.
-    """
-    if isinstance(cause, Learned) and cause.variable == learned.variable:
-        return True
-    rest = tuple(each for each in node.members if each.hypothesis not in (cause, learned))
-    of = {each.hypothesis: each for each in node.members}
-    excess = search.root.trial.left - 1.0
-    try:
-        one, other = (search.trials.of((*rest, of[each])).left for each in (cause, learned))
-    except RunError:
-        return False
-    return one - other < search.criteria.same_kind_share * excess
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:

@@ -3,7 +3,8 @@
 Ports: as in `ports`; `guideway` is the joints of both sliders across the guideway.
 Variables: `position` (of the slider), `direction` (of travel, with its hysteresis), `since_reversal`, `velocity`,
 `acceleration`, `time`, `time_in_run` (since a run began), `feed`, `joint_angle`, `joint_turning`, `inclination` (of the
-leg), `leg_force`, `angle` (of the bar), `tilt` and `yaw` (of the platform), `deflection`, `constant`.
+leg), `leg_force`, `angle` (of the bar), `tilt` and `yaw` (of the platform), `deflection`, `constant`; one followed by
+`_relaxing` is how far it is ahead of what lags behind it.
 """
 
 from __future__ import annotations
@@ -109,6 +110,7 @@ def equivalents(kind: str, elements: tuple[int, ...]) -> tuple[Equivalent, ...]:
         return (
             Equivalent("slider", "velocity", (1, 2, 3, 4, 5, 6), "all sliders later by one time", "servo_lag"),
             Equivalent("reading", "direction", None, "the reading's derivative changes sign with the direction"),
+            Equivalent("reading", "deflection_relaxing", None, "what lags by a short time is late by that time"),
         )
     if kind == "leg_thermal":
         return (Equivalent("cup", "time", None, "legs that grow alike lift the platform: the cup sinks"),)

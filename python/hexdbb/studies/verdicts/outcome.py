@@ -159,15 +159,13 @@ def _place_of(name: str, label: Label) -> str:
 
 def _truths_words(variable: str) -> list[set[str]]:
     """Return the truth's words for a variable; of a product those of either part, of which the truth must have both."""
-    name = variable.partition("@")[0].removeprefix("neighbour_")
+    whole = name = variable.partition("@")[0].removeprefix("neighbour_")
     for how in MEMORIES:
         name = name.removesuffix(f"_{how}")
-    if name in VARIABLES:
-        return [{*VARIABLES[name]}]
-    for factor in FACTORS:
-        if name.startswith(f"{factor}_"):
-            return [{*VARIABLES.get(each, (each,))} for each in (factor, name.removeprefix(f"{factor}_"))]
-    return [{name}]
+    factor = "" if name in VARIABLES else next((each for each in FACTORS if name.startswith(f"{each}_")), "")
+    parts = (factor, name.removeprefix(f"{factor}_")) if factor else (name,)
+    # The truth may ask for the memory itself.
+    return [{whole, *VARIABLES.get(each, (each,))} for each in parts]
 
 
 def _is_stated(label: Label, effect: str, number: str) -> bool:

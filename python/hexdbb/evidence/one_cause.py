@@ -1,0 +1,84 @@
+"""Which hypotheses of a set are one cause: a function and an effect at one place, of which one is the other's form."""
+
+from __future__ import annotations
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import at_its_place
+from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
+
+
+def is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) -> bool:
+    """Check that a cause alone explains nearly as much as the learned function at its place alone, beside the others.
+
+    A function that explains more by far is the cause, and the effect a part of its form. Of two learned functions at
+    one place the lesser is the form of the other, however much less, unless it changes with time and the other does
+    not. One function that pushes across a guideway in both of its directions is two learned ones.
+    """
+    if isinstance(cause, Learned) and (cause.variable == learned.variable or cause.is_of_time == learned.is_of_time):
+        return True
+    try:
+        one, other = (_left_with(search, node, each, (cause, learned)) for each in (cause, learned))
+    except RunError:
+        return False
+    return one - other < search.criteria.same_kind_share * _excess(search)
+
+
+def without_borrowed_forms(search: Search, node: Node) -> Node:
+    """Exchange known effects for learned functions where they are a part of the form of another at their place.
+
+    Such an effect explains too little alone to be a cause, less than the function does. The cause is that function, and
+    one of another variable describes its form as well: a spike of a form of its own is no play.
+    """
+    for member in node.members:
+        if isinstance(member.hypothesis, Known) and any(
+            _borrows(search, node, member.hypothesis, each) for each in node.hypotheses if isinstance(each, Learned)
+        ):
+            node = _exchanged(search, node, member)
+    return node
+
+
+def _borrows(search: Search, node: Node, known: Known, learned: Learned) -> bool:
+    """Check that a function at an effect's place explains more than the effect, which explains too little alone."""
+    if not at_its_place(search, known, learned):
+        return False
+    try:
+        one, other = (_left_with(search, node, each, (known, learned)) for each in (known, learned))
+    except RunError:
+        return False
+    return other < one and one - node.trial.left > (1.0 - search.criteria.explained_min) * _excess(search)
+
+
+def _exchanged(search: Search, node: Node, member: Member) -> Node:
+    """Return the best set that has a learned function at a known effect's place in its stead; else the same set."""
+    most = node.trial.left + search.criteria.same_kind_share * _excess(search)
+    known, rest = member.hypothesis, {each for each in node.hypotheses if each != member.hypothesis}
+    found = []
+    for other in search.nodes:
+        instead = [each for each in other.hypotheses if each not in rest]
+        if len(other.members) != len(node.members) or len(instead) != 1 or not isinstance(instead[0], Learned):
+            continue
+        if at_its_place(search, known, instead[0]) and other.trial.left < most and not other.trial.refused:
+            found.append(other)
+    found.sort(key=lambda each: -each.score)
+    return next((each for each in found if not search.checked(each).reasons), node)
+
+
+def left_without(search: Search, node: Node, hypothesis: Hypothesis) -> float:
+    """Return what a set leaves without one of its hypotheses; infinity where that cannot be fitted."""
+    try:
+        return search.trials.of(tuple(each for each in node.members if each.hypothesis != hypothesis)).left
+    except RunError:
+        return float("inf")
+
+
+def _left_with(search: Search, node: Node, kept: Hypothesis, of: tuple[Hypothesis, Hypothesis]) -> float:
+    """Return what a set leaves with one of two of its hypotheses only."""
+    return search.trials.of(tuple(m for m in node.members if m.hypothesis == kept or m.hypothesis not in of)).left
+
+
+def _excess(search: Search) -> float:
+    return search.root.trial.left - 1.0
