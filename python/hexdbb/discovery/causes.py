@@ -21,7 +21,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.sure import is_for_sure
+from hexdbb.evidence.sure import graded
 from hexdbb.evidence.trial import Trial
 from hexdbb.evidence.verdict import Found
 from hexdbb.evidence.verdict import Verdict as Judged
@@ -82,7 +82,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
-    grade = found[0].grade if is_for_sure(search, judged.node) else "unknown"
+    grade = graded(search, judged.node, found[0].grade)
     hypotheses = [each.hypothesis for each in found]
     model, result = _fitted(search, judged.node.trial, hypotheses)
     names = [each.name for each in hypotheses if isinstance(each, Learned)]

@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT
+
+Grade = Literal["none", "effect", "ambiguous", "unknown"]
+
+
+def graded(search: Search, node: Node, grade: Grade) -> Grade:
+    """Return a grade as it may be said of causes: what is not for sure is unknown.
+
+    A cause with its rivals claims less than one alone: it may err by more.
+    """
+    criteria = search.criteria
+    missed_most = criteria.missed_sure if grade == "effect" else criteria.missed_most
+    return grade if is_for_sure(search, node, missed_most) else "unknown"
 
 
 def is_for_sure(search: Search, node: Node, missed_most: float | None = None) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
@@ -17,11 +16,9 @@ from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.sufficiency import left_over
-from hexdbb.evidence.sure import is_for_sure
+from hexdbb.evidence.sure import Grade, graded
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.learned import Learned
-
-Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
 
 @dataclass(frozen=True)
@@ -116,9 +113,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
-    if not is_for_sure(search, node):
-        grade = "unknown"
-    return Verdict(grade, found, node, search.checked(node), before, wider)
+    return Verdict(graded(search, node, grade), found, node, search.checked(node), before, wider)
 
 
 def _is_form(search: Search) -> bool:
