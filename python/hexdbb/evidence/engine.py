@@ -87,6 +87,7 @@ class Engine:
         self._fitted_part = samples.part(chosen[self._fitted_rows])
         self._blocks: dict[tuple[int, tuple[MountKey, ...], frozenset[str]], _core.Samples] = {}
         self._tables: dict[OwnEffect, Tabulated] = {}
+        self._ports: dict[str, frozenset[str]] = {}
         self._signatures: OrderedDict[tuple[int, tuple[str, ...], float], tuple[Model, Signatures]] = OrderedDict()
 
     @cached_property
@@ -256,7 +257,12 @@ class Engine:
         return self.base.own(effect) is None and any(each.is_shape for each in self.base.info(effect).parameters)
 
     def ports(self, effect: str) -> frozenset[str]:
-        """Return the engine's ports at which an effect pushes."""
+        """Return the engine's ports at which an effect pushes; those of each effect are looked for once."""
+        if effect not in self._ports:
+            self._ports[effect] = self._found_ports(effect)
+        return self._ports[effect]
+
+    def _found_ports(self, effect: str) -> frozenset[str]:
         few = self.part.part(np.unique(np.linspace(0, len(self.part) - 1, FEW_ROWS).astype(np.intp)))
         alone = replace(self.base, terms=(_held(self.base, effect),))
         return frozenset(port for port, pushes in effect_pushes(few, alone).items() if np.any(pushes != 0.0))

@@ -23,13 +23,14 @@ def or_known_together(search: Search, best: Node) -> Node:
     """
     found = [best]
     alone = {each.hypotheses[0]: each for each in search.nodes if explains_all_alone(search, each)}
-    for together in known_sets(search, 2 if alone else search.criteria.max_effects):
+    predicts_alone = any(not search.checked(each).excused for each in alone.values())
+    for together in known_sets(search, 2 if predicts_alone else search.criteria.max_effects):
         # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
         if any(len(each.members) < len(together.members) and leaves_nothing(search, each) for each in found[1:]):
             break
         # What explains all alone may be of an odd form because of another: only where the two predict.
         in_form = [alone[each] for each in together.effects if each in alone]
-        if not all(leaves_room(search, each) for each in in_form):
+        if not all(leaves_room(search, each) or search.checked(each).excused for each in in_form):
             continue
         node = _fitted(search, together)
         # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.

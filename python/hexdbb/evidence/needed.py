@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import explained, must_explain
+from hexdbb.evidence.settling import explained, is_doubtful, must_explain
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -32,11 +32,14 @@ def _without(node: Node, member: Member) -> tuple[Member, ...]:
 def is_better(search: Search, node: Node, than: Node) -> bool:
     """Check that a set has more evidence than another, and explains more where it has more hypotheses.
 
-    What many explain no better than few is no other explanation, whatever their priors make of it.
+    What many explain no better than few is no other explanation, whatever their priors make of it; unless the few are
+    excused by their forms where the many predict: functions free enough stand in for what is missing.
     """
     if node.score <= than.score:
         return False
-    return len(node.members) <= len(than.members) or than.trial.left - node.trial.left > must_explain(search, than)
+    if len(node.members) <= len(than.members) or than.trial.left - node.trial.left > must_explain(search, than):
+        return True
+    return node.is_known and search.checked(than).excused and not is_doubtful(search, node)
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
@@ -48,6 +51,8 @@ def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
 
 def needs(search: Search, node: Node, member: Member) -> bool:
     """Check that a hypothesis is more than the forms of the others may leave, or that these alone do not predict.
+
+    Others that only a form excuses do not either, where known effects do together.
 
     A free function describes whatever a form leaves: what it explains beyond the others counts. For a known effect its
     own size does, since other causes may stand in for most of it.
@@ -65,7 +70,11 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
     before = search.root.trial.left - others.left + trials.explained_before
     beyond = others.left - node.trial.left
-    if gain < criteria.detect_nats or beyond < criteria.form_described**2 * before:
+    if gain < criteria.detect_nats:
+        return False
+    if node.is_known and search.checked_trial(others).excused and not is_doubtful(search, node):
+        return True
+    if beyond < criteria.form_described**2 * before:
         return False
     least = criteria.secondary * criteria.form_sigma**2 * before
     if beyond >= least or search.checked_trial(others).reasons:

@@ -7,7 +7,6 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
 
 
@@ -33,11 +32,9 @@ def without_borrowed_forms(search: Search, node: Node) -> Node:
     Such an effect explains too little alone to be a cause, less than the function does. The cause is that function, and
     one of another variable describes its form as well: a spike of a form of its own is no play.
     """
-    for member in node.members:
-        if isinstance(member.hypothesis, Known) and any(
-            _borrows(search, node, member.hypothesis, each) for each in node.hypotheses if isinstance(each, Learned)
-        ):
-            node = _exchanged(search, node, member)
+    for known in [each for each in node.hypotheses if isinstance(each, Known)]:
+        lent = (each for each in node.hypotheses if isinstance(each, Learned) and _borrows(search, node, known, each))
+        node = next((_exchanged(search, node, known, each) for each in lent), node)
     return node
 
 
@@ -52,16 +49,16 @@ def _borrows(search: Search, node: Node, known: Known, learned: Learned) -> bool
     return other < one and one - node.trial.left > (1.0 - search.criteria.explained_min) * _excess(search)
 
 
-def _exchanged(search: Search, node: Node, member: Member) -> Node:
-    """Return the best set that has a learned function at a known effect's place in its stead; else the same set."""
+def _exchanged(search: Search, node: Node, known: Known, cause: Learned) -> Node:
+    """Return the best set that has, in a known effect's stead, another function at the cause's place; else the same."""
     most = node.trial.left + search.criteria.same_kind_share * _excess(search)
-    known, rest = member.hypothesis, {each for each in node.hypotheses if each != member.hypothesis}
+    rest = {each for each in node.hypotheses if each != known}
     found = []
     for other in search.nodes:
         instead = [each for each in other.hypotheses if each not in rest]
         if len(other.members) != len(node.members) or len(instead) != 1 or not isinstance(instead[0], Learned):
             continue
-        if at_its_place(search, known, instead[0]) and other.trial.left < most and not other.trial.refused:
+        if at_its_place(search, cause, instead[0]) and other.trial.left < most and not other.trial.refused:
             found.append(other)
     found.sort(key=lambda each: -each.score)
     return next((each for each in found if not search.checked(each).reasons), node)

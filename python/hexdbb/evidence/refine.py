@@ -14,7 +14,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import homes_of
 from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
+from hexdbb.evidence.screen import Known, Scored, Screen
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
@@ -159,7 +159,7 @@ def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | 
 
     What changes with time is no form of what does not.
     """
-    places = places or {(part_of(each), each.element) for cause in node.hypotheses for each in _homes(search, cause)}
+    places = places or {(part_of(each), each.element) for cause in node.hypotheses for each in homes_of(search, cause)}
     known = {each.name for each in node.hypotheses}
     readings, criteria = search.engine.readings, search.criteria
     with_time = node.trial.is_free_in_time
@@ -179,12 +179,3 @@ def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | 
         and each.name not in known
         and (with_time or not each.is_of_time)
     ]
-
-
-def _homes(search: Search, cause: Hypothesis) -> list[Learned]:
-    """Return the functions at whose places a cause acts; at another port its form reads the same and goes wrong."""
-    homes = homes_of(search, cause)
-    if isinstance(cause, Learned):
-        return homes
-    ports = search.engine.ports(cause.effect)
-    return [each for each in homes if each.port in ports]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.place import at_its_place
+from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sure import is_for_sure
@@ -88,7 +88,7 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
 
 def _describe(search: Search, other: Node, cause: Hypothesis) -> bool:
     """Check for several functions at a cause's own place: they describe its form, however far that is off."""
-    return all(isinstance(each, Learned) and at_its_place(search, cause, each) for each in other.hypotheses)
+    return all(isinstance(each, Learned) and at_a_place_of_its_kin(search, cause, each) for each in other.hypotheses)
 
 
 def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:

@@ -116,7 +116,7 @@ class Search:
             children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
             beam = self._kept(children)
             best = best_of(self, best, (each for each in beam if predicts(self, each)))
-            if size == 0 and best.trial.left > self.criteria.refined_to:
+            if size == 0 and (best.trial.left > self.criteria.refined_to or self.checked(best).excused):
                 together = or_known_together(self, best)
                 beam = [together, *beam] if len(together.members) > 1 else beam
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
