@@ -42,8 +42,13 @@ class Trialled:
         return 3.0
 
 
-def searched(left: dict[tuple[Member, ...], float], *fitted: tuple[Member, ...]) -> Any:
-    """Return a search whose empty set leaves 11 noise variances, and the node of the first set."""
+def searched(
+    left: dict[tuple[Member, ...], float], *fitted: tuple[Member, ...], excused: tuple[Member, ...] = ()
+) -> Any:
+    """Return a search whose empty set leaves 11 noise variances, and the node of the first set.
+
+    One set may predict only so far that its form excuses it.
+    """
     trials = Trialled({frozenset(each): value for each, value in left.items()}, {frozenset(each) for each in fitted})
     node = node_of(trials.of(next(iter(left))))
     search = SimpleNamespace(
@@ -52,8 +57,8 @@ def searched(left: dict[tuple[Member, ...], float], *fitted: tuple[Member, ...])
         root=SimpleNamespace(trial=SimpleNamespace(left=11.0)),
         nodes=[node],
         log_prior=lambda hypothesis: 0.0,
-        checked_trial=lambda trial: SimpleNamespace(reasons=()),
-        checked=lambda node: SimpleNamespace(reasons=(), excused=False),
+        checked_trial=lambda trial: SimpleNamespace(reasons=(), excused=trial.members == excused),
+        checked=lambda node: SimpleNamespace(reasons=(), excused=node.members == excused, missed=0.0),
         expand=lambda node: [],
         node=lambda members, near: node_of(trials.of(members)),
     )
@@ -63,7 +68,10 @@ def searched(left: dict[tuple[Member, ...], float], *fitted: tuple[Member, ...])
 
 def node_of(trial: Any) -> Any:
     hypotheses = tuple(each.hypothesis for each in trial.members)
-    return SimpleNamespace(trial=trial, members=trial.members, hypotheses=hypotheses, score=trial.log_evidence)
+    is_known = all(isinstance(each, Known) for each in hypotheses)
+    return SimpleNamespace(
+        trial=trial, members=trial.members, hypotheses=hypotheses, score=trial.log_evidence, is_known=is_known
+    )
 
 
 @pytest.mark.parametrize(("left", "expected"), [(1.0, True), (1.19, False)])
@@ -72,6 +80,17 @@ def test_more_effects_are_better_where_they_explain_more(left: float, expected: 
     than = node_of(search.trials.of((SCREW,)))
     assert is_better(search, wider, than) is expected
     assert not is_better(search, than, wider)
+
+
+@pytest.mark.parametrize(("excused", "expected"), [((DRIFT,), True), ((), False)], ids=["excused", "predicts"])
+def test_two_effects_that_predict_are_better_than_one_that_its_form_excuses(
+    excused: tuple[Member, ...], expected: bool
+) -> None:
+    """The functions of the one effect's form explain all but a hundredth of what the two do."""
+    search, both = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}, excused=excused)
+    alone = node_of(search.trials.of((DRIFT,)))
+    assert is_better(search, both, alone) is expected
+    assert needs_all(search, both) is expected
 
 
 def test_sets_that_are_fitted_already_are_asked_first() -> None:
