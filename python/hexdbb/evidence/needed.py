@@ -12,6 +12,7 @@ from hexdbb.evidence.trial import Member
 if TYPE_CHECKING:
     from hexdbb.evidence.node import Node
     from hexdbb.evidence.search import Search
+    from hexdbb.evidence.trial import Trial
 
 
 SLOW_DRIFTS = 3
@@ -39,7 +40,12 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
         return False
     if len(node.members) <= len(than.members) or than.trial.left - node.trial.left > must_explain(search, than):
         return True
-    return node.is_known and search.checked(than).excused and not is_doubtful(search, node)
+    return _predict_instead(search, node, than.trial)
+
+
+def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
+    """Check that known effects predict what fewer hypotheses are only excused from by their forms."""
+    return node.is_known and search.checked_trial(fewer).excused and not is_doubtful(search, node)
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
@@ -52,7 +58,7 @@ def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
 def needs(search: Search, node: Node, member: Member) -> bool:
     """Check that a hypothesis is more than the forms of the others may leave, or that these alone do not predict.
 
-    Others that only a form excuses do not either, where known effects do together.
+    Nor do others predict that only their forms excuse, where all together are known effects that do.
 
     A free function describes whatever a form leaves: what it explains beyond the others counts. For a known effect its
     own size does, since other causes may stand in for most of it.
@@ -72,7 +78,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     beyond = others.left - node.trial.left
     if gain < criteria.detect_nats:
         return False
-    if node.is_known and search.checked_trial(others).excused and not is_doubtful(search, node):
+    if _predict_instead(search, node, others):
         return True
     if beyond < criteria.form_described**2 * before:
         return False

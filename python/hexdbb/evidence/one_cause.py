@@ -19,10 +19,7 @@ def is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) 
     """
     if isinstance(cause, Learned) and (cause.variable == learned.variable or cause.is_of_time == learned.is_of_time):
         return True
-    try:
-        one, other = (_left_with(search, node, each, (cause, learned)) for each in (cause, learned))
-    except RunError:
-        return False
+    one, other = left_without(search, node, learned), left_without(search, node, cause)
     return one - other < search.criteria.same_kind_share * _excess(search)
 
 
@@ -42,10 +39,7 @@ def _borrows(search: Search, node: Node, known: Known, learned: Learned) -> bool
     """Check that a function at an effect's place explains more than the effect, which explains too little alone."""
     if not at_its_place(search, known, learned):
         return False
-    try:
-        one, other = (_left_with(search, node, each, (known, learned)) for each in (known, learned))
-    except RunError:
-        return False
+    one, other = left_without(search, node, learned), left_without(search, node, known)
     return other < one and one - node.trial.left > (1.0 - search.criteria.explained_min) * _excess(search)
 
 
@@ -70,11 +64,6 @@ def left_without(search: Search, node: Node, hypothesis: Hypothesis) -> float:
         return search.trials.of(tuple(each for each in node.members if each.hypothesis != hypothesis)).left
     except RunError:
         return float("inf")
-
-
-def _left_with(search: Search, node: Node, kept: Hypothesis, of: tuple[Hypothesis, Hypothesis]) -> float:
-    """Return what a set leaves with one of two of its hypotheses only."""
-    return search.trials.of(tuple(m for m in node.members if m.hypothesis == kept or m.hypothesis not in of)).left
 
 
 def _excess(search: Search) -> float:
