@@ -290,6 +290,24 @@ class Engine:
                 self._signatures.popitem(last=False)
         return self._signatures[key][1]
 
+    def signatures_about_start(self, effect: str, shaped: Model) -> Signatures:
+        """Return the signatures of an effect's absent elements about the start of fits, its shape as in another model.
+
+        Learned functions have theirs there too. About a fit, geometry bent, what is left of an effect that geometry
+        imitates nearly whole is nothing that they contain.
+        """
+        full = self.start
+        if effect not in {term.effect for term in full.terms}:
+            full = replace(full, terms=(*full.terms, _held(full, effect)))
+        values = {
+            (each.element, each.name): value
+            for each, value in zip(shaped.parameters(), shaped.values, strict=True)
+            if each.effect == effect and each.is_shape
+        }
+        asked = [(each.effect == effect, (each.element, each.name)) for each in full.parameters()]
+        held = [values.get(key, old) if is_its else old for (is_its, key), old in zip(asked, full.values, strict=True)]
+        return self._signatures_of(full.with_values(np.array(held)), (effect,))
+
     def _made_signatures(self, model: Model, effects: Sequence[str], shape: float) -> Signatures:
         present = {term.effect for term in model.terms}
         terms = [_held(model, name) for name in effects if name not in present]
@@ -297,6 +315,10 @@ class Engine:
         if shape:
             absent = np.array([each.is_shape and each.effect not in present for each in full.parameters()])
             full = full.with_values(np.where(absent, shape * full.prior_sigma, full.values))
+        return self._signatures_of(full, effects)
+
+    def _signatures_of(self, full: Model, effects: Sequence[str]) -> Signatures:
+        """Return the signatures of effects that a model holds."""
         full = self._without_learned(full)
         jacobian = _core.predict(*self._plain(full), want_jacobian=True).jacobian
         wanted = [

@@ -78,7 +78,8 @@ class Forms:
 
     def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
         self.engine, self.homes, self.criteria = engine, homes, criteria
-        self._homes: dict[tuple[str, str, str], list[Home]] = {}
+        self._homes: dict[tuple[str, tuple[float, ...]], dict[tuple[str, str], list[Home]]] = {}
+        """Homes of the values of each effect, by its shape: of its elements and names."""
         self._ports: dict[str, frozenset[str]] = {}
         self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
         self._square = lru_cache(KEPT_SQUARES)(self._product)
@@ -163,25 +164,32 @@ class Forms:
                 continue
             # Columns of the discrepancies stand behind those of the free values.
             sigma = model.prior_sigma[column]
-            homes = self._homes_of(parameter, fitted.linear.own[:, place] * (sigma / fitted.prior_sigma[place]))
+            homes = self._homes_of(parameter, fitted, place)
             if homes:
                 places = self._places(parameter, homes)
                 nearest = max(places[0], key=lambda each: each.explained)
                 # The simplest function that says the same may be larger, by what geometry takes of it: so may a form.
-                rms_mm = max(nearest.rms_mm, homes[0].rms_mm)
+                same = [each for each in homes if each.explained >= self.criteria.same_form]
+                rms_mm = max(nearest.rms_mm, same[0].rms_mm if same else 0.0)
                 square += (rms_mm * float(model.values[column]) / sigma) ** 2
                 groups += [group for place in places for group in discrepancy(place)]
         assert len(readings) > 0
         return float(np.sqrt(square)), list(dict.fromkeys(groups))
 
-    def _homes_of(self, parameter: Parameter, signature: Floats) -> list[Home]:
-        """Return the homes of a value's signature; those of an effect without shape are the same in every trial."""
-        key = (parameter.effect, parameter.element, parameter.name)
-        if any(each.is_shape for each in self.engine.base.info(parameter.effect).parameters):
-            return self.homes.around(signature)
-        if key not in self._homes:
-            self._homes[key] = self.homes.around(signature)
-        return self._homes[key]
+    def _homes_of(self, parameter: Parameter, fitted: Fitted, place: int) -> list[Home]:
+        """Return the homes of a value's signature; those of an effect of one shape are the same in every trial."""
+        model, effect = fitted.model, parameter.effect
+        values = zip(model.parameters(), model.values, strict=True)
+        shape = tuple(float(value) for each, value in values if each.effect == effect and each.is_shape)
+        if (effect, shape) not in self._homes:
+            table, whose = self.engine.signatures_about_start(effect, model)
+            found = zip(whose, self.homes.around_each(table), strict=True)
+            self._homes[effect, shape] = {(element, name): homes for (_, element, name, _), homes in found}
+        known = self._homes[effect, shape]
+        if (parameter.element, parameter.name) not in known:  # the model has had it, and was fitted with it
+            sigma = model.prior_sigma[fitted.free[place]]
+            return self.homes.around_each(fitted.linear.own[:, [place]] * (sigma / fitted.prior_sigma[place]))[0]
+        return known[parameter.element, parameter.name]
 
     def _places(self, parameter: Parameter, homes: list[Home]) -> list[list[Home]]:
         """Return the homes at an effect's own port by element, its own first; all together where none is there.

@@ -77,13 +77,15 @@ class Homes:
 
     def of_each(self, signatures: Floats) -> list[list[Home]]:
         """Return the hypotheses that contain each of some signatures, shape (n, m)."""
-        explained, along = self._explained(signatures)
-        return [self._nearest(*each, self.criteria.same_form) for each in zip(explained.T, along.T, strict=True)]
+        return self._near(signatures, self.criteria.same_form)
 
-    def around(self, signature: Floats) -> list[Home]:
-        """Return the hypotheses in whose functions an effect's form may be wrong: those that nearly contain it."""
-        explained, along = self._explained(signature[:, None])
-        return self._nearest(explained[:, 0], along[:, 0], self.criteria.form_home)
+    def around_each(self, signatures: Floats) -> list[list[Home]]:
+        """Return the hypotheses in whose functions effects' forms may be wrong: those that nearly contain them."""
+        return self._near(signatures, self.criteria.form_home)
+
+    def _near(self, signatures: Floats, least: float) -> list[list[Home]]:
+        explained, along = self._explained(signatures)
+        return [self._nearest(*each, least) for each in zip(explained.T, along.T, strict=True)]
 
     def _explained(self, signatures: Floats) -> tuple[Floats, Floats]:
         """Return how much of each signature every hypothesis contains, (hypotheses, m), and the parts of all in it."""

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT
 
@@ -15,11 +17,24 @@ Grade = Literal["none", "effect", "ambiguous", "unknown"]
 def graded(search: Search, node: Node, grade: Grade) -> Grade:
     """Return a grade as it may be said of causes: what is not for sure is unknown.
 
-    A cause with its rivals claims less than one alone: it may err by more.
+    A cause with its rivals claims less than one alone: it may err by more. Known causes explain enough without the
+    learned functions that refine them: in such as free as six steps of a leg another cause may hide.
     """
     criteria = search.criteria
     missed_most = criteria.missed_sure if grade == "effect" else criteria.missed_most
-    return grade if is_for_sure(search, node, missed_most) else "unknown"
+    is_sure = is_for_sure(search, node, missed_most) and (grade == "unknown" or _explain_unrefined(search, node))
+    return grade if is_sure else "unknown"
+
+
+def _explain_unrefined(search: Search, node: Node) -> bool:
+    """Check that the known effects of a set explain enough without its learned functions."""
+    known = tuple(each for each in node.members if isinstance(each.hypothesis, Known))
+    try:
+        left = search.trials.of(known).left
+    except RunError:
+        return False
+    excess = search.root.trial.left - 1.0
+    return search.root.trial.left - left >= search.criteria.explained_min * excess
 
 
 def is_for_sure(search: Search, node: Node, missed_most: float | None = None) -> bool:

@@ -163,12 +163,19 @@ class Trials:
 
     @cached_property
     def explained_before(self) -> float:
-        """Mean square of what the effects in the model explain that its other values do not, in noise variances."""
-        fitted = self.engine.linearised(self.engine.start)
+        """Mean square of what the effects in the model explain that its other values do not, in noise variances.
+
+        With the functions of their forms: where geometry takes most of an effect, its form is what the readings show.
+        """
+        root = self.of(())
+        linear, parameters = self.linear(root), root.model.parameters()
         names = {(each.effect, each.elements[0]) for each in self._present}
-        every = [self.engine.start.parameters()[column] for column in fitted.free]
-        own = np.array([(each.effect, each.element) in names for each in every])
-        return _beyond(fitted.linear.own, fitted.linear.standing, own, ~own)
+        free = np.flatnonzero(root.model.free)
+        own = np.zeros(linear.own.shape[1], bool)
+        own[: len(free)] = [(parameters[place].effect, parameters[place].element) in names for place in free]
+        for _, columns in root.columns_of_forms():
+            own[columns] = True
+        return _beyond(linear.own, linear.standing, own, ~own)
 
     def size(self, trial: Trial, known: Known) -> float:
         """Mean square of what a known effect of a trial pushes that geometry does not, in noise variances.
