@@ -139,6 +139,10 @@ class Criteria:
     missed_sure : float
         The same above which they are not named for sure: of forty effects up to 20 % off, ten times the noise, all
         whose formula bends had 0.3 and less, drifting legs that stood in for a screw 0.78.
+    missed_bent : float
+        The same above which not even one effect is that its form excuses, or whose formula hardly bent leaves only
+        noise: of sixty effects up to 20 % off those that leave only noise had 0.9 and less, what stood in for another
+        cause, or for two, 2.0 to 3.7. In between, where as many of either are expected.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float
@@ -232,6 +236,7 @@ class Criteria:
     formula_explains: float = 1.0 / 3.0
     missed_most: float = 0.8
     missed_sure: float = 0.5
+    missed_bent: float = 1.3
     most_refinements: int = 8
     refined_by: float = 0.1
     refinement_rounds: int = 2

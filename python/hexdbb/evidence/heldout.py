@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from hexdbb.evidence.covered import is_covered
 from hexdbb.evidence.readings import ARC, GROUPINGS, Readings
-from hexdbb.evidence.sums import Sums, Training, squared_error
+from hexdbb.evidence.sums import Sums, squared_error
 from hexdbb.evidence.trial import Trial, Trials
 from hexdbb.learned import Learned
 
@@ -51,12 +51,10 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
         if not groups:
             continue
         without = error = expected = 0.0
-        for number, cells in groups:
-            in_group = numbers == number
-            without += _error(base, before, before.without(cells), cells, in_group)
-            training = after.without(cells)
-            error += _error(trial, after, training, cells, in_group)
-            expected += training.expected_error(after, cells)
+        for _, cells in groups:
+            without += _error(before, base, cells)
+            error += _error(after, trial, cells)
+            expected += after.without(cells).expected_error(after, cells)
         share = (without - error) / max(without - rows, 1e-9)
         found[grouping] = HeldOut(
             float(np.sqrt(without / rows)), float(np.sqrt(error / rows)), share, float(np.sqrt(expected / rows))
@@ -81,19 +79,18 @@ def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group
     return covered or claimed
 
 
-def _error(trial: Trial, sums: Sums, training: Training, cells: NDArray[np.intp], in_group: NDArray[np.bool_]) -> float:
-    """Return the sum of squared errors of a fit to a training set in the cells of a group.
+def _error(sums: Sums, trial: Trial, cells: NDArray[np.intp]) -> float:
+    """Return the sum of squared errors of a fit to all other cells in the cells of a group.
 
-    A formula extrapolates, the functions of its form do not: where they lead away from a group in whose range of their
-    variable hardly any other reading lies, the formula alone predicts it.
+    A known effect claims what its formula predicts, or with the functions of its form: of a joint that moves as it
+    turns, other circles hardly say how it goes on here, and functions that follow them lead away.
     """
-    own = training.own_values()
-    error = squared_error(sums, cells, own, None, None)
-    for form, columns in trial.columns_of_forms():
-        formula = own.copy()
-        formula[columns] = -sums.linear.standing[columns]
-        alone = squared_error(sums, cells, formula, None, None)
-        functions = (Learned.parse(name) for name in form.functions)
-        if alone < error and not is_covered(functions, sums.readings, in_group):
-            own, error = formula, alone
+    training = sums.without(cells)
+    error = squared_error(sums, cells, training.own_values(), None, None)
+    dropped = np.empty(0, np.intp)
+    for _, columns in trial.columns_of_forms():
+        fewer = np.concatenate([dropped, np.arange(columns.start, columns.stop)])
+        alone = squared_error(sums, cells, training.own_values_without(sums, fewer), None, None)
+        if alone < error:
+            dropped, error = fewer, alone
     return error

@@ -22,6 +22,10 @@ from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
 
+OWN = 0.995
+"""Explained part from which a function's variable is the effect's own, so that each leg or slider may follow a law of
+its own: legs that sag are a hundredth off functions of their place, which one slider's screw follows by itself."""
+
 MOST_COLUMNS = 24
 """Splines of a discrepancy, at most, where the effect lives in such: a finer function would be another cause."""
 
@@ -130,7 +134,8 @@ def discrepancy(homes: Sequence[Home]) -> list[tuple[Learned, ...]]:
     near = [each for each in ranked if each.variable.columns > 1 and (each.place, each.element) in there]
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
     useful = [each for each in near if each.variable.columns <= MOST_COLUMNS] or near[:1]
-    return [_by_element(each) for each in useful]
+    own = {each.hypothesis for each in homes if each.explained >= OWN}
+    return [_by_element(each) if each in own else (each,) for each in useful]
 
 
 def _by_element(each: Learned) -> tuple[Learned, ...]:

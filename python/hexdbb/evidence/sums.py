@@ -158,6 +158,16 @@ class Training:
         found: Floats = self._inverse.T @ right
         return found
 
+    def own_values_without(self, sums: Sums, columns: Ints) -> Floats:
+        """Return the change of the model's own values, fitted anew where those of some columns are zero."""
+        total = sums.base[self.cells].sum(axis=0)
+        found: Floats = -sums.linear.standing
+        others = np.setdiff1d(np.arange(len(found)), columns)
+        square = total[np.ix_(others, others)] + np.eye(len(others))
+        right = total[others, -1] - sums.linear.standing[others] - total[np.ix_(others, columns)] @ found[columns]
+        found[others] = np.linalg.solve(square, right)
+        return found
+
     def expected_error(self, sums: Sums, cells: Ints) -> float:
         """Return the sum of squared errors that the fit to this set expects of itself on other cells."""
         base = sums.base[cells].sum(axis=0)[:-1, :-1]

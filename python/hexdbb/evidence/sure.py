@@ -44,7 +44,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
     several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
     half of all that it explains where fitted may stand in for something else, however much worse geometry alone errs;
-    unless its formula nearly as it is leaves only noise: other circles hardly tell its size, but that it is there.
+    unless its formula nearly as it is leaves only noise: other circles hardly tell its size, but that it is there. What
+    errs by more than all that it explains is not excused either.
 
     Parameters
     ----------
@@ -56,6 +57,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     missed_most = search.criteria.missed_sure if missed_most is None else missed_most
     checked, is_one = search.checked(node), len(node.members) == 1
     if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
+        return False
+    if checked.missed > search.criteria.missed_bent:
         return False
     if not checked.excused and checked.missed > missed_most and not _is_exact(search, node):
         return False

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.homes import Home, Homes, discrepancy
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned
@@ -64,3 +64,12 @@ def test_only_what_changes_with_time_lives_in_functions_of_time(linear: Linear, 
     time_s = readings.state["time_s"]
     assert [each.hypothesis for each in homes.of(push)] == [constant]
     assert [each.hypothesis for each in homes.of(push * np.expm1(-time_s / 10.0))] == [in_time]
+
+
+def test_each_leg_follows_a_law_of_its_own_in_the_effects_own_variable_alone() -> None:
+    """Legs sag by their force; where each leg's place says so too, nearly, it says what a screw may do as well."""
+    force, place = (Learned.parse(f"learned:leg:all:{name}") for name in ("leg_force", "position"))
+    groups = discrepancy([Home(force, 1.0, 0.01), Home(place, 0.989, 0.01)])
+    assert [len(each) for each in groups] == [7, 1]
+    assert {each.element for each in groups[0]} == {0, 1, 2, 3, 4, 5, 6}
+    assert groups[1] == (place,)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hexdbb.evidence import known_together
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.exchange import settled
 from hexdbb.evidence.form import Form
@@ -134,3 +135,16 @@ def test_the_same_causes_in_words_of_learned_functions_are_no_better_set() -> No
     search.nodes.append(node_of(search.trials.of((time, bend))))
     search.same_kind = lambda one, other: one == other or {one, other} == {DRIFT.hypothesis, time.hypothesis}
     assert settled(search, node).members == (DRIFT, bend)
+
+
+def test_a_set_with_one_too_many_is_known_by_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The two that are missing stand in no set of their size: a third takes the little that geometry bends."""
+    left = {(DRIFT, GAIN, SCREW): 1.0, (DRIFT, GAIN): 1.01, (DRIFT, SCREW): 5.0, (GAIN, SCREW): 6.0}
+    search, node = searched(left | {(DRIFT,): 7.0, (GAIN,): 7.0, (SCREW,): 10.0})
+    search.nodes.clear()
+    screened = SimpleNamespace(members=[SimpleNamespace(known=each.hypothesis) for each in node.members], effects=[])
+    monkeypatch.setattr(known_together, "known_sets", lambda search, most: [screened])
+    best = node_of(search.trials.of((DRIFT,)))
+    for each in (node, best):
+        each.trial.refused = ()
+    assert known_together.or_known_together(search, best).members == (DRIFT, GAIN)

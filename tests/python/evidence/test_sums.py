@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -59,3 +60,17 @@ def test_the_error_expected_is_that_of_noise(linear: Linear, readings: Readings)
     covariance = np.linalg.inv(linear.own[~inside].T @ linear.own[~inside] + np.eye(5))
     expected = inside.sum() + np.trace(linear.own[inside] @ covariance @ linear.own[inside].T)
     assert training.expected_error(sums, cells) == pytest.approx(float(expected))
+
+
+def test_values_held_at_zero_are_fitted_without_their_columns(linear: Linear, readings: Readings) -> None:
+    standing = np.array([0.3, -0.2, 0.5, 0.0, 0.1])
+    sums = Sums(replace(linear, standing=standing), readings)
+    cells, dropped = sums.groups("circle")[1], np.array([1, 4])
+    found = sums.without(cells).own_values_without(sums, dropped)
+    assert found[dropped] == pytest.approx(-standing[dropped])
+    others, outside = np.array([0, 2, 3]), readings.groups["circle"] != 1
+    own = linear.own[outside]
+    residual = linear.residual[outside] + own[:, dropped] @ standing[dropped]
+    design = own[:, others]
+    expected = np.linalg.solve(design.T @ design + np.eye(3), design.T @ residual - standing[others])
+    assert found[others] == pytest.approx(expected, rel=1e-8)
