@@ -57,9 +57,7 @@ def test_what_is_unknown_stays_so() -> None:
     assert graded(searched(None), NODE, "unknown") == "unknown"
 
 
-@pytest.mark.parametrize(
-    ("missed", "sure_of_it"), [(DEFAULT.missed_bent - 0.1, True), (DEFAULT.missed_bent + 0.1, False)]
-)
+@pytest.mark.parametrize(("beyond", "sure_of_it"), [(-0.1, True), (0.1, False)])
 @pytest.mark.parametrize("excused", [True, False])
 def test_one_effect_errs_by_no_more_than_it_explains(beyond: float, sure_of_it: bool, excused: bool) -> None:
     """Whether its form excuses it, or its formula nearly as it is leaves only noise."""
