@@ -26,6 +26,9 @@ class Criteria:
     form_home : float
         Explained part from which a hypothesis at the best one's place lends its functions to a discrepancy: functions
         of direction and position contain 96 % of play, whose form they must be able to mend.
+    form_own : float
+        Explained part from which a function's variable is the effect's own, so that each leg or slider may follow a law
+        of its own: legs that sag are a hundredth off functions of their place, which one slider's screw follows too.
     near_form : float
         Where none contains it, the hypotheses nearest to it from this part on stand for its discrepancy: a spike that
         depends on travel and time at once is contained to six and seven tenths by functions of either.
@@ -143,6 +146,9 @@ class Criteria:
         The same above which not even one effect is that its form excuses, or whose formula hardly bent leaves only
         noise: of sixty effects up to 20 % off those that leave only noise had 0.9 and less, what stood in for another
         cause, or for two, 2.0 to 3.7. In between, where as many of either are expected.
+    far_better : float
+        Part of the error of one effect that its form excuses with which known effects together predict far better:
+        of a true pair and what stood in for it 0.28, beside it with a wrong element 0.49 and more.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float
@@ -187,6 +193,7 @@ class Criteria:
     fewest_rows: int = 1200
     same_form: float = 0.97
     form_home: float = 0.9
+    form_own: float = 0.995
     near_form: float = 0.5
     most_homes: int = 3
     shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
@@ -237,6 +244,7 @@ class Criteria:
     missed_most: float = 0.8
     missed_sure: float = 0.5
     missed_bent: float = 1.3
+    far_better: float = 0.5
     most_refinements: int = 8
     refined_by: float = 0.1
     refinement_rounds: int = 2

@@ -26,7 +26,7 @@ def rivals_elsewhere(search: Search, node: Node, cause: Known) -> list[str]:
     cause : Known
     """
     kin = search.kin.get(cause.name, set())
-    is_instrument = search.engine.ports(cause.effect) <= INSTRUMENT
+    is_instrument = search.engine.absent.ports(cause.effect) <= INSTRUMENT
     found = []
     for other in search.nodes:
         stands_in = [h for h in other.hypotheses if _is_elsewhere(h, kin, is_instrument)]

@@ -1,8 +1,7 @@
-"""From records and models to plain arrays, and back: the one file that knows the engine and the tables of samples."""
+"""From records and models to plain arrays, and back: with `absent.py` all that knows the engine and the samples."""
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
@@ -13,23 +12,18 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.diagnosis import Noise, evaluate_fit
 from hexdbb.errors import RunError
+from hexdbb.evidence.absent import Absent, held
 from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.prior import LEAST_SCALE, prior_scale
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
 from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
 from hexdbb.learned import Learned
-from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, Term, new_term
-from hexdbb.model.terms import started_term
-from hexdbb.samples import Samples, effect_pushes, of_its_own
+from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, new_term
+from hexdbb.samples import Samples, of_its_own
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
-Signatures = tuple[Floats, list[tuple[str, str, str, float]]]
-"""A column each, and whose it is: effect, element, parameter, prior standard deviation."""
-
-FEW_ROWS = 100
-"""Rows that tell where an effect pushes: several in every reversal and on every circle of a plan."""
 UNSEEN = 1e-3
 """Information, in values' worth, below which a direction of a learned function that the model has already is left out:
 it stands in every hypothesis alike, and changes the evidence of one over another by less."""
@@ -37,10 +31,6 @@ it stands in every hypothesis alike, and changes the evidence of one over anothe
 SCALE_ROUNDS = 2
 """Fits with a wider prior, at most: the first follows the value that the normal prior held back, the second what the
 first found."""
-
-KEPT = 4
-"""Tables of signatures kept, some megabytes each: those about one model, at each start of a shape, are asked for where
-effects are screened one by one and again in sets."""
 
 
 @dataclass(frozen=True)
@@ -87,8 +77,7 @@ class Engine:
         self._fitted_part = samples.part(chosen[self._fitted_rows])
         self._blocks: dict[tuple[int, tuple[MountKey, ...], frozenset[str]], _core.Samples] = {}
         self._tables: dict[OwnEffect, Tabulated] = {}
-        self._ports: dict[str, frozenset[str]] = {}
-        self._signatures: OrderedDict[tuple[int, tuple[str, ...], float], tuple[Model, Signatures]] = OrderedDict()
+        self.absent = Absent(self)
 
     @cached_property
     def readings(self) -> Readings:
@@ -102,7 +91,7 @@ class Engine:
             "sweep": codes_of(part["sweep"]),
             ARC: arcs_of(codes_of(part["sweep"])),
         }
-        ports = _core.port_sensitivity(*self._plain(self.base)) / self.row_noise_mm[:, None]
+        ports = _core.port_sensitivity(*self.plain(self.base)) / self.row_noise_mm[:, None]
         return Readings(self._state, groups, self.row_noise_mm, ports)
 
     @cached_property
@@ -202,7 +191,7 @@ class Engine:
 
     def linearised(self, model: Model) -> Fitted:
         """Linearise the rows about a model as it is."""
-        engine, block = self._plain(model)
+        engine, block = self.plain(model)
         prediction = _core.predict(engine, block, want_jacobian=True)
         free = np.flatnonzero(model.free)
         residual = (self.reading_mm - prediction.reading_mm) / self.row_noise_mm
@@ -232,12 +221,12 @@ class Engine:
                 first += width
         return found
 
-    def _plain(self, model: Model) -> tuple[_core.Model, _core.Samples]:
+    def plain(self, model: Model) -> tuple[_core.Model, _core.Samples]:
         """Return the engine's form of a model and all rows: learned functions as they stand, without their values."""
-        plain = self._without_learned(model)
+        plain = self.without_learned(model)
         return plain.engine(partial(self._tabulate, self.part, self._state)), self._block(self.part, plain)
 
-    def _without_learned(self, model: Model) -> Model:
+    def without_learned(self, model: Model) -> Model:
         """Return a model in which one effect, the last, pushes what all its learned functions push."""
         learned = learned_of(model)
         if not learned:
@@ -251,85 +240,6 @@ class Engine:
         others = tuple(term for term in model.terms if term.effect not in learned)
         term = replace(new_term(standing.name, 1, free=False), values=np.ones(1))
         return replace(model.knowing_effects([standing]), terms=(*others, term))
-
-    def has_shape(self, effect: str) -> bool:
-        """Check whether an effect has a shape parameter of the engine's (a time constant)."""
-        return self.base.own(effect) is None and any(each.is_shape for each in self.base.info(effect).parameters)
-
-    def ports(self, effect: str) -> frozenset[str]:
-        """Return the engine's ports at which an effect pushes; those of each effect are looked for once."""
-        if effect not in self._ports:
-            self._ports[effect] = self._found_ports(effect)
-        return self._ports[effect]
-
-    def _found_ports(self, effect: str) -> frozenset[str]:
-        few = self.part.part(np.unique(np.linspace(0, len(self.part) - 1, FEW_ROWS).astype(np.intp)))
-        alone = replace(self.base, terms=(_held(self.base, effect),))
-        return frozenset(port for port, pushes in effect_pushes(few, alone).items() if np.any(pushes != 0.0))
-
-    def signatures(self, model: Model, effects: Sequence[str], shape: float = 0.0) -> Signatures:
-        """Return first-order signatures of absent effects, per prior standard deviation; the last few are kept.
-
-        Parameters
-        ----------
-        model : Model
-        effects : sequence of str
-        shape : float
-            Value of shape parameters, in prior standard deviations.
-
-        Returns
-        -------
-        signatures : ndarray, shape (n, k)
-        whose : list of (effect, element, parameter, prior standard deviation)
-        """
-        key = (id(model), tuple(effects), shape)
-        if key not in self._signatures:
-            # The model is kept with them: meanwhile no other has its identity.
-            self._signatures[key] = model, self._made_signatures(model, effects, shape)
-            if len(self._signatures) > KEPT:
-                self._signatures.popitem(last=False)
-        return self._signatures[key][1]
-
-    def signatures_about_start(self, effect: str, shaped: Model) -> Signatures:
-        """Return the signatures of an effect's absent elements about the start of fits, its shape as in another model.
-
-        Learned functions have theirs there too. About a fit, geometry bent, what is left of an effect that geometry
-        imitates nearly whole is nothing that they contain.
-        """
-        full = self.start
-        if effect not in {term.effect for term in full.terms}:
-            full = replace(full, terms=(*full.terms, _held(full, effect)))
-        values = {
-            (each.element, each.name): value
-            for each, value in zip(shaped.parameters(), shaped.values, strict=True)
-            if each.effect == effect and each.is_shape
-        }
-        asked = [(each.effect == effect, (each.element, each.name)) for each in full.parameters()]
-        held = [values.get(key, old) if is_its else old for (is_its, key), old in zip(asked, full.values, strict=True)]
-        return self._signatures_of(full.with_values(np.array(held)), (effect,))
-
-    def _made_signatures(self, model: Model, effects: Sequence[str], shape: float) -> Signatures:
-        present = {term.effect for term in model.terms}
-        terms = [_held(model, name) for name in effects if name not in present]
-        full = replace(model, terms=(*model.terms, *terms))
-        if shape:
-            absent = np.array([each.is_shape and each.effect not in present for each in full.parameters()])
-            full = full.with_values(np.where(absent, shape * full.prior_sigma, full.values))
-        return self._signatures_of(full, effects)
-
-    def _signatures_of(self, full: Model, effects: Sequence[str]) -> Signatures:
-        """Return the signatures of effects that a model holds."""
-        full = self._without_learned(full)
-        jacobian = _core.predict(*self._plain(full), want_jacobian=True).jacobian
-        wanted = [
-            (index, each)
-            for index, each in enumerate(full.parameters())
-            if each.effect in effects and not full.free[index] and not each.is_shape
-        ]
-        columns = [index for index, _ in wanted]
-        sigmas = np.array([each.prior_sigma for _, each in wanted])
-        table: Floats = jacobian[:, columns] * sigmas / self.row_noise_mm[:, None]
-        return table, [(each.effect, each.element, each.name, each.prior_sigma) for _, each in wanted]
 
     def present(self) -> list[tuple[str, tuple[str, ...], bool]]:
         """Return the catalogue's and the user's effects that the base has free: effect, element, if it has no other."""
@@ -356,7 +266,7 @@ class Engine:
     def with_effect(self, model: Model, effect: str, elements: Sequence[str]) -> Model:
         """Return the model with some elements of an effect of the catalogue free as well, at zero."""
         if effect not in {term.effect for term in model.terms}:
-            model = replace(model, terms=(*model.terms, _held(model, effect)))
+            model = replace(model, terms=(*model.terms, held(model, effect)))
         freed = [each.effect == effect and each.element in elements for each in model.parameters()]
         return model.with_free(model.free | np.array(freed))
 
@@ -385,9 +295,3 @@ class Engine:
             return self._tables[effect]
         whole = self.samples.tabulated(effect, values)
         return replace(whole, per_unit=whole.per_unit[part.row_numbers])
-
-
-def _held(model: Model, effect: str) -> Term:
-    """Return a term of an effect that a model lacks, at its start, held."""
-    info = model.info(effect)
-    return replace(started_term(effect, model.own(effect), info), free=np.zeros(info.size, bool))

@@ -80,7 +80,6 @@ class Forms:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, tuple[float, ...]], dict[tuple[str, str], list[Home]]] = {}
         """Homes of the values of each effect, by its shape: of its elements and names."""
-        self._ports: dict[str, frozenset[str]] = {}
         self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
         self._square = lru_cache(KEPT_SQUARES)(self._product)
 
@@ -172,7 +171,7 @@ class Forms:
                 same = [each for each in homes if each.explained >= self.criteria.same_form]
                 rms_mm = max(nearest.rms_mm, same[0].rms_mm if same else 0.0)
                 square += (rms_mm * float(model.values[column]) / sigma) ** 2
-                groups += [group for place in places for group in discrepancy(place)]
+                groups += [group for place in places for group in discrepancy(place, self.criteria)]
         assert len(readings) > 0
         return float(np.sqrt(square)), list(dict.fromkeys(groups))
 
@@ -182,7 +181,7 @@ class Forms:
         values = zip(model.parameters(), model.values, strict=True)
         shape = tuple(float(value) for each, value in values if each.effect == effect and each.is_shape)
         if (effect, shape) not in self._homes:
-            table, whose = self.engine.signatures_about_start(effect, model)
+            table, whose = self.engine.absent.signatures_about_start(effect, model)
             found = zip(whose, self.homes.around_each(table), strict=True)
             self._homes[effect, shape] = {(element, name): homes for (_, element, name, _), homes in found}
         known = self._homes[effect, shape]
@@ -198,16 +197,14 @@ class Forms:
         goes wrong where it is. Other elements count where they say exactly the same: joints of a pair off their places.
         What all legs share stays with all homes: a function of each leg's own beside it may imitate anything.
         """
-        effect = parameter.effect
-        if effect not in self._ports:
-            self._ports[effect] = self.engine.ports(effect)
+        ports = self.engine.absent.ports(parameter.effect)
         there: dict[str, list[Home]] = {parameter.element: []}
         for each in homes:
             # The ball is one place, whichever fixing of it an element stands for.
             is_one_place = each.hypothesis.kind == "machine"
             element = parameter.element if is_one_place else str(each.hypothesis.element)
             says_the_same = element == parameter.element or each.explained >= self.criteria.same_form
-            if each.hypothesis.port in self._ports[effect] and says_the_same:
+            if each.hypothesis.port in ports and says_the_same:
                 there.setdefault(element, []).append(each)
         is_there = bool(there[parameter.element]) and str(ALL) not in there
         return [place for place in there.values() if place] if is_there else [homes]

@@ -22,10 +22,6 @@ from hexdbb.learned import ALL, Learned
 
 Floats = NDArray[np.float64]
 
-OWN = 0.995
-"""Explained part from which a function's variable is the effect's own, so that each leg or slider may follow a law of
-its own: legs that sag are a hundredth off functions of their place, which one slider's screw follows by itself."""
-
 MOST_COLUMNS = 24
 """Splines of a discrepancy, at most, where the effect lives in such: a finer function would be another cause."""
 
@@ -121,7 +117,7 @@ class Homes:
         return Home(space.hypothesis, explained, space.rms_mm(half @ along[first : first + basis.shape[1]]))
 
 
-def discrepancy(homes: Sequence[Home]) -> list[tuple[Learned, ...]]:
+def discrepancy(homes: Sequence[Home], criteria: Criteria = DEFAULT) -> list[tuple[Learned, ...]]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
 
     Returns
@@ -134,7 +130,7 @@ def discrepancy(homes: Sequence[Home]) -> list[tuple[Learned, ...]]:
     near = [each for each in ranked if each.variable.columns > 1 and (each.place, each.element) in there]
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
     useful = [each for each in near if each.variable.columns <= MOST_COLUMNS] or near[:1]
-    own = {each.hypothesis for each in homes if each.explained >= OWN}
+    own = {each.hypothesis for each in homes if each.explained >= criteria.form_own}
     return [_by_element(each) if each in own else (each,) for each in useful]
 
 

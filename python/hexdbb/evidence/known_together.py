@@ -15,10 +15,6 @@ from hexdbb.evidence.trial import Member
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
-FAR_BETTER = 0.5
-"""Part of the error on circles left out from which a set predicts far better than one effect: of true pairs and the one
-that stood in for them it was 0.28, of effects of another form and pairs put together about them 0.8 and more."""
-
 
 def or_known_together(search: Search, best: Node) -> Node:
     """Return the best set of known effects, chosen together, where it is better than what explains most alone.
@@ -56,7 +52,9 @@ def _stands(search: Search, node: Node, best: Node, alone: Sequence[Node]) -> bo
     if not (alone and is_doubtful(search, node)):
         return True
     checked, others = search.checked(node), [search.checked(each) for each in alone]
-    return not checked.excused and all(e.excused and checked.missed < FAR_BETTER * e.missed for e in others)
+    return not checked.excused and all(
+        e.excused and checked.missed < search.criteria.far_better * e.missed for e in others
+    )
 
 
 def _of_all_needed(search: Search, node: Node) -> Node:

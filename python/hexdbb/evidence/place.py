@@ -25,7 +25,7 @@ def homes_of(search: Search, cause: Hypothesis) -> list[Learned]:
     kin = _kin_of(search, cause)
     if isinstance(cause, Learned):
         return kin
-    ports = search.engine.ports(cause.effect)
+    ports = search.engine.absent.ports(cause.effect)
     return [each for each in kin if each.port in ports]
 
 

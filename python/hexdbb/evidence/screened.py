@@ -36,12 +36,12 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
     """
     engine, criteria = search.engine, search.criteria
     present = {each.hypothesis for each in base.members}
-    signatures, whose = engine.signatures(base.model, search.known)
+    signatures, whose = engine.absent.signatures(base.model, search.known)
     kinds = {name for name in search.known if search.is_whole(name)}
     scored = screen.known(signatures, whose, kinds)
-    shaped = [name for name in search.known if engine.has_shape(name)]
+    shaped = [name for name in search.known if engine.absent.has_shape(name)]
     for shape in filter(None, criteria.shape_starts if shaped else ()):
-        scored = better_shaped(scored, screen.known(*engine.signatures(base.model, shaped, shape), kinds))
+        scored = better_shaped(scored, screen.known(*engine.absent.signatures(base.model, shaped, shape), kinds))
     known = [each for each in scored if each.hypothesis not in present]
     if not search.learns:
         return known, []
@@ -66,7 +66,7 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     every = [each for each in search.learnable.further.values() if each not in present]
     # Those products that lend no functions to a known effect's form may still say the same as one.
     others = [each for each in every if each.variable.times and each not in search.learnable.products]
-    _add_kin(search, screen.sums.linear, others, *search.engine.signatures(base.model, search.known))
+    _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
     return screen.learned(every)
 
 
@@ -94,9 +94,9 @@ def in_other_words(search: Search, known: list[Scored], learned: list[Scored], c
 def known_sets(search: Search, most: int) -> list[Together]:
     """Return the sets of two to so many known effects that are worth a full fit, small ones first."""
     model, engine, criteria = search.root.trial.model, search.engine, search.criteria
-    tables = [engine.signatures(model, search.known)]
-    if shaped := [name for name in search.known if engine.has_shape(name)]:
-        tables += [engine.signatures(model, shaped, each) for each in filter(None, criteria.shape_starts)]
+    tables = [engine.absent.signatures(model, search.known)]
+    if shaped := [name for name in search.known if engine.absent.has_shape(name)]:
+        tables += [engine.absent.signatures(model, shaped, each) for each in filter(None, criteria.shape_starts)]
     sums = Sums(search.trials.linear(search.root.trial), engine.readings, ())
     screen = Screen(sums, criteria, search.thinned)
     kinds = {name for name in search.known if search.is_whole(name)}
@@ -107,7 +107,7 @@ def known_sets(search: Search, most: int) -> list[Together]:
 def add_kin(search: Search, learned: Sequence[Learned]) -> None:
     """Count learned functions among the kin of the known effects whose form they contain, about the model as it is."""
     root = search.root.trial
-    _add_kin(search, search.trials.linear(root), learned, *search.engine.signatures(root.model, search.known))
+    _add_kin(search, search.trials.linear(root), learned, *search.engine.absent.signatures(root.model, search.known))
 
 
 def _add_kin(

@@ -76,7 +76,7 @@ class Search:
     @cached_property
     def kin(self) -> dict[str, set[str]]:
         """Names of the learned hypotheses that are an effect's element in other words, by the element's name."""
-        signatures, whose = self.engine.signatures(self.engine.start, self.known)
+        signatures, whose = self.engine.absent.signatures(self.engine.start, self.known)
         found: dict[str, set[str]] = {}
         for (effect, element, _, _), homes in zip(whose, self.homes.of_each(signatures), strict=True):
             name = Known(effect, (element,), self.is_whole(effect)).name

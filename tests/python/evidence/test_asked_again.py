@@ -28,14 +28,14 @@ def engine(samples: Samples) -> Engine:
 
 
 def test_signatures_about_one_model_are_made_once(engine: Engine) -> None:
-    table, whose = engine.signatures(engine.start, EFFECTS)
-    assert engine.signatures(engine.start, EFFECTS)[0] is table
+    table, whose = engine.absent.signatures(engine.start, EFFECTS)
+    assert engine.absent.signatures(engine.start, EFFECTS)[0] is table
     assert {each[0] for each in whose} == set(EFFECTS)
     moved = engine.start.with_values(engine.start.values + 0.5 * engine.start.prior_sigma * engine.start.free)
-    assert not np.array_equal(engine.signatures(moved, EFFECTS)[0], table)
-    assert engine.signatures(engine.start, EFFECTS, 1.0)[0] is not table
+    assert not np.array_equal(engine.absent.signatures(moved, EFFECTS)[0], table)
+    assert engine.absent.signatures(engine.start, EFFECTS, 1.0)[0] is not table
     for effect in ("gravity_sag", "joint_offset", "sample_delay", "lead_error"):
-        engine.signatures(engine.start, (effect,))
-    again, _ = engine.signatures(engine.start, EFFECTS)
+        engine.absent.signatures(engine.start, (effect,))
+    again, _ = engine.absent.signatures(engine.start, EFFECTS)
     assert again is not table
     assert np.array_equal(again, table)

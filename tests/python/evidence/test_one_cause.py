@@ -38,7 +38,7 @@ def search_of(left: dict[tuple[str, ...], float], refuted: tuple[str, ...] = ())
         criteria=DEFAULT,
         kin={PLAY.name: {BEND.name}},
         learnable=SimpleNamespace(by_name={BEND.name: BEND}),
-        engine=SimpleNamespace(ports=lambda effect: frozenset({BEND.port})),
+        engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({BEND.port}))),
         trials=SimpleNamespace(of=lambda members: by_names[frozenset(each.hypothesis.name for each in members)]),
         checked=lambda each: SimpleNamespace(reasons=each.trial.names if each.trial.names[-1] in refuted else ()),
     )

@@ -42,7 +42,7 @@ def rivals(chosen: Checked, other: Checked, rival: Any) -> tuple[str, ...]:
         kin={CAUSE.name: {HOME.name}},
         learnable=SimpleNamespace(by_name={HOME.name: HOME}),
         trials=SimpleNamespace(linear=lambda trial: noise),
-        engine=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
+        engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"}))),
     )
     return rivals_of(search, node, CAUSE).others
 

@@ -67,14 +67,14 @@ def test_once_it_is_added_its_form_counts_as_what_it_explains(
 
 def test_signatures_about_the_start_have_the_shape_of_another_model(search: Search) -> None:
     engine = search.engine
-    table, whose = engine.signatures(engine.start, ("reversal_spike",))
+    table, whose = engine.absent.signatures(engine.start, ("reversal_spike",))
     alike = engine.with_effect(engine.start, "reversal_spike", [whose[0][1]])
-    same, of = engine.signatures_about_start("reversal_spike", alike)
+    same, of = engine.absent.signatures_about_start("reversal_spike", alike)
     assert of == whose
     np.testing.assert_allclose(same, table, rtol=1e-9, atol=1e-9 * np.abs(table).max())
     shapes = np.array([each.effect == "reversal_spike" and each.is_shape for each in alike.parameters()])
     slower = alike.with_values(np.where(shapes, alike.prior_sigma, alike.values))
-    other, _ = engine.signatures_about_start("reversal_spike", slower)
-    wanted, _ = engine.signatures(engine.start, ("reversal_spike",), 1.0)
+    other, _ = engine.absent.signatures_about_start("reversal_spike", slower)
+    wanted, _ = engine.absent.signatures(engine.start, ("reversal_spike",), 1.0)
     np.testing.assert_allclose(other, wanted, rtol=1e-9, atol=1e-9 * np.abs(table).max())
     assert np.abs(other - table).max() > 0.01 * np.abs(table).max()
