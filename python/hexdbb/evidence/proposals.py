@@ -197,7 +197,10 @@ class _Scan:
 
 
 def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
-    """Yield the strongest period of each slider, each guideway, the reading and the cup (a ball moves alike)."""
+    """Yield the strongest periods: of the places of sliders and guideways, and in time of what shifts.
+
+    The cup stands for the ball too, which moves alike.
+    """
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [("slider", each) for each in range(1, 7)]
     places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
@@ -210,9 +213,10 @@ def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[
     gaps = np.diff(np.unique(time_s))
     if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))
-        for place in ("reading", "cup"):
-            weighted = linear.residual[:, None] * _answers(readings, place, ALL)
-            yield from _period(place, ALL, "time", weighted, time_s, highest)
+        for place, element in _shifting():
+            if place != "ball":
+                weighted = linear.residual[:, None] * _answers(readings, place, element)
+                yield from _period(place, element, "time", weighted, time_s, highest)
 
 
 def _period(

@@ -64,8 +64,15 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
 def _without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[Node, float]]:
     """Yield the sets without a cause, the best first, and how far the chosen one leads."""
     for other in sorted(search.nodes, key=lambda each: -each.score):
-        if not other.trial.refused and not any(search.same_kind(each, cause) for each in other.hypotheses):
+        if not other.trial.refused and not _has_kind(search, other, cause):
             yield other, (node.score - other.score) / max(node.trial.left, 1.0)
+
+
+def _has_kind(search: Search, other: Node, cause: Hypothesis) -> bool:
+    """Check for a cause in a set, in the words of two sliders together and one of them alone too."""
+    learned = [each for each in other.hypotheses if isinstance(each, Learned)]
+    both = (pair.other_of_pair(one) for pair in learned for one in learned)
+    return any(search.same_kind(each, cause) for each in (*other.hypotheses, *filter(None, both)))
 
 
 def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
@@ -101,7 +108,7 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
     return [
         " + ".join(other.trial.names)
         for other in search.nodes
-        if not any(search.same_kind(each, cause) for each in other.hypotheses)
+        if not _has_kind(search, other, cause)
         and other.trial.left - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
     ]

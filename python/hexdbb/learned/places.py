@@ -143,6 +143,13 @@ class Learned:
         """Check whether it acts at an element of a part of the machine, as far as that reaches: a pair has two."""
         return part_of(self) == place and (element == ALL or {*_members(self.element)} <= {*_members(element)})
 
+    def other_of_pair(self, one: Learned) -> Learned | None:
+        """Return what a function that two share, and one of the first of them alone, say of the second; else None."""
+        left = {*_members(self.element)} - {one.element}
+        if (self.place, self.variable) != (one.place, one.variable) or len(left) != 1 or left == {self.element}:
+            return None
+        return replace(self, element=left.pop())
+
     def finer(self, times: int) -> Learned:
         """Return the same hypothesis, name and all, with so many times as many splines."""
         return replace(self, variable=replace(self.variable, count=self.variable.count * times))

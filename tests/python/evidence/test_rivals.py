@@ -17,6 +17,7 @@ from hexdbb.learned import Learned
 
 CAUSE = Known("ball_eccentricity", ("2",))
 TILT = Learned.parse("learned:ball:pitch")
+SCREW = Learned.parse("learned:slider:6:screw_phase")
 HOME, TURN = Learned.parse("learned:ball:time"), Learned.parse("learned:ball:yaw")
 DRIFT, GAIN = Known("bar_drift", ("bar",), is_whole=True), Known("bar_gain", ("bar",), is_whole=True)
 CIRCLES, FEED = "does not predict other circles", "does not predict the other feed"
@@ -28,9 +29,9 @@ def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> An
     return SimpleNamespace(trial=trial, score=score, hypotheses=hypotheses, members=hypotheses)
 
 
-def rivals(chosen: Checked, other: Checked, rival: Any) -> tuple[str, ...]:
-    """Return the names of those that rival CAUSE, which has a score of 0."""
-    node, root = node_of(0.0, CAUSE), node_of(-1000.0, left=11.0)
+def rivals(chosen: Checked, other: Checked, rival: Any, cause: Known = CAUSE, home: Learned = HOME) -> tuple[str, ...]:
+    """Return the names of those that rival a cause, which has a score of 0 and lives in a learned function."""
+    node, root = node_of(0.0, cause), node_of(-1000.0, left=11.0)
     noise = Linear(residual=np.ones(4), own=np.zeros((4, 0)), standing=np.zeros(0))
     checks = {id(node): chosen, id(rival): other}
     search: Any = SimpleNamespace(
@@ -38,13 +39,13 @@ def rivals(chosen: Checked, other: Checked, rival: Any) -> tuple[str, ...]:
         root=root,
         criteria=DEFAULT,
         checked=lambda each: checks[id(each)],
-        same_kind=lambda one, two: one.name == two.name,
-        kin={CAUSE.name: {HOME.name}},
-        learnable=SimpleNamespace(by_name={HOME.name: HOME}),
+        same_kind=lambda one, two: one.name in (two.name, home.name),
+        kin={cause.name: {home.name}},
+        learnable=SimpleNamespace(by_name={home.name: home}),
         trials=SimpleNamespace(linear=lambda trial: noise),
         engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"}))),
     )
-    return rivals_of(search, node, CAUSE).others
+    return rivals_of(search, node, cause).others
 
 
 @pytest.mark.parametrize(
@@ -79,3 +80,12 @@ def test_more_causes_that_explain_as_much_are_a_rival_where_they_predict(
 
 def test_several_functions_at_the_place_of_a_cause_describe_its_form() -> None:
     assert rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, TILT, TURN)) == ()
+
+
+@pytest.mark.parametrize(("variable", "is_rival"), [("screw_phase", False), ("position", True)])
+def test_two_sliders_together_and_one_alone_are_the_other_in_other_words(variable: str, is_rival: bool) -> None:
+    """What a pitch error of slider 6 does, a function of sliders 5 and 6 and one of slider 5 do between them."""
+    both, one = (Learned.parse(f"learned:slider:{element}:{variable}") for element in ("5-6", "5"))
+    cause = Known("pitch_cyclic", ("6",))
+    found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, both, one), cause, SCREW)
+    assert bool(found) is is_rival
