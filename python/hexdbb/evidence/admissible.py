@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.heldout import HeldOut, heldout
+from hexdbb.evidence.heldout import HeldOut, heldout, is_of_time
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.trial import Trial, Trials
-from hexdbb.learned import Learned
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
 
@@ -52,7 +51,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons: list[str] = []
     excused: list[str] = []
-    if all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members):
+    if is_of_time(trial):
         return Checked(predicted, share, _not_between(predicted, share, criteria), claimed=(ARC,))
     for grouping, held in predicted.items():
         if grouping == ARC:

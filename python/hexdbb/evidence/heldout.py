@@ -31,14 +31,25 @@ class HeldOut:
     expected: float
 
 
-def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
+def first_error(trial: Trial, base: Trial, trials: Trials) -> float:
+    """Return the error of the first grouping that a set claims to predict, as `heldout` has it; nan where of none."""
+    between_alone = is_of_time(trial)
+    for grouping in _groupings(trial):
+        if between_alone and grouping != ARC:
+            continue
+        if found := heldout(trial, base, trials, (grouping,)):
+            return found[grouping].after
+    return float("nan")
+
+
+def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...] | None = None) -> dict[str, HeldOut]:
     """Predict every group from all others, to first order about the fits; by grouping that has two groups or more.
 
     A free function of time claims what lies between readings: arcs of every circle are left out besides. A group in
     whose range of a learned function's variable hardly any other reading lies is not predicted, nor claimed to be.
     """
     readings = trials.engine.readings
-    groupings = (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
+    groupings = groupings or _groupings(trial)
     before, after = trials.sums(base, groupings), trials.sums(trial, groupings)
     found = {}
     for grouping in groupings:
@@ -60,6 +71,15 @@ def heldout(trial: Trial, base: Trial, trials: Trials) -> dict[str, HeldOut]:
             float(np.sqrt(without / rows)), float(np.sqrt(error / rows)), share, float(np.sqrt(expected / rows))
         )
     return found
+
+
+def _groupings(trial: Trial) -> tuple[str, ...]:
+    return (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
+
+
+def is_of_time(trial: Trial) -> bool:
+    """Check for free functions of time alone: they claim nothing but what lies between."""
+    return all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members)
 
 
 def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group]) -> list[Group]:

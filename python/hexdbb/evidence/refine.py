@@ -65,8 +65,7 @@ def _is_fine(search: Search, node: Node) -> bool:
 
 def _error(search: Search, node: Node) -> float:
     """Return the error of the first grouping that the functions claim to predict; nan where they claim none."""
-    checked = search.checked(node)
-    return next((held.after for name, held in checked.heldout.items() if name in checked.claimed), float("nan"))
+    return search.first_error(node.trial)
 
 
 def _retuned(search: Search, node: Node) -> Node:

@@ -18,6 +18,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
 from hexdbb.evidence.learnable import Learnable
@@ -72,6 +73,7 @@ class Search:
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
+        self._first_errors: dict[int, float] = {}
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
@@ -158,6 +160,12 @@ class Search:
         if id(trial) not in self._checked:
             self._checked[id(trial)] = check(trial, self.root.trial, self.trials, self.criteria)
         return self._checked[id(trial)]
+
+    def first_error(self, trial: Trial) -> float:
+        """Return how a trial predicts the first grouping that it claims; of many tried, few are checked further."""
+        if id(trial) not in self._first_errors:
+            self._first_errors[id(trial)] = first_error(trial, self.root.trial, self.trials)
+        return self._first_errors[id(trial)]
 
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Check whether two hypotheses are one cause in different words."""

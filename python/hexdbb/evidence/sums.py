@@ -55,10 +55,10 @@ class Sums:
         self.linear, self.readings, self.groupings = linear, readings, groupings
         self._cells = readings.cells(groupings)
         self.keys = self._cells.keys
-        own, residual = self._of_cells(linear.own), self._of_cells(linear.residual[:, None])
-        self._own, self._residual = own, residual
+        self._table = self._of_cells(np.column_stack([linear.own, linear.residual]))
+        """[J y] by cell."""
         whole = len(self.keys) == 1
-        self.base: Floats = linear.normal[None] if whole else _joined(own, own, residual, _of(residual, residual))
+        self.base: Floats = linear.normal[None] if whole else _of(self._table, self._table)
         """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
         self.rows = self._cells.counts.astype(np.float64)
         self._without: dict[bytes, Training] = {}
@@ -66,11 +66,11 @@ class Sums:
     def block(self, signature: Floats) -> Block:
         """Return the sums of a signature, shape (n, k)."""
         columns = self._of_cells(signature)
-        return Block(_of(columns, columns), _joined(columns, self._own, self._residual))
+        return Block(_of(columns, columns), _of(columns, self._table))
 
     def cross(self, signature: Floats) -> Floats:
         """Return W'[J y] of a signature, shape (n, k), by cell: (cells, k, p + 1)."""
-        return _joined(self._of_cells(signature), self._own, self._residual)
+        return _of(self._of_cells(signature), self._table)
 
     def joined(self, blocks: list[Floats]) -> Block:
         """Return the sums of several signatures side by side."""
@@ -80,6 +80,17 @@ class Sums:
         """Return the cells of every group of a grouping."""
         numbers = self.keys[:, 1 + self.groupings.index(grouping)]
         return [np.flatnonzero(numbers == each) for each in np.unique(numbers)]
+
+    def base_of(self, cells: Ints) -> Floats:
+        """Return [J y]'[J y] of some cells together, shape (p + 1, p + 1)."""
+        if 2 * len(cells) <= len(self.keys):
+            return np.asarray(self.base[cells].sum(axis=0))
+        # The few that are left out are sooner taken from what all are together.
+        return np.asarray(self._total - self.base[np.setdiff1d(np.arange(len(self.keys)), cells)].sum(axis=0))
+
+    @cached_property
+    def _total(self) -> Floats:
+        return np.asarray(self.base.sum(axis=0))
 
     @cached_property
     def whole(self) -> Training:
@@ -106,18 +117,12 @@ class Sums:
 def _of(one: ByCell, other: ByCell) -> Floats:
     """Return the products of two tables by cell, shape (cells, k, m)."""
     if isinstance(one, np.ndarray):
-        found: Floats = np.matmul(one.transpose(0, 2, 1), other)
-        return found
-    return np.stack([first.T @ second for first, second in zip(one, other, strict=True)])
-
-
-def _joined(columns: ByCell, own: ByCell, residual: ByCell, below: Floats | None = None) -> Floats:
-    """Return W'[J y] by cell; with y'[J y] below it where y'y is given."""
-    cross = np.concatenate([_of(columns, own), _of(columns, residual)], axis=2)
-    if below is None:
-        return cross
-    last = np.concatenate([cross[:, :, -1:].transpose(0, 2, 1), below], axis=2)
-    return np.concatenate([cross, last], axis=1)
+        padded: Floats = np.matmul(one.transpose(0, 2, 1), other)
+        return padded
+    found = np.empty((len(one), one[0].shape[1], other[0].shape[1]))
+    for first, second, product in zip(one, other, found, strict=True):
+        np.matmul(first.T, second, out=product)
+    return found
 
 
 class Training:
@@ -131,7 +136,7 @@ class Training:
 
     def __init__(self, sums: Sums, cells: Ints) -> None:
         self.cells = cells
-        total = sums.base[cells].sum(axis=0)
+        total = sums.base_of(cells)
         self.squared = float(total[-1, -1])
         self.rows = float(sums.rows[cells].sum())
         factor = np.linalg.cholesky(total[:-1, :-1] + np.eye(len(total) - 1))
@@ -160,7 +165,7 @@ class Training:
 
     def own_values_without(self, sums: Sums, columns: Ints) -> Floats:
         """Return the change of the model's own values, fitted anew where those of some columns are zero."""
-        total = sums.base[self.cells].sum(axis=0)
+        total = sums.base_of(self.cells)
         found: Floats = -sums.linear.standing
         others = np.setdiff1d(np.arange(len(found)), columns)
         square = total[np.ix_(others, others)] + np.eye(len(others))
@@ -170,7 +175,7 @@ class Training:
 
     def expected_error(self, sums: Sums, cells: Ints) -> float:
         """Return the sum of squared errors that the fit to this set expects of itself on other cells."""
-        base = sums.base[cells].sum(axis=0)[:-1, :-1]
+        base = sums.base_of(cells)[:-1, :-1]
         return float(sums.rows[cells].sum() + np.sum(self._inverse * self._half(base)))
 
     def _half(self, columns: Floats) -> Floats:
@@ -180,7 +185,7 @@ class Training:
 
 def squared_error(sums: Sums, cells: Ints, own: Floats, block: Block | None, coefficients: Floats | None) -> float:
     """Return the sum of squared prediction errors over cells, in noise variances."""
-    base = sums.base[cells].sum(axis=0)
+    base = sums.base_of(cells)
     error = float(base[-1, -1] - 2.0 * own @ base[:-1, -1] + own @ base[:-1, :-1] @ own)
     if block is None or coefficients is None:
         return error
