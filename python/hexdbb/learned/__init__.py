@@ -4,8 +4,10 @@ Everything here is data and arithmetic on it: a hypothesis is chosen by name fro
 its function is a penalised spline (`splines`), and `words` puts the fitted function into words.
 """
 
+from hexdbb.learned.hypothesis import FINER, Directed, Learned, part_of
+from hexdbb.learned.listed import further_hypotheses, hypotheses, products
 from hexdbb.learned.numbered import has_chosen_number, number_of, periodic, step
-from hexdbb.learned.places import ALL, FINER, Directed, Learned, further_hypotheses, hypotheses, part_of, products
+from hexdbb.learned.places import ALL
 from hexdbb.learned.space import Columns, Curve, Space, Table
 from hexdbb.learned.variable import Variable
 from hexdbb.learned.words import Form, describe

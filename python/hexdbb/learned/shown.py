@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.learned.places import ALL, PAIRS, Learned, part_of
+from hexdbb.learned.hypothesis import Learned, part_of
+from hexdbb.learned.places import ALL, PAIRS
 from hexdbb.learned.space import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
+from hexdbb.learned.hypothesis import Directed, Learned, Push
 from hexdbb.learned.numbered import INSTANT_S
-from hexdbb.learned.places import Directed, Learned, Push
 from hexdbb.learned.variable import ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable
 
 Floats = NDArray[np.float64]

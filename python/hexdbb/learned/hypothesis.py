@@ -1,0 +1,206 @@
+"""A hypothesis about a learned function: a place, an element, a variable; its name is `learned:leg:5:turning_rate`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from hexdbb import _core
+from hexdbb.errors import InputError
+from hexdbb.learned.numbered import numbered, with_number
+from hexdbb.learned.places import (
+    ALL,
+    AXES,
+    COMPONENTS,
+    KINDS,
+    PORTS,
+    PREFIX,
+    SHARED,
+    VARIABLES,
+    elements_by_name,
+    members,
+    variables_of,
+)
+from hexdbb.learned.variable import Variable
+
+FINER = (2, 4)
+"""Multiples of a variable's splines that readings may ask for: four times twelve knots follow what is a fiftieth of the
+range wide, as far as a reading every millimetre or two determines it."""
+
+
+class _Base(Protocol):
+    @property
+    def guideway_angles_rad(self) -> Sequence[float]: ...
+
+
+class _Platform(Protocol):
+    @property
+    def joint_angles_rad(self) -> Sequence[float]: ...
+
+
+class Directed(Protocol):
+    """A machine, of which this package knows the directions alone (`hexdbb.machine.MachineFile`)."""
+
+    @property
+    def base(self) -> _Base:
+        """Has the directions of the guideways about z, rad."""
+        ...
+
+    @property
+    def platform(self) -> _Platform:
+        """Has the directions of its joints about its own z, rad."""
+        ...
+
+
+Push = tuple[int, tuple[tuple[int, float], ...]]
+"""Element of the variable, from 0, and the engine's port columns that are pushed, each with its weight."""
+
+
+@dataclass(frozen=True)
+class Learned:
+    """A place, its element and a variable."""
+
+    place: str
+    element: int
+    variable: Variable
+
+    @classmethod
+    def parse(cls, name: str) -> Learned:
+        """Find a hypothesis by name.
+
+        Raises
+        ------
+        InputError
+            Naming the part of the name that is not known and what was expected.
+        """
+        prefix, *parts = name.split(":")
+        place = parts[0] if parts else ""
+        if prefix != PREFIX or place not in VARIABLES:
+            raise InputError(f"{name}: place {place!r} (expected {PREFIX}:PLACE, one of {', '.join(VARIABLES)})")
+        elements = elements_by_name(place)
+        given = parts[1] if elements and len(parts) > 1 else ""
+        if elements and given not in elements:
+            raise InputError(f"{name}: element {given!r} (expected one of {', '.join(elements)})")
+        element = elements.get(given, ALL)
+        rest = ":".join(parts[2:] if elements else parts[1:])
+        every = variables_of(place, element)
+        known = {each.name: each for each in reversed(every)}
+        variable = known.get(rest) or numbered(rest, every)
+        if variable is None:
+            raise InputError(f"{name}: variable {rest!r} (expected one of {', '.join(each.name for each in every)})")
+        return cls(place, element, variable)
+
+    @property
+    def name(self) -> str:
+        """Name, as `hexdbb add` takes it."""
+        return ":".join(filter(None, (PREFIX, self.place, self.element_name, self.variable.name)))
+
+    @property
+    def element_name(self) -> str:
+        """Name of the element: `4`, `1-2`, `all`; empty where the place has one only."""
+        return next((name for name, each in elements_by_name(self.place).items() if each == self.element), "")
+
+    def with_number(self, number: float) -> Learned:
+        """Return the same with another period or time constant in the variable's name."""
+        variables = variables_of(self.place, self.element)
+        return replace(self, variable=with_number(self.variable, number, variables))
+
+    def is_within(self, place: str, element: int) -> bool:
+        """Check whether it acts at an element of a part of the machine, as far as that reaches: a pair has two."""
+        return part_of(self) == place and (element == ALL or {*members(self.element)} <= {*members(element)})
+
+    def other_of_pair(self, one: Learned) -> Learned | None:
+        """Return what a function that two share, and one of the first of them alone, say of the second; else None."""
+        left = {*members(self.element)} - {one.element}
+        if (self.place, self.variable) != (one.place, one.variable) or len(left) != 1 or left == {self.element}:
+            return None
+        return replace(self, element=left.pop())
+
+    def finer(self, times: int) -> Learned:
+        """Return the same hypothesis, name and all, with so many times as many splines."""
+        return replace(self, variable=replace(self.variable, count=self.variable.count * times))
+
+    def variants(self) -> Iterator[Learned]:
+        """Yield the same hypothesis, name and all, with every set of splines that its function may have."""
+        plain = Learned.parse(self.name)
+        if plain.variable.is_smooth:
+            yield from (plain, *(plain.finer(times) for times in FINER))
+            if plain.variable.signed:
+                yield replace(plain, variable=replace(plain.variable, is_even=True))
+
+    @property
+    def is_of_time(self) -> bool:
+        """Whether it is a free function of time, which says nothing of a time that was left out."""
+        return self.variable.column == "time_s"
+
+    @property
+    def port(self) -> str:
+        """Port of the engine that is pushed."""
+        return PORTS.get(self.place, self.place)
+
+    @property
+    def kind(self) -> str:
+        """What an element is: `slider`, `leg`, `guideway`, `machine`."""
+        return KINDS.get(self.place, "machine")
+
+    @property
+    def components(self) -> int:
+        """Number of functions: one for each axis where the direction is not known."""
+        return COMPONENTS.get(self.place, 1)
+
+    def axis_name(self, component: int) -> str:
+        """Name of the axis along which one of its functions pushes; empty where it has one function only."""
+        return AXES.get(self.place, "xyz")[component] if self.components > 1 else ""
+
+    @property
+    def elements(self) -> tuple[int, ...]:
+        """Elements, from 0, by whose variable the functions go."""
+        return tuple(self._by(each) for each in self._pushed)
+
+    @property
+    def _pushed(self) -> tuple[int, ...]:
+        """Elements, from 0, that are pushed."""
+        if self.place == "platform" or (self.place in (*SHARED, *AXES) and self.element == ALL):
+            return tuple(range(6))
+        if self.place in AXES:
+            return (2 * self.element - 2, 2 * self.element - 1)
+        return tuple(max(each - 1, 0) for each in members(self.element))
+
+    def _by(self, pushed: int) -> int:
+        """Return the element by whose variable another is pushed: two sliders share a guideway, 0 and 1 to 4 and 5."""
+        return pushed ^ 1 if self.variable.of_neighbour else pushed
+
+    def pushes(self, component: int, machine: Directed) -> tuple[Push, ...]:
+        """Return by which element's variable one function goes, and what it pushes.
+
+        Parameters
+        ----------
+        component : int
+            Of the functions, from 0.
+        machine : Directed
+        """
+        first = _core.PORTS[self.port][0]
+        if self.place in SHARED:
+            return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
+        pushed = ((each, self._axis(component, each, machine)) for each in self._pushed)
+        return tuple(
+            (each, tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
+            for each, axis in pushed
+        )
+
+    def _axis(self, component: int, pushed: int, machine: Directed) -> tuple[float, float, float]:
+        """Return the direction in which one joint is pushed: in the base's frame, or in the platform's."""
+        if self.place not in (*AXES, "platform"):
+            return (float(component == 0), float(component == 1), float(component == 2))
+        if self.place != "platform" and AXES[self.place][component] == "z":
+            return (0.0, 0.0, 1.0)
+        outward = machine.platform.joint_angles_rad if self.place == "platform" else machine.base.guideway_angles_rad
+        angle = outward[pushed // 2]
+        return (math.cos(angle), math.sin(angle), 0.0)
+
+
+def part_of(learned: Learned) -> str:
+    """Return the part of the machine at which a function acts: a guideway's two directions are one."""
+    return "guideway" if learned.place in AXES else learned.place

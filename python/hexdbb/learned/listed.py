@@ -1,0 +1,43 @@
+"""Every hypothesis about a learned function: a closed list."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hexdbb.learned import further
+from hexdbb.learned import variables as v
+from hexdbb.learned.hypothesis import Learned
+from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, single
+
+
+def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
+    """Yield every simple hypothesis, or all that only describe forms; whether a variable varies, `Space.of` checks."""
+    for place, variables in VARIABLES.items():
+        for element in single(place):
+            for variable in variables:
+                if variable.of_forms == of_forms and not (element == ALL and place in SHARED and variable in v.OF_ONE):
+                    yield Learned(place, element, variable)
+
+
+def products() -> Iterator[Learned]:
+    """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too.
+
+    In them a known effect's form may be wrong. What changes with time or warmth is no form of what does not, and
+    a growth that goes by the place is another cause.
+    """
+    for place, variables in further.FURTHER.items():
+        for element in single(place):
+            every = (Learned(place, element, each) for each in variables if each.times)
+            yield from (each for each in every if not each.is_of_time and each.variable.times not in further.SLOW)
+
+
+def further_hypotheses() -> Iterator[Learned]:
+    """Yield the hypotheses that are looked at where no simple one settles: products, memory, neighbours, pairs."""
+    for place, variables in further.FURTHER.items():
+        for element in single(place):
+            if element != ALL or place not in SHARED:
+                yield from (Learned(place, element, each) for each in variables)
+    for place, variables in further.OF_PAIRS.items():
+        yield from (Learned(place, pair, each) for pair in PAIRS.values() for each in variables)
+    for place, variables in further.OF_WHOLE.items():
+        yield from (Learned(place, ALL, each) for each in variables)
