@@ -8,7 +8,8 @@ from hexdbb.learned.hypothesis import FINER, Directed, Learned, part_of
 from hexdbb.learned.listed import further_hypotheses, hypotheses, products
 from hexdbb.learned.numbered import has_chosen_number, number_of, periodic, step
 from hexdbb.learned.places import ALL
-from hexdbb.learned.space import Columns, Curve, Space, Table
+from hexdbb.learned.space import Columns, Space
+from hexdbb.learned.tables import Curve, Table
 from hexdbb.learned.variable import Variable
 from hexdbb.learned.words import Form, describe
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from hexdbb.learned.hypothesis import Learned, part_of
 from hexdbb.learned.places import ALL, PAIRS
-from hexdbb.learned.space import Curve
+from hexdbb.learned.tables import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
 ROWS = 9

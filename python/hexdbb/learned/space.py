@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
-from hexdbb.learned.hypothesis import Directed, Learned, Push
+from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S
+from hexdbb.learned.tables import Table
 from hexdbb.learned.variable import ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable
 
 Floats = NDArray[np.float64]
@@ -51,66 +52,6 @@ class Columns(Protocol):
         ...
 
     def __len__(self) -> int: ...
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """A function over its variable.
-
-    Attributes
-    ----------
-    variable : str
-        In words.
-    unit : str
-        Of `at`.
-    column : str
-        Empty where the function is one number.
-    times : str
-        Column that multiplies; empty where none does.
-    at, value_mm, sigma_mm : ndarray, shape (m,)
-        Places, the function there, and its standard deviation (nan where it was never fitted).
-    samples : ndarray, shape (m,)
-        Number of samples nearest to each place.
-    """
-
-    variable: str
-    unit: str
-    column: str
-    times: str
-    at: Floats
-    value_mm: Floats
-    sigma_mm: Floats
-    samples: Floats
-
-
-@dataclass(frozen=True)
-class Table:
-    """A function as a compensation needs it: linear between the knots, held beyond them.
-
-    The push at a port column is weight times `times` times the value at the variable of the element.
-
-    Attributes
-    ----------
-    port : str
-    column : str
-        Variable, a column of the samples; empty where the value is one number.
-    times : str
-        Column that multiplies; empty where none does.
-    period : float
-        Of the variable, which is wrapped into 0 to `period`; 0 where it is not periodic.
-    pushes : tuple of Push
-        Elements of the variable, and what each pushes.
-    knots, values_mm : tuple of float
-        Knots rise.
-    """
-
-    port: str
-    column: str
-    times: str
-    period: float
-    pushes: tuple[Push, ...]
-    knots: tuple[float, ...]
-    values_mm: tuple[float, ...]
 
 
 @dataclass(frozen=True)

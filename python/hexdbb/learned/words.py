@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
-from hexdbb.learned.space import Curve
+from hexdbb.learned.tables import Curve
 from hexdbb.learned.variable import ELAPSED
 
 ENOUGH = 0.9
