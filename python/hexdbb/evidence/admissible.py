@@ -72,8 +72,11 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
 
 
 def _missed(held: HeldOut, trial: Trial, base: Trial) -> float:
-    """Return the error of what was left out beyond what is expected, over what is explained where fitted."""
-    beyond = held.after**2 - held.expected**2 * max(trial.left, 1.0)
+    """Return the error of what was left out beyond what is expected, over what is explained where fitted.
+
+    With the functions of forms: an effect whose form leads away is one of which something else may be true.
+    """
+    beyond = held.as_fitted**2 - held.expected**2 * max(trial.left, 1.0)
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 
 

@@ -22,13 +22,15 @@ class HeldOut:
     """Prediction of groups left out, in noise standard deviations.
 
     `before` and `after` are RMS errors without and with the hypotheses, `share` the part explained of what is beyond
-    the noise, `expected` the RMS error that the fit to the other groups expects of itself.
+    the noise, `expected` the RMS error that the fit to the other groups expects of itself. `as_fitted` is `after` where
+    the functions of forms predict what they cover, wherever they lead.
     """
 
     before: float
     after: float
     share: float
     expected: float
+    as_fitted: float
 
 
 def first_error(trial: Trial, base: Trial, trials: Trials) -> float:
@@ -61,14 +63,20 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
         rows = sum(float(before.rows[cells].sum()) for _, cells in groups)
         if not groups:
             continue
-        without = error = expected = 0.0
-        for _, cells in groups:
-            without += _error(before, base, cells)
-            error += _error(after, trial, cells)
+        without = error = as_fitted = expected = 0.0
+        for number, cells in groups:
+            in_group = numbers == number
+            without += _errors(before, base, cells, in_group)[0]
+            least, fitted = _errors(after, trial, cells, in_group)
+            error, as_fitted = error + least, as_fitted + fitted
             expected += after.without(cells).expected_error(after, cells)
         share = (without - error) / max(without - rows, 1e-9)
         found[grouping] = HeldOut(
-            float(np.sqrt(without / rows)), float(np.sqrt(error / rows)), share, float(np.sqrt(expected / rows))
+            before=float(np.sqrt(without / rows)),
+            after=float(np.sqrt(error / rows)),
+            share=share,
+            expected=float(np.sqrt(expected / rows)),
+            as_fitted=float(np.sqrt(as_fitted / rows)),
         )
     return found
 
@@ -99,18 +107,21 @@ def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group
     return covered or claimed
 
 
-def _error(sums: Sums, trial: Trial, cells: NDArray[np.intp]) -> float:
-    """Return the sum of squared errors of a fit to all other cells in the cells of a group.
+def _errors(sums: Sums, trial: Trial, cells: NDArray[np.intp], in_group: NDArray[np.bool_]) -> tuple[float, float]:
+    """Return the sums of squared errors of a fit to all other cells in the cells of a group: the least, and as fitted.
 
-    A known effect claims what its formula predicts, or with the functions of its form: of a joint that moves as it
-    turns, other circles hardly say how it goes on here, and functions that follow them lead away.
+    Of several causes each known effect claims what its formula predicts, or with the functions of its form: other
+    circles hardly say how those of one go on beside the others, and functions that follow them lead away. Alone, and
+    as fitted, they may do so only where hardly any other reading lies in the range of their variable.
     """
     training = sums.without(cells)
-    error = squared_error(sums, cells, training.own_values(), None, None)
+    least = fitted = squared_error(sums, cells, training.own_values(), None, None)
     dropped = np.empty(0, np.intp)
-    for _, columns in trial.columns_of_forms():
+    for form, columns in trial.columns_of_forms():
         fewer = np.concatenate([dropped, np.arange(columns.start, columns.stop)])
         alone = squared_error(sums, cells, training.own_values_without(sums, fewer), None, None)
-        if alone < error:
-            dropped, error = fewer, alone
-    return error
+        if alone < least:
+            dropped, least = fewer, alone
+            functions = (Learned.parse(name) for name in form.functions)
+            fitted = fitted if is_covered(functions, sums.readings, in_group) else min(fitted, alone)
+    return (least if len(trial.members) > 1 else fitted), fitted
