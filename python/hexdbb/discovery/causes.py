@@ -89,6 +89,8 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     learned = with_learned(search.engine.samples, model, names, search.engine.noise)
     told_with = _Models(model, result, None if learned is None else learned[0])
     causes = tuple(_cause(search, judged.node, each, shares[each.hypothesis], told_with) for each in found)
+    if grade == "unknown" != found[0].grade:  # what is not for sure together is no effect for sure alone
+        causes = tuple(replace(each, verdict=grade) for each in causes)
     remaining = None if result is None else judge(model, result.residual_mm)
     return Told(
         verdict=grade,

@@ -29,7 +29,7 @@ PLAY = Cause(
     clause="slider 4 has 15.0 ± 0.1 µm of play between drive and carriage",
 )
 DENT = replace(PLAY, choice="learned:slider:5:position", verdict="unknown", clause="slider 5 along its guideway: a dip")
-UNSEEN = {name: HeldOut(3.0, 0.5, 0.99, 0.5) for name in ("circle", "feed", "direction")}
+UNSEEN = {name: HeldOut(3.0, 0.5, 0.99, 0.5, 0.5) for name in ("circle", "feed", "direction")}
 
 
 def test_a_known_cause() -> None:
