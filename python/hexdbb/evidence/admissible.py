@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.heldout import HeldOut, heldout, is_of_time
+from hexdbb.evidence.heldout import HeldOut, heldout
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.trial import Trial, Trials
 
@@ -51,7 +51,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons: list[str] = []
     excused: list[str] = []
-    if is_of_time(trial):
+    if trial.is_of_time:
         return Checked(predicted, share, _not_between(predicted, share, criteria), claimed=(ARC,))
     for grouping, held in predicted.items():
         if grouping == ARC:

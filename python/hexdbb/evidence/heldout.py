@@ -35,9 +35,8 @@ class HeldOut:
 
 def first_error(trial: Trial, base: Trial, trials: Trials) -> float:
     """Return the error of the first grouping that a set claims to predict, as `heldout` has it; nan where of none."""
-    between_alone = is_of_time(trial)
     for grouping in _groupings(trial):
-        if between_alone and grouping != ARC:
+        if trial.is_of_time and grouping != ARC:
             continue
         if found := heldout(trial, base, trials, (grouping,)):
             return found[grouping].after
@@ -83,11 +82,6 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
 
 def _groupings(trial: Trial) -> tuple[str, ...]:
     return (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
-
-
-def is_of_time(trial: Trial) -> bool:
-    """Check for free functions of time alone: they claim nothing but what lies between."""
-    return all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in trial.members)
 
 
 def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group]) -> list[Group]:

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.trial import Member, Trial
-from hexdbb.learned import Learned
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,4 +33,4 @@ class Node:
     @property
     def is_free_in_time(self) -> bool:
         """Whether all are free functions of time, which explain any drift."""
-        return all(isinstance(each, Learned) and each.is_of_time for each in self.hypotheses)
+        return self.trial.is_of_time

@@ -56,6 +56,8 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     form = node.trial.forms[node.hypotheses.index(cause)]
     if form is not None and form.deviation > search.criteria.form_named:
         others += [name for name in _nearly_as_good(search, node, cause, form) if name not in others]
+    if isinstance(cause, Known) and len(node.members) == 1:
+        others += [name for name in _errs_no_more(search, node, cause) if name not in others]
     if isinstance(cause, Known):
         others += [name for name in rivals_elsewhere(search, node, cause) if name not in others]
     return Rivals(tuple(others), tuple(alike), margin)
@@ -111,6 +113,23 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
         if not _has_kind(search, other, cause)
         and other.trial.left - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
+    ]
+
+
+def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return what explains enough and errs no more where left out than a cause that errs there by more than all.
+
+    Such a cause is a lead, and no better one than these, however well it fits.
+    """
+    missed, excess = search.checked(node).missed, search.root.trial.left - 1.0
+    if missed <= search.criteria.missed_bent:
+        return []
+    return [
+        " + ".join(other.trial.names)
+        for other, _ in _without(search, node, cause)
+        if search.root.trial.left - other.trial.left >= search.criteria.explained_min * excess
+        and not search.checked(other).reasons
+        and search.checked(other).missed <= missed
     ]
 
 

@@ -77,6 +77,11 @@ class Trial:
         """Whether a free function of time is among the members."""
         return any(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in self.members)
 
+    @property
+    def is_of_time(self) -> bool:
+        """Whether all members are free functions of time: they claim nothing but what lies between."""
+        return all(isinstance(each.hypothesis, Learned) and each.hypothesis.is_of_time for each in self.members)
+
     def columns_of_forms(self) -> Iterator[tuple[Form, slice]]:
         """Yield the forms that have functions beside them, with their columns of the linearisation."""
         for form in (*(form for _, form in self.present), *self.forms):

@@ -79,8 +79,12 @@ def test_a_gauge_noisier_than_stated_is_no_fault_of_the_machine() -> None:
     assert discover(Samples.of([record]), found.model).verdict == "none"
 
 
-def test_what_fits_but_does_not_predict_is_not_named(measured: Callable[[str], Record]) -> None:
-    record, truth = measured("loose_cup-x3-s0"), "learned:cup:"
+@pytest.mark.parametrize(
+    ("name", "truth"),
+    [("loose_cup-x3-s0", "learned:cup:"), ("guideway_bend-x3-s2", "learned:vertical:2:time_position")],
+)
+def test_what_fits_but_does_not_predict_is_not_named(measured: Callable[[str], Record], name: str, truth: str) -> None:
+    record = measured(name)
     found = discover(Samples.of([record]), new_model(record.machine))
     named = [each.choice for each in found.causes] + [rival for each in found.causes for rival in each.rivals]
     assert found.verdict in ("unknown", "ambiguous")
