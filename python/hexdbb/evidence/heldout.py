@@ -108,14 +108,16 @@ def _errors(sums: Sums, trial: Trial, cells: NDArray[np.intp], in_group: NDArray
     circles hardly say how those of one go on beside the others, and functions that follow them lead away. Alone, and
     as fitted, they may do so only where hardly any other reading lies in the range of their variable.
     """
-    training = sums.without(cells)
+    training, is_one = sums.without(cells), len(trial.members) <= 1
     least = fitted = squared_error(sums, cells, training.own_values(), None, None)
     dropped = np.empty(0, np.intp)
     for form, columns in trial.columns_of_forms():
+        covers = is_covered((Learned.parse(name) for name in form.functions), sums.readings, in_group)
+        if covers and is_one:
+            continue
         fewer = np.concatenate([dropped, np.arange(columns.start, columns.stop)])
         alone = squared_error(sums, cells, training.own_values_without(sums, fewer), None, None)
         if alone < least:
             dropped, least = fewer, alone
-            functions = (Learned.parse(name) for name in form.functions)
-            fitted = fitted if is_covered(functions, sums.readings, in_group) else min(fitted, alone)
-    return (least if len(trial.members) > 1 else fitted), fitted
+            fitted = fitted if covers else min(fitted, alone)
+    return least, fitted

@@ -29,8 +29,3 @@ class Node:
     def is_known(self) -> bool:
         """Whether all are known effects."""
         return all(isinstance(each, Known) for each in self.hypotheses)
-
-    @property
-    def is_free_in_time(self) -> bool:
-        """Whether all are free functions of time, which explain any drift."""
-        return self.trial.is_of_time

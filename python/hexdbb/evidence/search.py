@@ -127,7 +127,7 @@ class Search:
                 break
             if is_complete(self, best):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
-                beam = [each for each in beam if each.is_known] if best.is_free_in_time else []
+                beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
         return best_of(self, best, [together])
 
     def expand(self, node: Node) -> list[Node]:
