@@ -143,12 +143,12 @@ class Criteria:
         The same above which they are not named for sure: of forty effects up to 20 % off, ten times the noise, all
         whose formula bends had 0.3 and less, drifting legs that stood in for a screw 0.78.
     missed_bent : float
-        The same above which not even one effect is that its form excuses, or whose formula hardly bent leaves only
-        noise: of sixty effects up to 20 % off those that leave only noise had 0.9 and less, what stood in for another
-        cause, or for two, 2.0 to 3.7. In between, where as many of either are expected.
+        The same above which nothing is named for sure, nor one effect that its form excuses, nor one whose formula,
+        hardly bent, leaves only noise. Of sixty effects up to 20 % off, those that left only noise had 0.9 and less;
+        four that stood in for other causes had 2.0 to 3.7. The value is between the two.
     far_better : float
-        Part of the error of one effect that its form excuses with which known effects together predict far better:
-        of a true pair and what stood in for it 0.28, beside it with a wrong element 0.49 and more.
+        Known effects together stand before one that its form excuses where they err by less than this part of its
+        error: a true pair erred by 0.28 of it, the same with a wrong element by 0.49 and more.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float
