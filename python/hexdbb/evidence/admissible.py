@@ -28,6 +28,8 @@ class Checked:
     """Groupings that the hypotheses claim to predict."""
     missed: float = 0.0
     """Error of the grouping predicted worst, beyond what the fit expects of it, over the RMS explained where fitted."""
+    missed_at_least: float = 0.0
+    """The same where of several causes each predicts by its formula, or with its form, whichever errs less."""
 
     @property
     def excused(self) -> bool:
@@ -67,16 +69,14 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
-    missed = max((_missed(held, trial, base) for held in claimed), default=0.0)
-    return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed)
+    missed = max((_missed(held.as_fitted, held, trial, base) for held in claimed), default=0.0)
+    at_least = max((_missed(held.after, held, trial, base) for held in claimed), default=0.0)
+    return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least)
 
 
-def _missed(held: HeldOut, trial: Trial, base: Trial) -> float:
-    """Return the error of what was left out beyond what is expected, over what is explained where fitted.
-
-    With the functions of forms: an effect whose form leads away is one of which something else may be true.
-    """
-    beyond = held.as_fitted**2 - held.expected**2 * max(trial.left, 1.0)
+def _missed(error: float, held: HeldOut, trial: Trial, base: Trial) -> float:
+    """Return the error of what was left out beyond what is expected, over what is explained where fitted."""
+    beyond = error**2 - held.expected**2 * max(trial.left, 1.0)
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 
 

@@ -157,6 +157,7 @@ class Forms:
         model, readings = fitted.model, self.engine.readings
         square = 0.0
         groups: list[tuple[Learned, ...]] = []
+        is_set_up = self.engine.base.info(known.effect).is_set_up
         for place, column in enumerate(fitted.free):
             parameter = model.parameters()[column]
             if parameter.effect != known.effect or parameter.element not in known.elements or parameter.is_shape:
@@ -171,7 +172,8 @@ class Forms:
                 same = [each for each in homes if each.explained >= self.criteria.same_form]
                 rms_mm = max(nearest.rms_mm, same[0].rms_mm if same else 0.0)
                 square += (rms_mm * float(model.values[column]) / sigma) ** 2
-                groups += [group for place in places for group in discrepancy(place, self.criteria)]
+                for each in places:
+                    groups += discrepancy(each, self.criteria, is_set_up=is_set_up)
         assert len(readings) > 0
         return float(np.sqrt(square)), list(dict.fromkeys(groups))
 

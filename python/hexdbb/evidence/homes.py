@@ -117,8 +117,12 @@ class Homes:
         return Home(space.hypothesis, explained, space.rms_mm(half @ along[first : first + basis.shape[1]]))
 
 
-def discrepancy(homes: Sequence[Home], criteria: Criteria = DEFAULT) -> list[tuple[Learned, ...]]:
+def discrepancy(
+    homes: Sequence[Home], criteria: Criteria = DEFAULT, *, is_set_up: bool = False
+) -> list[tuple[Learned, ...]]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
+
+    What belongs to the set-up, as a gauge that is read late, is one thing that the elements share, form and all.
 
     Returns
     -------
@@ -131,7 +135,7 @@ def discrepancy(homes: Sequence[Home], criteria: Criteria = DEFAULT) -> list[tup
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
     useful = [each for each in near if each.variable.columns <= MOST_COLUMNS] or near[:1]
     own = {each.hypothesis for each in homes if each.explained >= criteria.form_own}
-    return [_by_element(each) if each in own else (each,) for each in useful]
+    return [_by_element(each) if each in own and not is_set_up else (each,) for each in useful]
 
 
 def _by_element(each: Learned) -> tuple[Learned, ...]:

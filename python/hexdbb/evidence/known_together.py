@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.needed import best_of, needs, needs_all
+from hexdbb.evidence.needed import best_of, by_formulas_instead, needs, needs_all, rests_on_form
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screened import known_sets
-from hexdbb.evidence.settling import explains_all_alone, is_doubtful, leaves_nothing, leaves_room, predicts
+from hexdbb.evidence.settling import explains_all_alone, is_doubtful, leaves_nothing, leaves_room, missed, predicts
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def or_known_together(search: Search, best: Node) -> Node:
             break
         # What explains all alone may be of an odd form because of another: only where the two predict.
         in_form = [alone[each] for each in together.effects if each in alone]
-        if not all(leaves_room(search, each) or search.checked(each).excused for each in in_form):
+        if not all(_may_be_another(search, each) for each in in_form):
             continue
         node = _fitted(search, tuple(Member(each.known) for each in together.members))
         # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
@@ -42,18 +42,26 @@ def or_known_together(search: Search, best: Node) -> Node:
     return best_of(search, best, found[1:])
 
 
+def _may_be_another(search: Search, alone: Node) -> bool:
+    """Check that an effect which explains all alone leaves room for another, or explains much by its form."""
+    return leaves_room(search, alone) or search.checked(alone).excused or rests_on_form(search, alone.trial)
+
+
 def _stands(search: Search, node: Node, best: Node, alone: Sequence[Node]) -> bool:
     """Check that a set has more evidence than the best, and predicts; all of it where one explains all in its form.
 
-    Or far better than each that only its form excuses: those who do not know which it is are told of both.
+    Or far better than each that only its form excuses, or by formula where each is by its form: those who do not know
+    which it is are told of both.
     """
     if node.score <= best.score or node.trial.refused or not predicts(search, node):
         return False
     if not (alone and is_doubtful(search, node)):
         return True
-    checked, others = search.checked(node), [search.checked(each) for each in alone]
-    return not checked.excused and all(
-        e.excused and checked.missed < search.criteria.far_better * e.missed for e in others
+    if all(by_formulas_instead(search, node, each.trial) for each in alone):
+        return True
+    error, far_better = missed(search, node), search.criteria.far_better
+    return not search.checked(node).excused and all(
+        search.checked(each).excused and error < far_better * missed(search, each) for each in alone
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import explained, is_doubtful, must_explain
+from hexdbb.evidence.settling import explained, is_complete, is_doubtful, must_explain
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -34,13 +34,45 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
     """Check that a set has more evidence than another, and explains more where it has more hypotheses.
 
     What many explain no better than few is no other explanation, whatever their priors make of it; unless the few are
-    excused by their forms where the many predict: functions free enough stand in for what is missing.
+    excused by their forms where the many predict, or explain by their forms what the many do by their formulas:
+    functions free enough stand in for what is missing.
     """
+    if len(node.members) == len(than.members) and is_complete(search, node) and is_complete(search, than):
+        if by_formulas_instead(search, node, than.trial):
+            return True
+        if by_formulas_instead(search, than, node.trial):
+            return False
     if node.score <= than.score:
         return False
     if len(node.members) <= len(than.members) or than.trial.left - node.trial.left > must_explain(search, than):
         return True
-    return _predict_instead(search, node, than.trial)
+    return _instead(search, node, than.trial)
+
+
+def rests_on_form(search: Search, trial: Trial) -> bool:
+    """Check for known effects whose forms explain more than forms may be off.
+
+    Where geometry takes most of an effect its own form may, and so may another effect.
+    """
+    return search.left_by_formulas(trial) - trial.left >= _of_forms(search, trial)
+
+
+def by_formulas_instead(search: Search, node: Node, fewer: Trial) -> bool:
+    """Check that known effects explain by their formulas, all but what forms may, what others do by their forms."""
+    if not (node.is_known and fewer.members and rests_on_form(search, fewer)):
+        return False
+    least, left = _of_forms(search, fewer), search.left_by_formulas(node.trial)
+    return left - 1.0 < least <= search.left_by_formulas(fewer) - left
+
+
+def _of_forms(search: Search, trial: Trial) -> float:
+    """Return what the forms of a set, and of the effects in the model, may explain, in noise variances."""
+    before = search.root.trial.left - trial.left + search.trials.explained_before
+    return search.criteria.secondary * search.criteria.form_sigma**2 * before
+
+
+def _instead(search: Search, node: Node, fewer: Trial) -> bool:
+    return _predict_instead(search, node, fewer) or by_formulas_instead(search, node, fewer)
 
 
 def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
@@ -78,11 +110,11 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     beyond = others.left - node.trial.left
     if gain < criteria.detect_nats:
         return False
-    if _predict_instead(search, node, others):
+    if _instead(search, node, others):
         return True
     if beyond < criteria.form_described**2 * before:
         return False
-    least = criteria.secondary * criteria.form_sigma**2 * before
+    least = _of_forms(search, others)
     if beyond >= least or search.checked_trial(others).reasons:
         return True
     return isinstance(member.hypothesis, Known) and _is_of_size(search, node, member.hypothesis, least)

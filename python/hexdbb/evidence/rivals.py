@@ -7,10 +7,12 @@ from dataclasses import dataclass
 
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
+from hexdbb.evidence.needed import by_formulas_instead
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import is_complete
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
 
@@ -41,9 +43,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     margin = float("inf")
     for other, lead in _without(search, node, cause):
         is_close = lead < search.criteria.margin_nats and other is not search.root
-        is_known_too = isinstance(cause, Known) and any(
-            isinstance(h, Known) and h.effect == cause.effect for h in other.hypotheses
-        )
+        is_known_too = _has_effect(other, cause)
         # The best come first: what lies behind the margin found need not be held out.
         if not (is_close or lead < margin) or not _is_rival(search, other, node, lead):
             continue
@@ -58,6 +58,8 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
         others += [name for name in _nearly_as_good(search, node, cause, form) if name not in others]
     if isinstance(cause, Known) and len(node.members) == 1:
         others += [name for name in _errs_no_more(search, node, cause) if name not in others]
+    if node.is_known and len(node.members) > 1:
+        others += [name for name in _better_by_formula(search, node, cause) if name not in others]
     if isinstance(cause, Known):
         others += [name for name in rivals_elsewhere(search, node, cause) if name not in others]
     return Rivals(tuple(others), tuple(alike), margin)
@@ -68,6 +70,11 @@ def _without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[No
     for other in sorted(search.nodes, key=lambda each: -each.score):
         if not other.trial.refused and not _has_kind(search, other, cause):
             yield other, (node.score - other.score) / max(node.trial.left, 1.0)
+
+
+def _has_effect(other: Node, cause: Hypothesis) -> bool:
+    """Check for a known cause's effect in a set, at whatever element."""
+    return isinstance(cause, Known) and any(isinstance(e, Known) and e.effect == cause.effect for e in other.hypotheses)
 
 
 def _has_kind(search: Search, other: Node, cause: Hypothesis) -> bool:
@@ -84,6 +91,9 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
     """
     if other is search.root:
         return True
+    # What it explains by its forms, where the chosen one does by its formulas, is none however much evidence it has.
+    if by_formulas_instead(search, node, other.trial):
+        return False
     is_ahead = lead < -search.criteria.margin_nats
     reasons = set(search.checked(other).reasons)
     # What the chosen one is excused from, circles that its form does not predict, refutes no set that fits better.
@@ -131,6 +141,26 @@ def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
         and not search.checked(other).reasons
         and search.checked(other).missed <= missed
     ]
+
+
+def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return sets of as many effects without a cause that explain nearly all too, and by their formulas more.
+
+    Functions of forms hold what geometry leaves of a slow drift: of two that need them, the one with more evidence may
+    be the one with more of such functions.
+    """
+    left = search.left_by_formulas(node.trial)
+    found = (
+        " + ".join(sorted(other.trial.names))
+        for other, _ in _without(search, node, cause)
+        if other.is_known
+        and len(other.members) == len(node.members)
+        and not _has_effect(other, cause)
+        and is_complete(search, other)
+        and not search.checked(other).reasons
+        and search.left_by_formulas(other.trial) < left
+    )
+    return list(dict.fromkeys(found))
 
 
 def _is_bent(search: Search, node: Node) -> bool:

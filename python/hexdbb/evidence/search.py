@@ -18,16 +18,17 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
 from hexdbb.evidence.learnable import Learnable
-from hexdbb.evidence.needed import best_of, needs
+from hexdbb.evidence.needed import best_of, needs, rests_on_form
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import in_other_words, screened, screened_further
-from hexdbb.evidence.settling import is_complete, predicts, settles
+from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, settles
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
@@ -74,6 +75,7 @@ class Search:
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
         self._first_errors: dict[int, float] = {}
+        self._by_formulas: dict[int, float] = {}
 
     @cached_property
     def kin(self) -> dict[str, set[str]]:
@@ -118,17 +120,22 @@ class Search:
             children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
             beam = self._kept(children)
             best = best_of(self, best, (each for each in beam if predicts(self, each)))
-            if size == 0 and (best.trial.left > self.criteria.refined_to or self.checked(best).excused):
+            if size == 0 and self._asks_for_sets(best):
                 together = or_known_together(self, best)
                 beam = [together, *beam] if len(together.members) > 1 else beam
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
             if not beam:
                 break
-            if is_complete(self, best):
+            if is_complete(self, best) and not (is_doubtful(self, best) and rests_on_form(self, best.trial)):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
         return best_of(self, best, [together])
+
+    def _asks_for_sets(self, best: Node) -> bool:
+        """Check that what explains most alone leaves something, or is only excused, or explains much by its form."""
+        is_more = best.trial.left > self.criteria.refined_to or self.checked(best).excused
+        return is_more or rests_on_form(self, best.trial)
 
     def expand(self, node: Node) -> list[Node]:
         """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
@@ -166,6 +173,12 @@ class Search:
         if id(trial) not in self._first_errors:
             self._first_errors[id(trial)] = first_error(trial, self.root.trial, self.trials)
         return self._first_errors[id(trial)]
+
+    def left_by_formulas(self, trial: Trial) -> float:
+        """Return the mean square (noise variances) that a trial leaves without the functions of forms."""
+        if id(trial) not in self._by_formulas:
+            self._by_formulas[id(trial)] = left_by_formulas(trial.forms, self.trials.linear(trial))
+        return self._by_formulas[id(trial)]
 
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Check whether two hypotheses are one cause in different words."""

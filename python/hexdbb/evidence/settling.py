@@ -60,9 +60,23 @@ def settles(search: Search, node: Node) -> bool:
     return not misses_most(search, node)
 
 
+def missed(search: Search, node: Node) -> float:
+    """Return the error of what was left out, beyond what is expected of it, over what is explained where fitted.
+
+    With the functions of forms: an effect whose form leads away is one of which something else may be true. But where
+    the formulas of several explain enough alone, they are what makes them fit, and what they predict counts.
+    """
+    checked, excess = search.checked(node), search.root.trial.left - 1.0
+    if len(node.members) > 1 and node.is_known:
+        by_formulas = search.root.trial.left - search.left_by_formulas(node.trial)
+        if by_formulas >= search.criteria.explained_min * excess:
+            return checked.missed_at_least
+    return checked.missed
+
+
 def misses_most(search: Search, node: Node) -> bool:
     """Check whether a set errs on what was left out by about as much as all that it explains where fitted."""
-    return search.checked(node).missed > search.criteria.missed_most
+    return missed(search, node) > search.criteria.missed_most
 
 
 def is_doubtful(search: Search, node: Node) -> bool:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import Literal
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT
+from hexdbb.evidence.settling import NOTHING_LEFT, missed
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -58,13 +57,14 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     checked, is_one = search.checked(node), len(node.members) == 1
     if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
         return False
-    if checked.missed > search.criteria.missed_bent:
+    error = missed(search, node)
+    if error > search.criteria.missed_bent:
         return False
-    if not checked.excused and checked.missed > missed_most and not _is_exact(search, node):
+    if not checked.excused and error > missed_most and not _is_exact(search, node):
         return False
     if is_one and not checked.excused:
         return True
-    left = left_by_formulas(node.trial.forms, search.trials.linear(node.trial))
+    left = search.left_by_formulas(node.trial)
     return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
 
 

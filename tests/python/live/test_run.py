@@ -38,9 +38,7 @@ def unwatched(tmp_path_factory: pytest.TempPathFactory) -> Record:
 def test_a_page_lost_in_mid_run_costs_no_sample(how: signal.Signals, unwatched: Record, tmp_path: Path) -> None:
     (tmp_path / "plan.toml").write_text(long_plan(2))
     with watched(tmp_path, *OPTIONS) as run:
-        assert run.process.stderr is not None
-        while "run 1/2" not in (line := run.process.stderr.readline()):
-            assert line, run.process.wait()
+        until_it_moves(run.process)
         os.kill(run.page, how)
         status, errors = run.finished()
     assert status == 0, errors
@@ -54,15 +52,26 @@ def test_a_browser_that_disappears_costs_no_sample(unwatched: Record, tmp_path: 
         pytest.skip("no Chromium is installed")
     (tmp_path / "plan.toml").write_text(long_plan(2))
     with watched(tmp_path, *OPTIONS) as run:
+        os.kill(run.process.pid, signal.SIGSTOP)  # a run in lockstep may be over before a browser has started
         words = [found, "--headless", *arguments(), f"--user-data-dir={tmp_path / 'profile'}", run.address]
         quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
         with subprocess.Popen(words, start_new_session=True, **quiet) as browser:
-            wait_until(lambda: has_visitor(run.address))
-            assert run.process.poll() is None
-            os.killpg(browser.pid, signal.SIGKILL)
+            try:
+                wait_until(lambda: has_visitor(run.address))
+                os.kill(run.process.pid, signal.SIGCONT)
+                until_it_moves(run.process)
+            finally:
+                os.killpg(browser.pid, signal.SIGKILL)
         status, errors = run.finished()
     assert status == 0, errors
     assert_same(read_record(tmp_path / "run.parquet"), unwatched)
+
+
+def until_it_moves(run: subprocess.Popen[str]) -> None:
+    """Read what a run says until it moves on its first circle."""
+    assert run.stderr is not None
+    while "run 1/2" not in (line := run.stderr.readline()):
+        assert line, run.wait()
 
 
 def has_visitor(address: str) -> bool:

@@ -1,8 +1,9 @@
 """Whether a verdict is right: what was found beside what is hidden, in the truth's own words.
 
-`right`; `more` (right, and something else besides); `element` (right effect, wrong element); `ambiguous` with the truth
-among those named; `variable`, `port` (learned at the right place over another variable, at the right kind of place);
-`missed` (called unknown, or nothing); `false` (another effect named for sure, or anything on a clean machine).
+`right`; `more` (right, and something else besides); `element` (right effect, wrong element); `lead` (right, but not for
+sure); `ambiguous` with the truth among those named; `variable`, `port` (learned at the right place over another
+variable, at the right kind of place); `missed` (called unknown, or nothing); `false` (another effect named for sure, or
+anything on a clean machine).
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from hexdbb_truth.forms.labels import Label
 
 NAMED = ("right", "more")
 """Outcomes in which the main cause is right, element and all."""
-ORDER = ("false", "missed", "ambiguous", "port", "variable", "element", "right")
+ORDER = ("false", "missed", "lead", "ambiguous", "port", "variable", "element", "right")
 """Outcomes of one fault, the worst first: that of several is the worst of them."""
 PLACES = {"lateral": "guideway", "vertical": "guideway", "platform": "platform_joint"}
 """The truth's words for the places of learned hypotheses, where they differ."""
@@ -110,6 +111,9 @@ def _named(grade: str, found: Sequence[Named], label: Label) -> str:
         if effect in accepted:
             if each.grade == "ambiguous":
                 return "ambiguous"
+            # Beside what is learned, which has no known name, an effect may be surer than the verdict on both.
+            if grade == "unknown" and not any(other.name.startswith("learned:") for other in found):
+                return "lead"
             right = {str(number) for number in label.elements}
             for alike in each.alike:
                 elements += "," + alike.partition(":")[2]

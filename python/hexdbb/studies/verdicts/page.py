@@ -53,9 +53,10 @@ arcs of every circle.
 ## Pairs and triples
 {pairs}
 
-Outcomes: *right*; *more* (right, and something else besides); *element* (right effect, wrong element); *ambiguous* with
-the truth among the named; *variable*, *port* (learned at the right place over another variable, at the right kind of
-place); *missed* (called unknown, or nothing); *false* (another effect named for sure).
+Outcomes: *right*; *more* (right, and something else besides); *element* (right effect, wrong element); *lead* (right,
+but not named for sure); *ambiguous* with the truth among the named; *variable*, *port* (learned at the right place over
+another variable, at the right kind of place); *missed* (called unknown, or nothing); *false* (another effect named for
+sure).
 
 ## Constants
 All in `hexdbb.evidence.criteria.Criteria`. They were chosen on the calibrate half of the forms; the other half judges.

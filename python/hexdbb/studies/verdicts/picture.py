@@ -19,7 +19,7 @@ Line = dict[str, Any]
 GROUPS = (
     ("right", NAMED, "#004B76"),
     ("right effect or place, wrong element or variable", ("element", "variable", "port"), "#56B4E9"),
-    ("ambiguous or unknown", ("ambiguous", "missed"), "#BBBBBB"),
+    ("ambiguous or unknown", ("ambiguous", "lead", "missed"), "#BBBBBB"),
     ("false name", ("false",), "#D55E00"),
 )
 """What is drawn: label, outcomes, colour (Okabe and Ito 2008)."""
