@@ -9,6 +9,8 @@ harmonics of the angle
            takes and the rest; were the residual white, both would have the same variance: an F-test that needs no
            stated noise. A gauge noisier or quieter than stated does not deceive it. Noise that changes slowly is smooth
            as well, but differs from lap to lap: where laps are repeated, what they share must exceed what they do not.
+           Where none are, the harmonics must exceed those beside them too, of which noise that lasts for some readings
+           takes as much.
 """
 
 from __future__ import annotations
@@ -27,15 +29,19 @@ from hexdbb.samples import Samples
 Floats = NDArray[np.float64]
 
 HARMONICS = 8
+BESIDE = 24
+"""Highest of the harmonics beside them: noise that lasts for a fiftieth of a lap is still alike in both."""
+ROWS_OF_HARMONIC = 4
+"""Samples for each harmonic at least: above two they are orthogonal, with some to spare for gaps."""
 LEAST_ROWS = 40
 """A sweep needs this many samples for its harmonics and a rest to compare them with."""
 WHOLE_LAP = 0.95
 """Part of the longest lap's samples that a lap must have: harmonics of an arc are no harmonics of the circle."""
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from."""
-MAX_PREPARED = 400_000
-"""Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
-test, sweep by sweep, so that memory does not grow by them."""
+MAX_PREPARED = 7_000_000
+"""Numbers of the bases up to which they are kept: 56 MB, 400,000 rows of the lowest harmonics. Of more readings they
+are made anew for each test, sweep by sweep, so that memory does not grow by them."""
 LEVEL_SIGMAS = 4.0
 SHAPE_P = 1e-4
 
@@ -74,8 +80,26 @@ class LackOfFit:
         return max(beyond, self.smooth_um)
 
 
+@dataclass
+class Part:
+    """Sum of squares of a part of a residual, mm², and its degrees of freedom."""
+
+    square: float = 0.0
+    freedom: int = 0
+
+    def add(self, square: float, freedom: int) -> None:
+        """Add what one sweep has."""
+        self.square += square
+        self.freedom += freedom
+
+    @property
+    def variance(self) -> float:
+        """Mean square of one degree of freedom."""
+        return self.square / self.freedom
+
+
 class FitTest:
-    """Tests residuals of some records, again and again: up to `MAX_PREPARED` rows, the Fourier bases are prepared once.
+    """Tests residuals of some records, again and again: up to `MAX_PREPARED`, the Fourier bases are prepared once.
 
     Parameters
     ----------
@@ -89,7 +113,9 @@ class FitTest:
         self._angle_rad = samples["angle_rad"]
         self._sweeps = [rows for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
         self._laps = list(_repeated_laps(samples["lap"], self._sweeps))
-        self._prepared = list(self._bases()) if len(samples) <= MAX_PREPARED else None
+        self._highest = HARMONICS if self._laps else BESIDE
+        is_small = len(samples) * (1 + 2 * self._highest) <= MAX_PREPARED
+        self._prepared = list(self._bases()) if is_small else None
 
     def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
         """Test a residual for anything but noise.
@@ -109,24 +135,26 @@ class FitTest:
         return LackOfFit(rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), shape_p, smooth_mm * 1e3)
 
     def _bases(self) -> Iterator[Floats]:
-        return (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in self._sweeps)
+        for rows in self._sweeps:
+            highest = max(HARMONICS, min(self._highest, len(rows) // ROWS_OF_HARMONIC))
+            yield orthonormal_harmonics(self._angle_rad[rows], highest)
 
     def _shape(self, residual_mm: Floats, fitted_values: int) -> tuple[float, float]:
-        smooth, rest, smooth_freedom, rest_freedom = 0.0, 0.0, -fitted_values, 0
+        smooth, beside, rest = Part(freedom=-fitted_values), Part(), Part()
+        lowest = 1 + 2 * HARMONICS
         for rows, basis in zip(self._sweeps, self._prepared or self._bases(), strict=True):
             own = residual_mm[rows]
-            taken = float(np.sum((own @ basis) ** 2))
-            smooth += taken
-            rest += float(own @ own) - taken
-            smooth_freedom += basis.shape[1]
-            rest_freedom += len(rows) - basis.shape[1]
-        if smooth_freedom <= 0 or rest_freedom <= 0:
+            taken = (own @ basis) ** 2
+            smooth.add(float(np.sum(taken[:lowest])), lowest)
+            beside.add(float(np.sum(taken[lowest:])), len(taken) - lowest)
+            rest.add(float(own @ own) - float(np.sum(taken[:lowest])), len(rows) - lowest)
+        if smooth.freedom <= 0 or rest.freedom <= 0:
             return 1.0, 0.0
-        variance = rest / rest_freedom
-        chance = _core.f_tail(smooth_freedom, rest_freedom, smooth / smooth_freedom / variance)
+        noise = beside if beside.freedom > 0 and beside.variance > rest.variance else rest
+        chance = _core.f_tail(smooth.freedom, noise.freedom, smooth.variance / noise.variance)
         if chance < SHAPE_P:
             chance = max(chance, self._shared_by_laps(residual_mm, fitted_values))
-        beyond = max(smooth - smooth_freedom * variance, 0.0) / len(residual_mm)
+        beyond = max(smooth.square - smooth.freedom * noise.variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
 
     def _shared_by_laps(self, residual_mm: Floats, fitted_values: int) -> float:

@@ -17,7 +17,7 @@ from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.prior import LEAST_SCALE, prior_scale
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
-from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of
+from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of, means_of, middles_of
 from hexdbb.learned import Learned
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, new_term
 from hexdbb.samples import Samples, of_its_own
@@ -67,10 +67,12 @@ class Engine:
         self.samples, self.noise, self.criteria = samples, noise, criteria
         self.base, result = evaluate_fit(samples, model, model.free, noise, hypothesis=True)
         self.residual_mm = result.residual_mm
-        begin, count = blocks_of(samples["sweep"], criteria.max_rows)
+        within_mm = criteria.block_turns * samples.machine.sliders.screw_lead_mm
+        blocks = blocks_of(samples["sweep"], criteria.max_rows)
+        begin, count = middles_of(*blocks, samples["sliders_mm"], within_mm)
         chosen = begin + count // 2
         self.part = samples.part(chosen)
-        averaged = np.add.reduceat(self.residual_mm, begin) / count
+        averaged = means_of(self.residual_mm, begin, count)
         self.reading_mm = self.part.reading_mm - self.residual_mm[chosen] + averaged
         self.row_noise_mm = noise.sigma_mm / np.sqrt(count)
         self._fitted_rows = np.unique(np.linspace(0, len(chosen) - 1, min(len(chosen), criteria.fit_rows)).astype(int))

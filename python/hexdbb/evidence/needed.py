@@ -54,12 +54,12 @@ def rests_on_form(search: Search, trial: Trial) -> bool:
 
     Where geometry takes most of an effect its own form may, and so may another effect.
     """
-    return search.left_by_formulas(trial) - trial.left >= _of_forms(search, trial)
+    return search.left_by_formulas(trial) - trial.left > _of_forms(search, trial)
 
 
 def by_formulas_instead(search: Search, node: Node, fewer: Trial) -> bool:
     """Check that known effects explain by their formulas, all but what forms may, what others do by their forms."""
-    if not (node.is_known and fewer.members and rests_on_form(search, fewer)):
+    if not (node.is_known and rests_on_form(search, fewer)):
         return False
     least, left = _of_forms(search, fewer), search.left_by_formulas(node.trial)
     return left - 1.0 < least <= search.left_by_formulas(fewer) - left

@@ -13,7 +13,7 @@ from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_complete
-from hexdbb.evidence.sure import is_for_sure
+from hexdbb.evidence.sure import is_exact, is_for_sure
 from hexdbb.learned import Learned
 
 
@@ -127,12 +127,12 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
 
 
 def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return what explains enough and errs no more where left out than a cause that errs there by more than all.
+    """Return what explains enough and errs no more where left out than a cause that errs there by half of all.
 
     Such a cause is a lead, and no better one than these, however well it fits.
     """
     missed, excess = search.checked(node).missed, search.root.trial.left - 1.0
-    if missed <= search.criteria.missed_bent:
+    if missed <= search.criteria.missed_bent and (missed <= search.criteria.missed_sure or is_exact(search, node)):
         return []
     return [
         " + ".join(other.trial.names)

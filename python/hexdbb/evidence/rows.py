@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Ints = NDArray[np.intp]
+Floats = NDArray[np.float64]
 
 ARCS = 20
 """Arcs of a sweep: a left-out one lasts some seconds, less than what warms or settles takes."""
@@ -26,6 +27,31 @@ def blocks_of(sweep: NDArray[np.integer], max_rows: int) -> tuple[Ints, Ints]:
         ]
     ).astype(np.intp)
     return begin, np.diff(np.append(begin, len(sweep)))
+
+
+def middles_of(begin: Ints, count: Ints, sliders_mm: Floats, within_mm: float) -> tuple[Ints, Ints]:
+    """Shorten blocks to their middles, in which no slider travels further: first row and length of each.
+
+    A mean over half a turn of a screw is none of the pitch error there.
+
+    Parameters
+    ----------
+    begin, count : ndarray of int, shape (blocks,)
+    sliders_mm : ndarray, shape (n, 6)
+    within_mm : float
+    """
+    last = begin + count - 1
+    travel_mm = np.max(np.abs(sliders_mm[last] - sliders_mm[begin]), axis=1) / np.maximum(count - 1, 1)
+    longest = np.floor(within_mm / np.maximum(travel_mm, within_mm / count)).astype(np.intp)
+    kept = np.clip(longest, 1, count)
+    return begin + (count - kept) // 2, kept
+
+
+def means_of(values: Floats, begin: Ints, count: Ints) -> Floats:
+    """Return the mean of some values in each block."""
+    until = np.concatenate([[0.0], np.cumsum(values)])
+    found: Floats = (until[begin + count] - until[begin]) / count
+    return found
 
 
 def codes_of(values: NDArray[np.generic]) -> Ints:

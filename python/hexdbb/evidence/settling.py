@@ -60,18 +60,21 @@ def settles(search: Search, node: Node) -> bool:
     return not misses_most(search, node)
 
 
+def explained_by_formulas(search: Search, node: Node) -> float:
+    """Return the part of the unexplained that effects explain without the functions of their forms."""
+    return (search.root.trial.left - search.left_by_formulas(node.trial)) / max(search.root.trial.left - 1.0, 1e-9)
+
+
 def missed(search: Search, node: Node) -> float:
     """Return the error of what was left out, beyond what is expected of it, over what is explained where fitted.
 
     With the functions of forms: an effect whose form leads away is one of which something else may be true. But where
     the formulas of several explain enough alone, they are what makes them fit, and what they predict counts.
     """
-    checked, excess = search.checked(node), search.root.trial.left - 1.0
-    if len(node.members) > 1 and node.is_known:
-        by_formulas = search.root.trial.left - search.left_by_formulas(node.trial)
-        if by_formulas >= search.criteria.explained_min * excess:
-            return checked.missed_at_least
-    return checked.missed
+    checked, is_one = search.checked(node), len(node.members) <= 1
+    if is_one or not node.is_known or explained_by_formulas(search, node) < search.criteria.explained_min:
+        return checked.missed
+    return checked.missed_at_least
 
 
 def misses_most(search: Search, node: Node) -> bool:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from typing import Literal
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.admissible import missed_of
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, missed
+from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, missed
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -40,11 +42,11 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     """Check that causes together explain enough to be named for sure.
 
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
-    excused so together were put together to fit: each takes what the others leave. So was one that is excused, or
-    several, whose formulas explain little of what the functions of their forms do. And what errs on circles left out by
-    half of all that it explains where fitted may stand in for something else, however much worse geometry alone errs;
-    unless its formula nearly as it is leaves only noise: other circles hardly tell its size, but that it is there. What
-    errs by more than all that it explains is not excused either.
+    excused so together, or of which one is of quite another form, were put together to fit: each takes what the others
+    leave. So was one that is excused, or several, whose formulas explain little of what the functions of their forms
+    do. And what errs on circles left out by half of all that it explains where fitted may stand in for something else,
+    however much worse geometry alone errs; unless its formula nearly as it is leaves only noise: other circles hardly
+    tell its size, but that it is there. What errs by more than all that it explains is not excused either.
 
     Parameters
     ----------
@@ -53,22 +55,36 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     missed_most : float, optional
         Part of what is explained by which it may err on what was left out; `Criteria.missed_sure` where not given.
     """
-    missed_most = search.criteria.missed_sure if missed_most is None else missed_most
+    criteria = search.criteria
+    missed_most = criteria.missed_sure if missed_most is None else missed_most
     checked, is_one = search.checked(node), len(node.members) == 1
-    if checked.share < search.criteria.explained_min or (checked.excused and not is_one):
+    if checked.share < criteria.explained_min or (checked.excused and not is_one):
         return False
+    deviation = max((form.deviation for form in node.trial.forms if form is not None), default=0.0)
+    if not is_one and deviation > criteria.form_named:
+        return False
+    by_formulas = explained_by_formulas(search, node)
     error = missed(search, node)
-    if error > search.criteria.missed_bent:
-        return False
-    if not checked.excused and error > missed_most and not _is_exact(search, node):
-        return False
+    if error > criteria.missed_bent or not (checked.excused or error <= missed_most or is_exact(search, node)):
+        # Geometry makes much of little there: what else explains enough and errs no more is named beside it.
+        return is_one and by_formulas >= criteria.form_explains and _geometry_misses(search, node)
     if is_one and not checked.excused:
         return True
-    left = search.left_by_formulas(node.trial)
-    return search.root.trial.left - left >= search.criteria.formula_explains * (search.root.trial.left - 1.0)
+    return by_formulas >= (criteria.formula_explains if is_one else criteria.explained_min)
 
 
-def _is_exact(search: Search, node: Node) -> bool:
+def _geometry_misses(search: Search, node: Node) -> bool:
+    """Check that geometry alone predicts none of what one known effect misses: it leads away where it is not held."""
+    held = [held for grouping, held in search.checked(node).heldout.items() if grouping != ARC]
+    before = search.root.trial.left**0.5
+    return node.is_known and all(
+        each.before > search.criteria.extrapolates * before
+        for each in held
+        if missed_of(each, node.trial, search.root.trial) > search.criteria.missed_sure
+    )
+
+
+def is_exact(search: Search, node: Node) -> bool:
     """Check that one effect's formula, hardly bent, leaves only noise."""
     form = node.trial.forms[0]
     is_formula = len(node.members) == 1 and form is not None and form.deviation <= search.criteria.form_exact

@@ -93,7 +93,7 @@ def test_a_form_goes_wrong_at_the_effects_own_place() -> None:
     It is not named for sure: geometry bends after its form, and errs on circles left out.
     """
     line = line_of(case("joint_offset-d20-x10-calibrate-s5"), ())
-    assert line["outcome"] == "right"
+    assert line["outcome"] == "lead"
     assert line["grade"] == "unknown"
     assert [each["name"].partition(":")[0] for each in line["found"]] == ["joint_offset"]
 

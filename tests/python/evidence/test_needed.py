@@ -13,7 +13,7 @@ from hexdbb.evidence import known_together
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.exchange import settled
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.needed import is_better, needs_all
+from hexdbb.evidence.needed import by_formulas_instead, is_better, needs_all, rests_on_form
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.trial import Member, Trials
@@ -44,11 +44,14 @@ class Trialled:
 
 
 def searched(
-    left: dict[tuple[Member, ...], float], *fitted: tuple[Member, ...], excused: tuple[Member, ...] = ()
+    left: dict[tuple[Member, ...], float],
+    *fitted: tuple[Member, ...],
+    excused: tuple[Member, ...] = (),
+    by_formulas: dict[tuple[Member, ...], float] | None = None,
 ) -> Any:
     """Return a search whose empty set leaves 11 noise variances, and the node of the first set.
 
-    One set may predict only so far that its form excuses it.
+    One set may predict only so far that its form excuses it; some may leave more without the functions of their forms.
     """
     trials = Trialled({frozenset(each): value for each, value in left.items()}, {frozenset(each) for each in fitted})
     node = node_of(trials.of(next(iter(left))))
@@ -58,8 +61,11 @@ def searched(
         root=SimpleNamespace(trial=SimpleNamespace(left=11.0)),
         nodes=[node],
         log_prior=lambda hypothesis: 0.0,
+        left_by_formulas=lambda trial: (by_formulas or {}).get(trial.members, trial.left),
         checked_trial=lambda trial: SimpleNamespace(reasons=(), excused=trial.members == excused),
-        checked=lambda node: SimpleNamespace(reasons=(), excused=node.members == excused, missed=0.0),
+        checked=lambda node: SimpleNamespace(
+            reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0
+        ),
         expand=lambda node: [],
         node=lambda members, near: node_of(trials.of(members)),
     )
@@ -92,6 +98,36 @@ def test_two_effects_that_predict_are_better_than_one_that_its_form_excuses(
     alone = node_of(search.trials.of((DRIFT,)))
     assert is_better(search, both, alone) is expected
     assert needs_all(search, both) is expected
+
+
+FORM = DEFAULT.secondary * DEFAULT.form_sigma**2 * 10.0
+"""What a form explains at most, of ten noise variances."""
+
+
+@pytest.mark.parametrize(
+    ("one", "two", "expected"),
+    [(2.0, 1.0, True), (1.0 + 0.9 * FORM, 1.0, False), (2.0, 2.0 - 0.9 * FORM, False), (5.0, 2.0, False)],
+    ids=["explain by formulas", "a form 20 % off", "rest on their forms too", "leave more than a form"],
+)
+def test_formulas_of_two_are_better_than_the_form_of_one(one: float, two: float, expected: bool) -> None:
+    """With the functions of its form the one effect explains all but a hundredth of what the two do."""
+    formulas = {(DRIFT,): one, (DRIFT, GAIN): two}
+    search, both = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}, by_formulas=formulas)
+    alone = node_of(search.trials.of((DRIFT,)))
+    assert rests_on_form(search, alone.trial) is (one - 1.01 >= FORM * 9.99 / 10.0)
+    assert by_formulas_instead(search, both, alone.trial) is expected
+    assert is_better(search, both, alone) is expected
+    assert needs_all(search, both) is expected
+
+
+def test_of_as_many_effects_those_that_explain_by_formulas_are_better() -> None:
+    """Functions of forms hold what geometry leaves of a slow drift: evidence does not tell which drift it is."""
+    left = {(DRIFT, GAIN): 1.02, (DRIFT, SCREW): 1.0}
+    search, true = searched(left, by_formulas={(DRIFT, GAIN): 1.1, (DRIFT, SCREW): 4.0})
+    other = node_of(search.trials.of((DRIFT, SCREW)))
+    assert other.score > true.score
+    assert is_better(search, true, other)
+    assert not is_better(search, other, true)
 
 
 def test_sets_that_are_fitted_already_are_asked_first() -> None:

@@ -5,12 +5,10 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Known
 from hexdbb.learned import Learned
@@ -26,13 +24,13 @@ CIRCLES, FEED = "does not predict other circles", "does not predict the other fe
 def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> Any:
     names = tuple(each.name for each in hypotheses)
     trial = SimpleNamespace(refused=(), left=left, names=names, forms=(None,) * len(names))
-    return SimpleNamespace(trial=trial, score=score, hypotheses=hypotheses, members=hypotheses)
+    is_known = all(isinstance(each, Known) for each in hypotheses)
+    return SimpleNamespace(trial=trial, score=score, hypotheses=hypotheses, members=hypotheses, is_known=is_known)
 
 
 def rivals(chosen: Checked, other: Checked, rival: Any, cause: Known = CAUSE, home: Learned = HOME) -> tuple[str, ...]:
     """Return the names of those that rival a cause, which has a score of 0 and lives in a learned function."""
     node, root = node_of(0.0, cause), node_of(-1000.0, left=11.0)
-    noise = Linear(residual=np.ones(4), own=np.zeros((4, 0)), standing=np.zeros(0))
     checks = {id(node): chosen, id(rival): other}
     search: Any = SimpleNamespace(
         nodes=[root, node, rival],
@@ -42,7 +40,8 @@ def rivals(chosen: Checked, other: Checked, rival: Any, cause: Known = CAUSE, ho
         same_kind=lambda one, two: one.name in (two.name, home.name),
         kin={cause.name: {home.name}},
         learnable=SimpleNamespace(by_name={home.name: home}),
-        trials=SimpleNamespace(linear=lambda trial: noise),
+        left_by_formulas=lambda trial: 1.0,
+        trials=SimpleNamespace(explained_before=0.0),
         engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"}))),
     )
     return rivals_of(search, node, cause).others

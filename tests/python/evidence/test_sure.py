@@ -5,14 +5,12 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import pytest
 
 from hexdbb.errors import RunError
 from hexdbb.evidence import sure
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sure import Grade, graded, is_for_sure
 from hexdbb.evidence.trial import Member
@@ -61,13 +59,12 @@ def test_what_is_unknown_stays_so() -> None:
 @pytest.mark.parametrize("excused", [True, False])
 def test_one_effect_errs_by_no_more_than_it_explains(beyond: float, sure_of_it: bool, excused: bool) -> None:
     """Whether its form excuses it, or its formula nearly as it is leaves only noise."""
-    linear = Linear(np.zeros(4), np.zeros((4, 1)), np.zeros(1))
     form = Form(0.02, 0.5 * DEFAULT.form_exact, ())
     node: Any = SimpleNamespace(members=(LEGS,), trial=SimpleNamespace(left=1.0, forms=(form,)))
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
-        trials=SimpleNamespace(linear=lambda trial: linear),
+        left_by_formulas=lambda trial: 1.0,
         checked=lambda node: SimpleNamespace(share=1.0, excused=excused, missed=DEFAULT.missed_bent + beyond),
     )
     assert is_for_sure(search, node) is sure_of_it
