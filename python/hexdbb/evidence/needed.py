@@ -54,18 +54,18 @@ def rests_on_form(search: Search, trial: Trial) -> bool:
 
     Where geometry takes most of an effect its own form may, and so may another effect.
     """
-    return search.left_by_formulas(trial) - trial.left > _of_forms(search, trial)
+    return search.left_by_formulas(trial) - trial.left > of_forms(search, trial)
 
 
 def by_formulas_instead(search: Search, node: Node, fewer: Trial) -> bool:
     """Check that known effects explain by their formulas, all but what forms may, what others do by their forms."""
     if not (node.is_known and rests_on_form(search, fewer)):
         return False
-    least, left = _of_forms(search, fewer), search.left_by_formulas(node.trial)
+    least, left = of_forms(search, fewer), search.left_by_formulas(node.trial)
     return left - 1.0 < least <= search.left_by_formulas(fewer) - left
 
 
-def _of_forms(search: Search, trial: Trial) -> float:
+def of_forms(search: Search, trial: Trial) -> float:
     """Return what the forms of a set, and of the effects in the model, may explain, in noise variances."""
     before = search.root.trial.left - trial.left + search.trials.explained_before
     return search.criteria.secondary * search.criteria.form_sigma**2 * before
@@ -114,7 +114,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
         return True
     if beyond < criteria.form_described**2 * before:
         return False
-    least = _of_forms(search, others)
+    least = of_forms(search, others)
     if beyond >= least or search.checked_trial(others).reasons:
         return True
     return isinstance(member.hypothesis, Known) and _is_of_size(search, node, member.hypothesis, least)

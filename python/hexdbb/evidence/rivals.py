@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.needed import by_formulas_instead
+from hexdbb.evidence.needed import by_formulas_instead, of_forms
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_complete
-from hexdbb.evidence.sure import is_exact, is_for_sure
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
 
 
@@ -127,12 +127,12 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
 
 
 def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return what explains enough and errs no more where left out than a cause that errs there by half of all.
+    """Return what explains enough and errs no more where left out than a cause that errs there by more than all.
 
     Such a cause is a lead, and no better one than these, however well it fits.
     """
     missed, excess = search.checked(node).missed, search.root.trial.left - 1.0
-    if missed <= search.criteria.missed_bent and (missed <= search.criteria.missed_sure or is_exact(search, node)):
+    if missed <= search.criteria.missed_bent:
         return []
     return [
         " + ".join(other.trial.names)
@@ -144,10 +144,9 @@ def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
 
 
 def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return sets of as many effects without a cause that explain nearly all too, and by their formulas more.
+    """Return sets of as many effects without a cause that explain all too, by their formulas, and more by these.
 
-    Functions of forms hold what geometry leaves of a slow drift: of two that need them, the one with more evidence may
-    be the one with more of such functions.
+    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions.
     """
     left = search.left_by_formulas(node.trial)
     found = (
@@ -158,7 +157,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         and not _has_effect(other, cause)
         and is_complete(search, other)
         and not search.checked(other).reasons
-        and search.left_by_formulas(other.trial) < left
+        and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
     )
     return list(dict.fromkeys(found))
 

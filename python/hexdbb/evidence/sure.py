@@ -10,7 +10,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, missed
+from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, is_complete, missed
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -44,9 +44,10 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
     excused so together, or of which one is of quite another form, were put together to fit: each takes what the others
     leave. So was one that is excused, or several, whose formulas explain little of what the functions of their forms
-    do. And what errs on circles left out by half of all that it explains where fitted may stand in for something else,
+    do; of several that leave something these must explain enough. And what errs on circles left out by half of all that it explains where fitted may stand in for something else,
     however much worse geometry alone errs; unless its formula nearly as it is leaves only noise: other circles hardly
-    tell its size, but that it is there. What errs by more than all that it explains is not excused either.
+    tell its size, but that it is there. What errs by more than all that it explains is not excused either, but where
+    the other circles hold geometry so badly that it leads away.
 
     Parameters
     ----------
@@ -65,26 +66,27 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
         return False
     by_formulas = explained_by_formulas(search, node)
     error = missed(search, node)
-    if error > criteria.missed_bent or not (checked.excused or error <= missed_most or is_exact(search, node)):
-        # Geometry makes much of little there: what else explains enough and errs no more is named beside it.
+    if error > criteria.missed_bent or not (checked.excused or error <= missed_most or _is_exact(search, node)):
+        # Where geometry makes much of little, what else explains enough and errs no more is named beside it.
         return is_one and by_formulas >= criteria.form_explains and _geometry_misses(search, node)
     if is_one and not checked.excused:
         return True
-    return by_formulas >= (criteria.formula_explains if is_one else criteria.explained_min)
+    is_all = is_one or is_complete(search, node)
+    return by_formulas >= (criteria.formula_explains if is_all else criteria.explained_min)
 
 
 def _geometry_misses(search: Search, node: Node) -> bool:
-    """Check that geometry alone predicts none of what one known effect misses: it leads away where it is not held."""
+    """Check that geometry leads away wherever one known effect misses much: nothing could predict that."""
     held = [held for grouping, held in search.checked(node).heldout.items() if grouping != ARC]
     before = search.root.trial.left**0.5
     return node.is_known and all(
-        each.before > search.criteria.extrapolates * before
+        each.before > search.criteria.leads_away * before
         for each in held
         if missed_of(each, node.trial, search.root.trial) > search.criteria.missed_sure
     )
 
 
-def is_exact(search: Search, node: Node) -> bool:
+def _is_exact(search: Search, node: Node) -> bool:
     """Check that one effect's formula, hardly bent, leaves only noise."""
     form = node.trial.forms[0]
     is_formula = len(node.members) == 1 and form is not None and form.deviation <= search.criteria.form_exact

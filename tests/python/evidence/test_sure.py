@@ -5,18 +5,21 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from hexdbb.errors import RunError
 from hexdbb.evidence import sure
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.form import Form
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sure import Grade, graded, is_for_sure
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
 
 LEGS = Member(Known("leg_thermal", ("all",), is_whole=True))
+SCREW = Member(Known("screw_thermal", ("3",)))
 STEPS = Member(Learned.parse("learned:leg:4:time"))
 BEFORE, SHARE = 25.0, 24.0
 
@@ -55,16 +58,55 @@ def test_what_is_unknown_stays_so() -> None:
     assert graded(searched(None), NODE, "unknown") == "unknown"
 
 
+def held(before: float, error: float) -> HeldOut:
+    return HeldOut(before=before, after=error, share=0.9, expected=1.0, as_fitted=error)
+
+
+def asked(form: Form, *, before: float = 5.0, missed: float = 0.0, left: float = 1.0, **checked: Any) -> bool:
+    """Return whether one known effect is for sure that misses a part of what it explains."""
+    error = float(np.sqrt(1.0 + missed**2 * (BEFORE - 1.0)))
+    node: Any = SimpleNamespace(members=(LEGS,), is_known=True, trial=SimpleNamespace(left=1.0, forms=(form,)))
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        left_by_formulas=lambda trial: left,
+        checked=lambda node: SimpleNamespace(
+            **{"share": 1.0, "excused": False, **checked}, missed=missed, heldout={"circle": held(before, error)}
+        ),
+    )
+    return is_for_sure(search, node)
+
+
 @pytest.mark.parametrize(("beyond", "sure_of_it"), [(-0.1, True), (0.1, False)])
 @pytest.mark.parametrize("excused", [True, False])
 def test_one_effect_errs_by_no_more_than_it_explains(beyond: float, sure_of_it: bool, excused: bool) -> None:
     """Whether its form excuses it, or its formula nearly as it is leaves only noise."""
     form = Form(0.02, 0.5 * DEFAULT.form_exact, ())
-    node: Any = SimpleNamespace(members=(LEGS,), trial=SimpleNamespace(left=1.0, forms=(form,)))
+    assert asked(form, missed=DEFAULT.missed_bent + beyond, excused=excused) is sure_of_it
+
+
+@pytest.mark.parametrize(
+    ("before", "left", "sure_of_it"),
+    [(1.1, 1.0, True), (0.9, 1.0, False), (1.1, 5.0, False)],
+    ids=["leads away", "geometry is held", "explains by its form"],
+)
+def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, left: float, sure_of_it: bool) -> None:
+    """The one mount of a plan whose circles hold geometry by each other: without one nothing could predict it."""
+    form = Form(0.1, 0.2, ())
+    before_um = before * DEFAULT.leads_away * BEFORE**0.5
+    assert asked(form, before=before_um, missed=5.0, left=left) is sure_of_it
+
+
+@pytest.mark.parametrize(("left", "sure_of_it"), [(5.0, True), (8.0, False)], ids=["by formulas", "by forms"])
+def test_several_explain_enough_by_their_formulas(left: float, sure_of_it: bool) -> None:
+    """What they miss is that of their formulas: the functions of a form lead away beside another cause."""
+    node: Any = SimpleNamespace(
+        members=(LEGS, SCREW), is_known=True, trial=SimpleNamespace(left=1.0, forms=(None, None))
+    )
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
-        left_by_formulas=lambda trial: 1.0,
-        checked=lambda node: SimpleNamespace(share=1.0, excused=excused, missed=DEFAULT.missed_bent + beyond),
+        left_by_formulas=lambda trial: left,
+        checked=lambda node: SimpleNamespace(share=1.0, excused=False, missed=1.2, missed_at_least=0.4, heldout={}),
     )
     assert is_for_sure(search, node) is sure_of_it
