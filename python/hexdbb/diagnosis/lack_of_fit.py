@@ -9,8 +9,8 @@ harmonics of the angle
            takes and the rest; were the residual white, both would have the same variance: an F-test that needs no
            stated noise. A gauge noisier or quieter than stated does not deceive it. Noise that changes slowly is smooth
            as well, but differs from lap to lap: where laps are repeated, what they share must exceed what they do not.
-           Where none are, the harmonics must exceed those beside them too, of which noise that lasts for some readings
-           takes as much.
+           Where none are, noise of which a reading keeps a part from the one before is told by that part: the harmonics
+           must exceed what such noise has there.
 """
 
 from __future__ import annotations
@@ -29,19 +29,18 @@ from hexdbb.samples import Samples
 Floats = NDArray[np.float64]
 
 HARMONICS = 8
-BESIDE = 24
-"""Highest of the harmonics beside them: noise that lasts for a fiftieth of a lap is still alike in both."""
-ROWS_OF_HARMONIC = 4
-"""Samples for each harmonic at least: above two they are orthogonal, with some to spare for gaps."""
 LEAST_ROWS = 40
 """A sweep needs this many samples for its harmonics and a rest to compare them with."""
 WHOLE_LAP = 0.95
 """Part of the longest lap's samples that a lap must have: harmonics of an arc are no harmonics of the circle."""
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from."""
-MAX_PREPARED = 7_000_000
-"""Numbers of the bases up to which they are kept: 56 MB, 400,000 rows of the lowest harmonics. Of more readings they
-are made anew for each test, sweep by sweep, so that memory does not grow by them."""
+MAX_PREPARED = 400_000
+"""Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
+test, sweep by sweep, so that memory does not grow by them."""
+MOST_KEPT = 0.95
+"""Part of the one before that a reading keeps, at most: noise that lasts for twenty readings and more is as smooth as a
+fault, and no single lap tells them apart."""
 LEVEL_SIGMAS = 4.0
 SHAPE_P = 1e-4
 
@@ -99,7 +98,7 @@ class Part:
 
 
 class FitTest:
-    """Tests residuals of some records, again and again: up to `MAX_PREPARED`, the Fourier bases are prepared once.
+    """Tests residuals of some records, again and again: up to `MAX_PREPARED` rows, the Fourier bases are prepared once.
 
     Parameters
     ----------
@@ -113,9 +112,7 @@ class FitTest:
         self._angle_rad = samples["angle_rad"]
         self._sweeps = [rows for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
         self._laps = list(_repeated_laps(samples["lap"], self._sweeps))
-        self._highest = HARMONICS if self._laps else BESIDE
-        is_small = len(samples) * (1 + 2 * self._highest) <= MAX_PREPARED
-        self._prepared = list(self._bases()) if is_small else None
+        self._prepared = list(self._bases()) if len(samples) <= MAX_PREPARED else None
 
     def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
         """Test a residual for anything but noise.
@@ -135,26 +132,25 @@ class FitTest:
         return LackOfFit(rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), shape_p, smooth_mm * 1e3)
 
     def _bases(self) -> Iterator[Floats]:
-        for rows in self._sweeps:
-            highest = max(HARMONICS, min(self._highest, len(rows) // ROWS_OF_HARMONIC))
-            yield orthonormal_harmonics(self._angle_rad[rows], highest)
+        return (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in self._sweeps)
 
     def _shape(self, residual_mm: Floats, fitted_values: int) -> tuple[float, float]:
-        smooth, beside, rest = Part(freedom=-fitted_values), Part(), Part()
-        lowest = 1 + 2 * HARMONICS
+        smooth, rest, neighbours = Part(freedom=-fitted_values), Part(), 0.0
         for rows, basis in zip(self._sweeps, self._prepared or self._bases(), strict=True):
-            own = residual_mm[rows]
-            taken = (own @ basis) ** 2
-            smooth.add(float(np.sum(taken[:lowest])), lowest)
-            beside.add(float(np.sum(taken[lowest:])), len(taken) - lowest)
-            rest.add(float(own @ own) - float(np.sum(taken[:lowest])), len(rows) - lowest)
+            taken = residual_mm[rows] @ basis
+            left = residual_mm[rows] - basis @ taken
+            smooth.add(float(taken @ taken), basis.shape[1])
+            rest.add(float(left @ left), len(rows) - basis.shape[1])
+            neighbours += float(left[1:] @ left[:-1])
         if smooth.freedom <= 0 or rest.freedom <= 0:
             return 1.0, 0.0
-        noise = beside if beside.freedom > 0 and beside.variance > rest.variance else rest
-        chance = _core.f_tail(smooth.freedom, noise.freedom, smooth.variance / noise.variance)
+        variance = rest.variance
+        if not self._laps and rest.square > 0.0:
+            variance *= _lowest_over_rest(list(map(len, self._sweeps)), neighbours / rest.square)
+        chance = _core.f_tail(smooth.freedom, rest.freedom, smooth.variance / variance)
         if chance < SHAPE_P:
             chance = max(chance, self._shared_by_laps(residual_mm, fitted_values))
-        beyond = max(smooth.square - smooth.freedom * noise.variance, 0.0) / len(residual_mm)
+        beyond = max(smooth.square - smooth.freedom * variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
 
     def _shared_by_laps(self, residual_mm: Floats, fitted_values: int) -> float:
@@ -174,6 +170,35 @@ class FitTest:
         if shared_freedom <= 0 or scatter_freedom <= 0 or scatter <= 0.0:
             return 0.0
         return _core.f_tail(shared_freedom, scatter_freedom, shared / shared_freedom * scatter_freedom / scatter)
+
+
+def _lowest_over_rest(rows: Sequence[int], correlation: float) -> float:
+    """Return how much more variance lasting noise has in a lowest harmonic than in any other, on average.
+
+    First order: each reading keeps a part of the one before it, the part that neighbours tell.
+
+    Parameters
+    ----------
+    rows : sequence of int
+        Readings of each sweep.
+    correlation : float
+        Of neighbours, the lowest harmonics taken away.
+    """
+    frequency = [2.0 * np.pi * np.arange(each // 2 + 1) / each for each in rows]
+    lowest = np.concatenate([each[: HARMONICS + 1] for each in frequency])
+    rest = np.concatenate([each[HARMONICS + 1 :] for each in frequency])
+    low, high = 0.0, MOST_KEPT
+    for _ in range(20):
+        middle = 0.5 * (low + high)
+        power = _power(rest, middle)
+        low, high = (middle, high) if power @ np.cos(rest) < correlation * power.sum() else (low, middle)
+    return float(_power(lowest, low).mean() / _power(rest, low).mean())
+
+
+def _power(frequency: Floats, kept: float) -> Floats:
+    """Return the power of noise of which a reading keeps a part; frequency in radians a reading."""
+    found: Floats = 1.0 / (1.0 - 2.0 * kept * np.cos(frequency) + kept**2)
+    return found
 
 
 def _repeated_laps(lap: NDArray[np.int64], sweeps: Sequence[NDArray[np.intp]]) -> Iterator[list[NDArray[np.intp]]]:

@@ -44,10 +44,10 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
     excused so together, or of which one is of quite another form, were put together to fit: each takes what the others
     leave. So was one that is excused, or several, whose formulas explain little of what the functions of their forms
-    do; of several that leave something these must explain enough. And what errs on circles left out by half of all that it explains where fitted may stand in for something else,
-    however much worse geometry alone errs; unless its formula nearly as it is leaves only noise: other circles hardly
-    tell its size, but that it is there. What errs by more than all that it explains is not excused either, but where
-    the other circles hold geometry so badly that it leads away.
+    do; of several that leave something these must explain enough. And what errs on circles left out by half of all that
+    it explains where fitted may stand in for something else, however much worse geometry alone errs; unless its formula
+    nearly as it is leaves only noise: other circles hardly tell its size, but that it is there. What errs by more than
+    all that it explains is not excused either, but where the other circles hold geometry so badly that it leads away.
 
     Parameters
     ----------

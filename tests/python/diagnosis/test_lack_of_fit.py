@@ -70,13 +70,23 @@ def test_a_gauge_noisier_than_stated_deceives_the_level_and_not_the_shape(
     assert found.shape_p > 1e-3
 
 
+def lasting(record: Record, kept: float, draw: np.random.Generator) -> np.ndarray:
+    """Noise of which a reading keeps a part from the one before it."""
+    noise = np.zeros(len(record))
+    for row, step in enumerate(draw.normal(0.0, NOISE.sigma_mm * np.sqrt(1.0 - kept**2), len(record))):
+        noise[row] = kept * noise[row - 1] + step
+    return noise
+
+
 def slow_noise(record: Record, seed: int) -> np.ndarray:
     """White noise, and as much that keeps its value for some twenty readings."""
-    draw, kept = np.random.default_rng(seed), 0.95
-    slow = np.zeros(len(record))
-    for row, step in enumerate(draw.normal(0.0, NOISE.sigma_mm * np.sqrt(1.0 - kept**2), len(record))):
-        slow[row] = kept * slow[row - 1] + step
+    draw = np.random.default_rng(seed)
+    slow = lasting(record, 0.95, draw)
     return draw.normal(0.0, NOISE.sigma_mm, len(record)) + slow
+
+
+def first_laps(record: Record) -> Record:
+    return record.part(record.columns["lap"] == record.columns["lap"].min())
 
 
 def test_noise_that_changes_slowly_is_noise_where_laps_are_repeated(test_of_fit: tuple[FitTest, Record]) -> None:
@@ -90,5 +100,18 @@ def test_noise_that_changes_slowly_is_noise_where_laps_are_repeated(test_of_fit:
 
 def test_noise_that_changes_slowly_is_seen_where_no_lap_is_repeated(test_of_fit: tuple[FitTest, Record]) -> None:
     _, record = test_of_fit
-    first = record.part(record.columns["lap"] == record.columns["lap"].min())
+    first = first_laps(record)
     assert FitTest(Samples.of([first]), NOISE).of(slow_noise(first, 2), 0).shape_p < 1e-4
+
+
+def test_noise_that_lasts_for_a_few_readings_is_noise_on_single_laps_too(test_of_fit: tuple[FitTest, Record]) -> None:
+    """What neighbours share tells how much of it is in the lowest harmonics; a fault of its size is more."""
+    first = first_laps(test_of_fit[1])
+    test = FitTest(Samples.of([first]), NOISE)
+    found = [test.of(lasting(first, 0.6, np.random.default_rng(seed)), 0) for seed in range(20)]
+    assert not any(each.is_significant for each in found)
+    assert np.median([each.shape_p for each in found]) > 0.3
+    fault = NOISE.sigma_mm * np.cos(2.0 * np.radians(first.columns["angle_deg"]))
+    seen = test.of(lasting(first, 0.6, np.random.default_rng(1)) + fault, 0)
+    assert seen.shape_p < 1e-6
+    assert seen.smooth_um == pytest.approx(0.5 / np.sqrt(2.0), rel=0.2)

@@ -73,3 +73,10 @@ def test_each_leg_follows_a_law_of_its_own_in_the_effects_own_variable_alone() -
     assert [len(each) for each in groups] == [7, 1]
     assert {each.element for each in groups[0]} == {0, 1, 2, 3, 4, 5, 6}
     assert groups[1] == (place,)
+
+
+def test_what_is_set_up_has_one_form() -> None:
+    """A gauge that is read late is late for every slider."""
+    lag = Learned.parse("learned:slider:all:velocity")
+    assert [len(each) for each in discrepancy([Home(lag, 1.0, 0.01)])] == [7]
+    assert discrepancy([Home(lag, 1.0, 0.01)], is_set_up=True) == [(lag,)]

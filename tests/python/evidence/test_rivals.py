@@ -28,9 +28,21 @@ def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> An
     return SimpleNamespace(trial=trial, score=score, hypotheses=hypotheses, members=hypotheses, is_known=is_known)
 
 
-def rivals(chosen: Checked, other: Checked, rival: Any, cause: Known = CAUSE, home: Learned = HOME) -> tuple[str, ...]:
-    """Return the names of those that rival a cause, which has a score of 0 and lives in a learned function."""
-    node, root = node_of(0.0, cause), node_of(-1000.0, left=11.0)
+def rivals(
+    chosen: Checked,
+    other: Checked,
+    rival: Any,
+    cause: Known = CAUSE,
+    home: Learned = HOME,
+    beside: tuple[Known, ...] = (),
+    by_formulas: tuple[float, float] = (1.0, 1.0),
+) -> tuple[str, ...]:
+    """Return the names of those that rival a cause, which has a score of 0 and lives in a learned function.
+
+    Other causes may stand beside it; what the formulas of the set and the rival leave is stated.
+    """
+    node, root = node_of(0.0, cause, *beside), node_of(-1000.0, left=11.0)
+    formulas = {id(node.trial): by_formulas[0], id(rival.trial): by_formulas[1]}
     checks = {id(node): chosen, id(rival): other}
     search: Any = SimpleNamespace(
         nodes=[root, node, rival],
@@ -40,7 +52,7 @@ def rivals(chosen: Checked, other: Checked, rival: Any, cause: Known = CAUSE, ho
         same_kind=lambda one, two: one.name in (two.name, home.name),
         kin={cause.name: {home.name}},
         learnable=SimpleNamespace(by_name={home.name: home}),
-        left_by_formulas=lambda trial: 1.0,
+        left_by_formulas=lambda trial: formulas.get(id(trial), trial.left),
         trials=SimpleNamespace(explained_before=0.0),
         engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"}))),
     )
@@ -88,3 +100,18 @@ def test_two_sliders_together_and_one_alone_are_the_other_in_other_words(variabl
     cause = Known("pitch_cyclic", ("6",))
     found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, both, one), cause, SCREW)
     assert bool(found) is is_rival
+
+
+@pytest.mark.parametrize(
+    ("of_node", "of_rival", "is_rival"),
+    [(1.3, 1.1, True), (1.1, 1.3, False), (4.0, 3.0, False)],
+    ids=["explains more by formulas", "explains less", "rests on its forms too"],
+)
+def test_as_many_effects_that_explain_more_by_their_formulas_are_a_rival(
+    of_node: float, of_rival: float, is_rival: bool
+) -> None:
+    """Functions of forms hold what geometry leaves of a drift: evidence alone does not tell which it is."""
+    rival, checked = node_of(-500.0, DRIFT, GAIN), Checked({}, 1.0, ())
+    other = Known("screw_thermal", ("3",))
+    found = rivals(checked, checked, rival, beside=(other,), by_formulas=(of_node, of_rival))
+    assert found == (("bar_drift + bar_gain",) if is_rival else ())
