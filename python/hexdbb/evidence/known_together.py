@@ -23,7 +23,9 @@ def or_known_together(search: Search, best: Node) -> Node:
     """
     found = [best]
     alone = {each.hypotheses[0]: each for each in search.nodes if explains_all_alone(search, each)}
-    predicts_alone = any(not search.checked(each).excused for each in alone.values())
+    predicts_alone = any(
+        not (search.checked(each).excused or rests_on_form(search, each.trial)) for each in alone.values()
+    )
     for together in known_sets(search, 2 if predicts_alone else search.criteria.max_effects):
         # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
         if any(len(each.members) < len(together.members) and leaves_nothing(search, each) for each in found[1:]):

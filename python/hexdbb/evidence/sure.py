@@ -45,9 +45,10 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     excused so together, or of which one is of quite another form, were put together to fit: each takes what the others
     leave. So was one that is excused, or several, whose formulas explain little of what the functions of their forms
     do; of several that leave something these must explain enough. And what errs on circles left out by half of all that
-    it explains where fitted may stand in for something else, however much worse geometry alone errs; unless its formula
-    nearly as it is leaves only noise: other circles hardly tell its size, but that it is there. What errs by more than
-    all that it explains is not excused either, but where the other circles hold geometry so badly that it leads away.
+    it explains where fitted may stand in for something else, however much worse geometry alone errs; by more, where
+    formulas explain nearly all, or one that is nearly as it is leaves only noise: other circles hardly tell its size,
+    but that it is there. What errs by more than all that it explains is not excused either, but where the other circles
+    hold geometry so badly that it leads away.
 
     Parameters
     ----------
@@ -66,6 +67,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
         return False
     by_formulas = explained_by_formulas(search, node)
     error = missed(search, node)
+    if by_formulas >= criteria.form_explains:
+        missed_most = criteria.missed_most
     if error > criteria.missed_bent or not (checked.excused or error <= missed_most or _is_exact(search, node)):
         # Where geometry makes much of little, what else explains enough and errs no more is named beside it.
         return is_one and by_formulas >= criteria.form_explains and _geometry_misses(search, node)

@@ -35,7 +35,8 @@ def test_one_of_two_faults_that_is_a_lead_makes_both_one() -> None:
     found = [Named(f"{each.kind}:{','.join(map(str, each.elements))}".rstrip(":"), "effect") for each in labels]
     assert outcome_of("effect", found, labels) == "right"
     assert outcome_of("unknown", found, labels) == "lead"
-    assert outcome_of("effect", found[:1], labels) == "false"
+    assert outcome_of("effect", found[:1], labels) == "missed"
+    assert outcome_of("effect", [found[0], Named("gravity_sag", "effect")], labels) == "false"
 
 
 def test_an_ambiguous_verdict_names_the_truth_or_misses_it() -> None:

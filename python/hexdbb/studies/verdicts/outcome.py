@@ -93,7 +93,7 @@ def outcome_of(grade: str, found: Sequence[Named], labels: Sequence[Label], with
     if not labels:
         return "right" if grade == "none" else "false"
     results = [
-        _named(grade, found, label)
+        _named(grade, found, label, labels)
         if label.catalogued and label.kind not in withheld
         else _learned(grade, found, label)
         for label in labels
@@ -103,8 +103,13 @@ def outcome_of(grade: str, found: Sequence[Named], labels: Sequence[Label], with
     return min(results, key=ORDER.index)
 
 
-def _named(grade: str, found: Sequence[Named], label: Label) -> str:
-    accepted = {label.kind, *(each.effect for each in label.equivalents if each.effect)}
+def _accepted(label: Label) -> set[str]:
+    """Return the effects that say what is hidden."""
+    return {label.kind, *(each.effect for each in label.equivalents if each.effect)}
+
+
+def _named(grade: str, found: Sequence[Named], label: Label, labels: Sequence[Label]) -> str:
+    accepted = _accepted(label)
     for each in found:
         effect, _, elements = each.name.partition(":")
         rivals = {name.partition(":")[0] for rival in each.rivals for name in rival.split(" + ")}
@@ -122,11 +127,14 @@ def _named(grade: str, found: Sequence[Named], label: Label) -> str:
             return "right" if not right or effect != label.kind or named & (right | neighbours) else "element"
         if each.grade == "ambiguous" and rivals & accepted:
             return "ambiguous"
-    return "false" if grade == "effect" else "missed"
+    # Another fault that is named is not false: this one is what is left.
+    true = set().union(*map(_accepted, labels))
+    is_false = grade == "effect" and any(each.name.partition(":")[0] not in true for each in found)
+    return "false" if is_false else "missed"
 
 
 def _learned(grade: str, found: Sequence[Named], label: Label) -> str:
-    accepted = {each.effect for each in label.equivalents if each.effect}
+    accepted = _accepted(label) - {label.kind}
     results = ["missed"]
     for each in found:
         rivals = [part for rival in each.rivals for part in rival.split(" + ")]
