@@ -147,8 +147,9 @@ class Criteria:
         calibration has, reach 0.76, those that stood in for faults outside the catalogue 0.8 to 1.2.
     missed_sure : float
         The same above which they are not named for sure: of forty effects up to 20 % off, ten times the noise, all
-        whose formula bends had 0.3 and less, drifting legs that stood in for a screw 0.78. Where formulas explain nearly
-        all (`form_explains`) it is `missed_most`: of true pairs those had up to 0.73, of what stood in 1.03 and more.
+        whose formula bends had 0.3 and less, drifting legs that stood in for a screw 0.78. Where formulas explain
+        nearly all (`form_explains`) it is `missed_most`: of true pairs those had up to 0.73, of what stood in 1.03 and
+        more.
     missed_bent : float
         The same above which nothing is named for sure, nor one effect that its form excuses, nor one whose formula,
         hardly bent, leaves only noise. Of sixty effects up to 20 % off, those that left only noise had 0.9 and less;
