@@ -38,6 +38,7 @@ NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 MAX_PREPARED = 400_000
 """Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
 test, sweep by sweep, so that memory does not grow by them."""
+FREQUENCIES = 64
 MOST_KEPT = 0.95
 """Part of the one before that a reading keeps, at most: noise that lasts for twenty readings and more is as smooth as a
 fault, and no single lap tells them apart."""
@@ -184,20 +185,23 @@ def _lowest_over_rest(rows: Sequence[int], correlation: float) -> float:
     correlation : float
         Of neighbours, the lowest harmonics taken away.
     """
-    frequency = [2.0 * np.pi * np.arange(each // 2 + 1) / each for each in rows]
-    lowest = np.concatenate([each[: HARMONICS + 1] for each in frequency])
-    rest = np.concatenate([each[HARMONICS + 1 :] for each in frequency])
+    lowest = np.concatenate([np.arange(HARMONICS + 1) / each for each in rows])
+    # Power changes slowly over the rest: some frequencies of it, of a weight each, tell its mean.
+    rest = np.concatenate([np.linspace(HARMONICS + 1, each / 2, FREQUENCIES) / each for each in rows])
+    weight = np.repeat([each / 2 - HARMONICS for each in rows], FREQUENCIES)
+    weight = weight / weight.sum()
+    neighbouring = weight * np.cos(2.0 * np.pi * rest)
     low, high = 0.0, MOST_KEPT
     for _ in range(20):
         middle = 0.5 * (low + high)
         power = _power(rest, middle)
-        low, high = (middle, high) if power @ np.cos(rest) < correlation * power.sum() else (low, middle)
-    return float(_power(lowest, low).mean() / _power(rest, low).mean())
+        low, high = (middle, high) if power @ neighbouring < correlation * (power @ weight) else (low, middle)
+    return float(_power(lowest, low).mean() / (_power(rest, low) @ weight))
 
 
 def _power(frequency: Floats, kept: float) -> Floats:
-    """Return the power of noise of which a reading keeps a part; frequency in radians a reading."""
-    found: Floats = 1.0 / (1.0 - 2.0 * kept * np.cos(frequency) + kept**2)
+    """Return the power of noise of which a reading keeps a part; frequency in periods a reading."""
+    found: Floats = 1.0 / (1.0 - 2.0 * kept * np.cos(2.0 * np.pi * frequency) + kept**2)
     return found
 
 
