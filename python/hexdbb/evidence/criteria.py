@@ -156,8 +156,8 @@ class Criteria:
         four that stood in for other causes had 2.0 to 3.7. The value is between the two.
     leads_away : float
         Error of geometry alone on what was left out, over what it leaves where fitted, from which that says nothing of
-        one effect whose formula explains nearly all (`form_explains`): circles that hold geometry leave it at 3 to 7,
-        others at 16 to 150.
+        one effect whose formula explains nearly all (`form_explains`), nor for several whose formulas do not: circles
+        that hold geometry leave it at 3 to 7, others at 16 to 150.
     far_better : float
         Known effects together stand before one that its form excuses where they err by less than this part of its
         error: a true pair erred by 0.28 of it, the same with a wrong element by 0.49 and more.

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import missed_of
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
@@ -44,11 +46,11 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     One effect of another form need not predict circles that geometry alone does not predict either. Several that are
     excused so together, or of which one is of quite another form, were put together to fit: each takes what the others
     leave. So was one that is excused, or several, whose formulas explain little of what the functions of their forms
-    do; of several that leave something these must explain enough. And what errs on circles left out by half of all that
-    it explains where fitted may stand in for something else, however much worse geometry alone errs; by more, where
-    formulas explain nearly all, or one that is nearly as it is leaves only noise: other circles hardly tell its size,
-    but that it is there. What errs by more than all that it explains is not excused either, but where the other circles
-    hold geometry so badly that it leads away.
+    do; of several that leave something, or where circles hardly hold geometry, these must explain enough. And what errs
+    on circles left out by half of all that it explains where fitted may stand in for something else, however much worse
+    geometry alone errs; by more, where formulas explain nearly all, or one that is nearly as it is leaves only noise:
+    other circles hardly tell its size, but that it is there. What errs by more than all that it explains is not excused
+    either, but where the other circles hold geometry so badly that it leads away.
 
     Parameters
     ----------
@@ -74,19 +76,28 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
         return is_one and by_formulas >= criteria.form_explains and _geometry_misses(search, node)
     if is_one and not checked.excused:
         return True
-    is_all = is_one or is_complete(search, node)
+    is_all = is_one or (is_complete(search, node) and not _leads_away(search, _held(search, node)))
     return by_formulas >= (criteria.formula_explains if is_all else criteria.explained_min)
+
+
+def _held(search: Search, node: Node) -> list[HeldOut]:
+    return [held for grouping, held in search.checked(node).heldout.items() if grouping != ARC]
 
 
 def _geometry_misses(search: Search, node: Node) -> bool:
     """Check that geometry leads away wherever one known effect misses much: nothing could predict that."""
-    held = [held for grouping, held in search.checked(node).heldout.items() if grouping != ARC]
-    before = search.root.trial.left**0.5
-    return node.is_known and all(
-        each.before > search.criteria.leads_away * before
-        for each in held
+    missing = [
+        each
+        for each in _held(search, node)
         if missed_of(each, node.trial, search.root.trial) > search.criteria.missed_sure
-    )
+    ]
+    return node.is_known and all(_leads_away(search, [each]) for each in missing)
+
+
+def _leads_away(search: Search, held: Sequence[HeldOut]) -> bool:
+    """Check whether the readings left in hold geometry so badly that what is left out says nothing."""
+    before = search.root.trial.left**0.5
+    return any(each.before > search.criteria.leads_away * before for each in held)
 
 
 def _is_exact(search: Search, node: Node) -> bool:

@@ -97,16 +97,22 @@ def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, 
     assert asked(form, before=before_um, missed=5.0, left=left) is sure_of_it
 
 
-@pytest.mark.parametrize(("left", "sure_of_it"), [(5.0, True), (8.0, False)], ids=["by formulas", "by forms"])
-def test_several_explain_enough_by_their_formulas(left: float, sure_of_it: bool) -> None:
+@pytest.mark.parametrize(
+    ("left", "missed", "before", "sure_of_it"),
+    [(5.0, 1.2, 1.0, True), (8.0, 1.2, 1.0, False), (8.0, 0.3, 1.0, True), (8.0, 0.3, 11.0, False)],
+    ids=["by formulas", "by forms", "by forms that predict", "by forms that nothing tests"],
+)
+def test_several_explain_enough_by_their_formulas(left: float, missed: float, before: float, sure_of_it: bool) -> None:
     """What they miss is that of their formulas: the functions of a form lead away beside another cause."""
-    node: Any = SimpleNamespace(
-        members=(LEGS, SCREW), is_known=True, trial=SimpleNamespace(left=1.0, forms=(None, None))
-    )
+    trial = SimpleNamespace(left=1.0, forms=(None, None))
+    node: Any = SimpleNamespace(members=(LEGS, SCREW), is_known=True, trial=trial)
+    heldout = {"circle": held(before * BEFORE**0.5, 1.0)}
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
         left_by_formulas=lambda trial: left,
-        checked=lambda node: SimpleNamespace(share=1.0, excused=False, missed=1.2, missed_at_least=0.4, heldout={}),
+        checked=lambda node: SimpleNamespace(
+            share=1.0, excused=False, missed=missed, missed_at_least=0.4, heldout=heldout
+        ),
     )
     assert is_for_sure(search, node) is sure_of_it
