@@ -1,7 +1,8 @@
-"""Records of a simulator that shares nothing with the project: forms like the catalogue's, not equal to them.
+"""Records of simulators that share nothing with the project: forms like the catalogue's, not equal to them.
 
-`tests/data/foreign`: standard circles, two feeds, both directions, 0.5 µm noise, random geometry, one fault each. Asked
-is what a fitter needs: the right class of verdict, the right place, no value that physics excludes.
+`tests/data/foreign`: standard circles, two feeds, both directions, 0.5 µm noise, random geometry, one fault each; and
+of another simulator, on plans and with noise of its own, what once went wrong. Asked is what a fitter needs: the right
+class of verdict, the right place, no value that physics excludes.
 """
 
 from __future__ import annotations
@@ -75,3 +76,23 @@ def test_with_the_true_effect_withheld_nothing_false_is_named() -> None:
     assert found.causes[0].choice.startswith("learned:leg:5:")
     assert "leg 5" in found.sentence and "turning" in found.sentence
     assert found.structure or found.causes
+
+
+def test_a_pitch_error_sampled_twice_a_turn_is_found_whole() -> None:
+    """12,800 readings on a screw of 5 mm, which turns by half between them: thirty times the noise."""
+    found = found_in("sparse-pitch")
+    assert found.verdict == "effect"
+    assert found.best is not None and found.best.choice == "pitch_cyclic:3"
+    assert found.best.share > 0.9
+
+
+def test_noise_that_lasts_for_some_readings_is_nothing_missing() -> None:
+    """Each reading of single laps keeps half of the noise of the one before it."""
+    assert found_in("lasting-noise").verdict == "none"
+
+
+def test_what_circles_that_hardly_hold_geometry_predict_makes_nothing_sure() -> None:
+    """A joint's ball with five lobes; centres off their places and a bow bend together to fit it."""
+    found = found_in("joint-lobes")
+    assert found.verdict in ("unknown", "ambiguous")
+    assert not [each for each in found.causes if each.verdict == "effect"]
