@@ -39,6 +39,7 @@ MAX_PREPARED = 400_000
 """Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
 test, sweep by sweep, so that memory does not grow by them."""
 FREQUENCIES = 64
+"""Frequencies of a sweep at which the power of lasting noise is summed: it has one bend, which some ten describe."""
 MOST_KEPT = 0.95
 """Part of the one before that a reading keeps, at most: noise that lasts for twenty readings and more is as smooth as a
 fault, and no single lap tells them apart."""

@@ -69,17 +69,13 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
-    missed = max((missed_of(held, trial, base) for held in claimed), default=0.0)
-    at_least = max((_missed(held.after, held, trial, base) for held in claimed), default=0.0)
+    missed = max((missed_of(held, held.as_fitted, trial, base) for held in claimed), default=0.0)
+    at_least = max((missed_of(held, held.after, trial, base) for held in claimed), default=0.0)
     return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least)
 
 
-def missed_of(held: HeldOut, trial: Trial, base: Trial) -> float:
-    """Return the error of a grouping beyond what is expected, forms as fitted, over what is explained where fitted."""
-    return _missed(held.as_fitted, held, trial, base)
-
-
-def _missed(error: float, held: HeldOut, trial: Trial, base: Trial) -> float:
+def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial) -> float:
+    """Return an error of a grouping beyond what is expected of it, over what is explained where fitted."""
     beyond = error**2 - held.expected**2 * max(trial.left, 1.0)
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 

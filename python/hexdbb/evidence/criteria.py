@@ -273,5 +273,10 @@ class Criteria:
     form_described: float = 0.05
     of_size: float = 0.25
 
+    @property
+    def form_variance(self) -> float:
+        """Part of what causes explain that their forms may leave, at most."""
+        return self.secondary * self.form_sigma**2
+
 
 DEFAULT = Criteria()

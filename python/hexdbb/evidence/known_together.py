@@ -23,16 +23,14 @@ def or_known_together(search: Search, best: Node) -> Node:
     """
     found = [best]
     alone = {each.hypotheses[0]: each for each in search.nodes if explains_all_alone(search, each)}
-    predicts_alone = any(
-        not (search.checked(each).excused or rests_on_form(search, each.trial)) for each in alone.values()
-    )
+    predicts_alone = not all(_stands_by_form(search, each) for each in alone.values())
     for together in known_sets(search, 2 if predicts_alone else search.criteria.max_effects):
         # Nothing is left for one more where fewer explain all, and predict it as well as they explain it.
         if any(len(each.members) < len(together.members) and leaves_nothing(search, each) for each in found[1:]):
             break
         # What explains all alone may be of an odd form because of another: only where the two predict.
         in_form = [alone[each] for each in together.effects if each in alone]
-        if not all(_may_be_another(search, each) for each in in_form):
+        if not all(leaves_room(search, each) or _stands_by_form(search, each) for each in in_form):
             continue
         node = _fitted(search, tuple(Member(each.known) for each in together.members))
         # What does not predict is told by one pass over the readings, what is needed by fits of every smaller set.
@@ -44,9 +42,9 @@ def or_known_together(search: Search, best: Node) -> Node:
     return best_of(search, best, found[1:])
 
 
-def _may_be_another(search: Search, alone: Node) -> bool:
-    """Check that an effect which explains all alone leaves room for another, or explains much by its form."""
-    return leaves_room(search, alone) or search.checked(alone).excused or rests_on_form(search, alone.trial)
+def _stands_by_form(search: Search, alone: Node) -> bool:
+    """Check for an effect that only its form excuses from predicting, or that explains much by its form only."""
+    return search.checked(alone).excused or rests_on_form(search, alone.trial)
 
 
 def _stands(search: Search, node: Node, best: Node, alone: Sequence[Node]) -> bool:

@@ -67,8 +67,7 @@ def by_formulas_instead(search: Search, node: Node, fewer: Trial) -> bool:
 
 def of_forms(search: Search, trial: Trial) -> float:
     """Return what the forms of a set, and of the effects in the model, may explain, in noise variances."""
-    before = search.root.trial.left - trial.left + search.trials.explained_before
-    return search.criteria.secondary * search.criteria.form_sigma**2 * before
+    return search.criteria.form_variance * explained(search, trial)
 
 
 def _instead(search: Search, node: Node, fewer: Trial) -> bool:
@@ -106,13 +105,12 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     criteria, trials = search.criteria, search.trials
     others = trials.of(_without(node, member))
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
-    before = search.root.trial.left - others.left + trials.explained_before
     beyond = others.left - node.trial.left
     if gain < criteria.detect_nats:
         return False
     if _instead(search, node, others):
         return True
-    if beyond < criteria.form_described**2 * before:
+    if beyond < criteria.form_described**2 * explained(search, others):
         return False
     least = of_forms(search, others)
     if beyond >= least or search.checked_trial(others).reasons:
@@ -134,7 +132,7 @@ def _are_of_size(search: Search, node: Node) -> bool:
     sizes = _sizes(search, node)
     if len(sizes) < max(len(node.members), SLOW_DRIFTS):
         return True
-    ratio = sum(sizes.values()) / max(explained(search, node), 1e-9)
+    ratio = sum(sizes.values()) / max(explained(search, node.trial), 1e-9)
     return search.criteria.of_size <= ratio <= 1.0 / search.criteria.of_size
 
 

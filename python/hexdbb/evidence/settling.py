@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from hexdbb.evidence.node import Node
     from hexdbb.evidence.search import Search
+    from hexdbb.evidence.trial import Trial
 
 NOTHING_LEFT = 0.03
 """Mean square beyond the noise, in noise variances, that is none: a standard deviation of the mean square of 2,000
@@ -43,12 +44,12 @@ def leaves_room(search: Search, node: Node) -> bool:
 
 def must_explain(search: Search, node: Node) -> float:
     """Return what a further effect must explain of what a set leaves, in noise variances: more than forms may hide."""
-    return search.criteria.form_described**2 * explained(search, node)
+    return search.criteria.form_described**2 * explained(search, node.trial)
 
 
-def explained(search: Search, node: Node) -> float:
+def explained(search: Search, trial: Trial) -> float:
     """Return what a set and the effects in the model explain, in noise variances."""
-    return search.root.trial.left - node.trial.left + search.trials.explained_before
+    return search.root.trial.left - trial.left + search.trials.explained_before
 
 
 def settles(search: Search, node: Node) -> bool:

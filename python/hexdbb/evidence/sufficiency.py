@@ -43,6 +43,6 @@ def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: floa
             explained_um(engine.part, engine.base, predict(engine.part, engine.base).residual_mm),
         )
     # The variance below which the search looks for no further cause: to ask for one there would never end.
-    by_form = criteria.secondary * criteria.form_sigma**2 * trials.explained_before
+    by_form = criteria.form_variance * trials.explained_before
     form_um = float(np.sqrt(by_form)) * lack.noise_um
     return Sufficiency(lack, max(matters_um, form_um))

@@ -41,16 +41,10 @@ def _explain_unrefined(search: Search, node: Node) -> bool:
 
 
 def is_for_sure(search: Search, node: Node, missed_most: float | None = None) -> bool:
-    """Check that causes together explain enough to be named for sure.
+    """Check that causes together explain enough, and err little enough elsewhere, to be named for sure.
 
-    One effect of another form need not predict circles that geometry alone does not predict either. Several that are
-    excused so together, or of which one is of quite another form, were put together to fit: each takes what the others
-    leave. So was one that is excused, or several, whose formulas explain little of what the functions of their forms
-    do; of several that leave something, or where circles hardly hold geometry, these must explain enough. And what errs
-    on circles left out by half of all that it explains where fitted may stand in for something else, however much worse
-    geometry alone errs; by more, where formulas explain nearly all, or one that is nearly as it is leaves only noise:
-    other circles hardly tell its size, but that it is there. What errs by more than all that it explains is not excused
-    either, but where the other circles hold geometry so badly that it leads away.
+    One effect that its form excuses from predicting may still be the cause, where its formula explains a part. Several
+    must explain more by their formulas: functions of forms, free enough, stand in for something else.
 
     Parameters
     ----------
@@ -59,25 +53,50 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     missed_most : float, optional
         Part of what is explained by which it may err on what was left out; `Criteria.missed_sure` where not given.
     """
-    criteria = search.criteria
-    missed_most = criteria.missed_sure if missed_most is None else missed_most
+    missed_most = search.criteria.missed_sure if missed_most is None else missed_most
     checked, is_one = search.checked(node), len(node.members) == 1
-    if checked.share < criteria.explained_min or (checked.excused and not is_one):
+    if checked.share < search.criteria.explained_min or _is_put_together(search, node):
         return False
-    deviation = max((form.deviation for form in node.trial.forms if form is not None), default=0.0)
-    if not is_one and deviation > criteria.form_named:
-        return False
-    by_formulas = explained_by_formulas(search, node)
-    error = missed(search, node)
-    if by_formulas >= criteria.form_explains:
-        missed_most = criteria.missed_most
-    if error > criteria.missed_bent or not (checked.excused or error <= missed_most or _is_exact(search, node)):
-        # Where geometry makes much of little, what else explains enough and errs no more is named beside it.
-        return is_one and by_formulas >= criteria.form_explains and _geometry_misses(search, node)
+    if not _errs_little(search, node, missed_most):
+        return is_one and _explains_by_formulas(search, node) and _geometry_misses(search, node)
     if is_one and not checked.excused:
         return True
-    is_all = is_one or (is_complete(search, node) and not _leads_away(search, _held(search, node)))
-    return by_formulas >= (criteria.formula_explains if is_all else criteria.explained_min)
+    return explained_by_formulas(search, node) >= _least_by_formulas(search, node)
+
+
+def _is_put_together(search: Search, node: Node) -> bool:
+    """Check for several excused from predicting, or one among them of quite another form: each takes what others leave.
+
+    So it fits, whatever is true.
+    """
+    deviation = max((form.deviation for form in node.trial.forms if form is not None), default=0.0)
+    is_odd = search.checked(node).excused or deviation > search.criteria.form_named
+    return len(node.members) > 1 and is_odd
+
+
+def _errs_little(search: Search, node: Node, missed_most: float) -> bool:
+    """Check that a set errs little on what was left out, against all that it explains where fitted.
+
+    What errs by half of that may stand in for something else, however much worse geometry alone errs. By more where
+    formulas explain nearly all, or one that is nearly as it is leaves only noise: other circles hardly tell its size,
+    but that it is there. By more than all not even what its form excuses.
+    """
+    error = missed(search, node)
+    most = search.criteria.missed_most if _explains_by_formulas(search, node) else missed_most
+    is_excused = search.checked(node).excused or _is_exact(search, node)
+    return error <= search.criteria.missed_bent and (is_excused or error <= most)
+
+
+def _explains_by_formulas(search: Search, node: Node) -> bool:
+    """Check that formulas explain nearly all."""
+    return explained_by_formulas(search, node) >= search.criteria.form_explains
+
+
+def _least_by_formulas(search: Search, node: Node) -> float:
+    """Return what formulas must explain: more of several that leave something, or that nothing left out tests."""
+    if len(node.members) == 1 or (is_complete(search, node) and not _leads_away(search, _held(search, node))):
+        return search.criteria.formula_explains
+    return search.criteria.explained_min
 
 
 def _held(search: Search, node: Node) -> list[HeldOut]:
@@ -85,11 +104,14 @@ def _held(search: Search, node: Node) -> list[HeldOut]:
 
 
 def _geometry_misses(search: Search, node: Node) -> bool:
-    """Check that geometry leads away wherever one known effect misses much: nothing could predict that."""
+    """Check that geometry leads away wherever one known effect misses much: nothing could predict that.
+
+    What else explains enough and errs no more is named beside it (`rivals.py`).
+    """
     missing = [
         each
         for each in _held(search, node)
-        if missed_of(each, node.trial, search.root.trial) > search.criteria.missed_sure
+        if missed_of(each, each.as_fitted, node.trial, search.root.trial) > search.criteria.missed_sure
     ]
     return node.is_known and all(_leads_away(search, [each]) for each in missing)
 
