@@ -193,6 +193,10 @@ class Criteria:
     form_described : float
         Part of a form that the functions beside an effect leave undescribed, at most: a further known effect, itself
         larger than forms may be off, must explain more than its square where others stand in for most of it.
+    no_form : float
+        Multiple of what any function at the causes' own places explains that a further known effect must explain to be
+        no form of theirs, however small beside them: true ones a tenth as large had 2.6 and more, one that stood in for
+        a form 1.2.
     of_size : float
         Part of what three and more known effects explain that the squares of what they push beyond geometry must sum
         to, and one over it the most: of true triples it is 0.34 to 2.6; three drifts that stood in for a ball off its
@@ -271,6 +275,7 @@ class Criteria:
     same_kind_share: float = 0.05
     secondary: float = 2.0
     form_described: float = 0.05
+    no_form: float = 2.0
     of_size: float = 0.25
 
     @property

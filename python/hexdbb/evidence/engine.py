@@ -148,7 +148,7 @@ class Engine:
 
     def prior_scale(self, model: Model) -> Floats:
         """Return factors on the prior standard deviations, those of the one effect that is tried: shape (size,)."""
-        return prior_scale(model, self._mine(), {(effect, at[0]) for effect, at, _ in self._present}, self.criteria)
+        return prior_scale(model, self._mine(), self._there, self.criteria)
 
     def _scale_of(self, model: Model, residual: Floats) -> Floats:
         """Return the factors where they count: where the effect, held back, explains nearly all as it is.
@@ -162,12 +162,19 @@ class Engine:
         return scale if left - 1.0 < self.criteria.complete * (self._left_before - 1.0) else np.ones(len(scale))
 
     @cached_property
-    def _present(self) -> list[tuple[str, tuple[str, ...], bool]]:
-        return self.present()
+    def _there(self) -> set[tuple[str, str]]:
+        """Effects and elements that the model has, learned functions in either form: none is the one that is tried."""
+        return {
+            (each.effect, each.element)
+            for model in (self.base, self.start)
+            for each, is_free in zip(model.parameters(), model.free, strict=True)
+            if is_free
+        }
 
     @cached_property
     def _left_before(self) -> float:
-        return float(np.mean(self.linearised(self.start).linear.residual ** 2))
+        prediction = _core.predict(*self.plain(self.start))
+        return float(np.mean(((self.reading_mm - prediction.reading_mm) / self.row_noise_mm) ** 2))
 
     def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats) -> Model:
         """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""

@@ -155,6 +155,6 @@ def _known_for(search: Search, names: list[str]) -> list[Known]:
     for name, kin in search.kin.items():
         if kin & set(names):
             effect, _, elements = name.partition(":")
-            whole = not elements
-            found.append(Known(effect, (elements or search.engine.base.info(effect).elements[0],), whole))
+            every = tuple(search.engine.base.info(effect).elements)
+            found.append(Known(effect, tuple(elements.split(",")) if elements else every, not elements))
     return found

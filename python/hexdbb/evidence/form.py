@@ -175,7 +175,8 @@ class Forms:
                 for each in places:
                     groups += discrepancy(each, self.criteria, is_set_up=is_set_up)
         assert len(readings) > 0
-        return float(np.sqrt(square)), list(dict.fromkeys(groups))
+        groups = list(dict.fromkeys(groups))
+        return float(np.sqrt(square)), groups if len(known.elements) == 1 else _by_variable(groups)
 
     def _homes_of(self, parameter: Parameter, fitted: Fitted, place: int) -> list[Home]:
         """Return the homes of a value's signature; those of an effect of one shape are the same in every trial."""
@@ -210,6 +211,14 @@ class Forms:
                 there.setdefault(element, []).append(each)
         is_there = bool(there[parameter.element]) and str(ALL) not in there
         return [place for place in there.values() if place] if is_there else [homes]
+
+
+def _by_variable(groups: Sequence[tuple[Learned, ...]]) -> list[tuple[Learned, ...]]:
+    """Put functions of one variable together: of an effect at several elements each has a form of its own."""
+    found: dict[tuple[str, str], dict[Learned, None]] = {}
+    for group in groups:
+        found.setdefault((group[0].place, group[0].variable.name), {}).update(dict.fromkeys(group))
+    return [tuple(each) for each in found.values()]
 
 
 def _seen(coefficients: Floats, projected: Floats, whole: Floats) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from hexdbb.evidence.no_form import is_no_form
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.settling import explained, is_complete, is_doubtful, must_explain
 from hexdbb.evidence.trial import Member
@@ -44,7 +45,7 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
             return False
     if node.score <= than.score:
         return False
-    if len(node.members) <= len(than.members) or than.trial.left - node.trial.left > must_explain(search, than):
+    if node.faults <= than.faults or than.trial.left - node.trial.left > must_explain(search, than):
         return True
     return _instead(search, node, than.trial)
 
@@ -75,8 +76,10 @@ def _instead(search: Search, node: Node, fewer: Trial) -> bool:
 
 
 def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
-    """Check that known effects predict what fewer hypotheses are only excused from by their forms."""
-    return node.is_known and search.checked_trial(fewer).excused and not is_doubtful(search, node)
+    """Check that known effects predict, far better, what fewer hypotheses are only excused from by their forms."""
+    if not (node.is_known and search.checked_trial(fewer).excused) or is_doubtful(search, node):
+        return False
+    return search.checked(node).missed < search.criteria.far_better * search.checked_trial(fewer).missed
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
@@ -115,7 +118,8 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     least = of_forms(search, others)
     if beyond >= least or search.checked_trial(others).reasons:
         return True
-    return isinstance(member.hypothesis, Known) and _is_of_size(search, node, member.hypothesis, least)
+    known = member.hypothesis
+    return isinstance(known, Known) and (_is_of_size(search, node, known, least) or is_no_form(search, node, member))
 
 
 def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:

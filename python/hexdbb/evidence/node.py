@@ -29,3 +29,8 @@ class Node:
     def is_known(self) -> bool:
         """Whether all are known effects."""
         return all(isinstance(each, Known) for each in self.hypotheses)
+
+    @property
+    def faults(self) -> int:
+        """How many faults they are: an effect at several elements is one at each."""
+        return sum(len(each.elements) if isinstance(each, Known) else 1 for each in self.hypotheses)

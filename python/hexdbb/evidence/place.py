@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.screen import Hypothesis
-from hexdbb.evidence.search import Search
+from hexdbb.evidence.signatures import all_varying
 from hexdbb.learned import Learned, part_of
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.readings import Linear
+    from hexdbb.evidence.search import Search
+    from hexdbb.evidence.trial import Trial
+
+Places = set[tuple[str, int]]
+"""Parts of the machine and their elements."""
 
 
 def at_its_place(search: Search, cause: Hypothesis, learned: Learned) -> bool:
@@ -27,6 +38,43 @@ def homes_of(search: Search, cause: Hypothesis) -> list[Learned]:
         return kin
     ports = search.engine.absent.ports(cause.effect)
     return [each for each in kin if each.port in ports]
+
+
+def functions_at(search: Search, trial: Trial, linear: Linear, places: Places | None = None) -> list[Learned]:
+    """Return the functions at some places, or at those of the causes, those of single elements where a cause has all.
+
+    What changes with time is no form of what does not.
+
+    Parameters
+    ----------
+    search : Search
+    trial : Trial
+        Of the causes.
+    linear : Linear
+        About it, by which the readings propose functions.
+    places : set of (str, int), optional
+    """
+    causes = [each.hypothesis for each in trial.members]
+    places = places or {(part_of(each), each.element) for cause in causes for each in homes_of(search, cause)}
+    known = {each.name for each in causes}
+    readings, criteria = search.engine.readings, search.criteria
+    with_time = trial.is_free_in_time
+    proposed = (
+        proposals(linear, readings, search.thinned, criteria) if with_time else [*periods(linear, readings, criteria)]
+    )
+    search.learnable.propose(proposed)
+    of_forms = all_varying(readings, of_forms=True)
+    further = search.learnable.further.values() if any(map(search.learnable.is_further, causes)) else ()
+    every = dict.fromkeys(
+        (*search.learnable.simple, *of_forms, *search.learnable.products, *further, *(p.hypothesis for p in proposed))
+    )
+    return [
+        each
+        for each in every
+        if any(each.is_within(*place) for place in places)
+        and each.name not in known
+        and (with_time or not each.is_of_time)
+    ]
 
 
 def _kin_of(search: Search, cause: Hypothesis) -> list[Learned]:

@@ -11,19 +11,15 @@ from itertools import islice
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.place import homes_of
-from hexdbb.evidence.proposals import periods, proposals
+from hexdbb.evidence.place import Places, functions_at
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known, Scored, Screen
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.signatures import all_varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import retunings, with_other_splines
 from hexdbb.learned import Learned, part_of
 
-Places = set[tuple[str, int]]
-"""Parts of the machine and their elements."""
 TRIED = 2
 """Tunings of a function that get a full fit: what has the most evidence to first order may not predict."""
 
@@ -98,7 +94,7 @@ def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | 
     linear = search.trials.linear(node.trial)
     screen = Screen(Sums(linear, search.engine.readings, ("circle",)), search.criteria, search.thinned)
     worth = [
-        each for each in screen.learned(_at_the_places(search, node, linear, places)) if _is_asked_for(search, each)
+        each for each in screen.learned(functions_at(search, node.trial, linear, places)) if _is_asked_for(search, each)
     ]
     variables = {each.variable.name for each in node.hypotheses if isinstance(each, Learned)}
     most = 1.0 + (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0)
@@ -151,30 +147,3 @@ def _is_asked_for(search: Search, scored: Scored) -> bool:
     gain = scored.log_evidence + search.log_prior(scored.hypothesis)
     least = search.criteria.refined_heldout_min
     return gain > search.criteria.detect_nats and (scored.heldout_share > least or scored.hypothesis.is_of_time)
-
-
-def _at_the_places(search: Search, node: Node, linear: Linear, places: Places | None) -> list[Learned]:
-    """Return the functions at some places, or at those of the causes, those of single elements where a cause has all.
-
-    What changes with time is no form of what does not.
-    """
-    places = places or {(part_of(each), each.element) for cause in node.hypotheses for each in homes_of(search, cause)}
-    known = {each.name for each in node.hypotheses}
-    readings, criteria = search.engine.readings, search.criteria
-    with_time = node.trial.is_free_in_time
-    proposed = (
-        proposals(linear, readings, search.thinned, criteria) if with_time else [*periods(linear, readings, criteria)]
-    )
-    search.learnable.propose(proposed)
-    of_forms = all_varying(readings, of_forms=True)
-    further = search.learnable.further.values() if any(map(search.learnable.is_further, node.hypotheses)) else ()
-    every = dict.fromkeys(
-        (*search.learnable.simple, *of_forms, *search.learnable.products, *further, *(p.hypothesis for p in proposed))
-    )
-    return [
-        each
-        for each in every
-        if any(each.is_within(*place) for place in places)
-        and each.name not in known
-        and (with_time or not each.is_of_time)
-    ]

@@ -12,7 +12,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_complete
+from hexdbb.evidence.settling import is_complete, must_explain
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
 
@@ -148,7 +148,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
 
     Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions.
     """
-    left = search.left_by_formulas(node.trial)
+    left, spare = search.left_by_formulas(node.trial), must_explain(search, node)
     found = (
         " + ".join(sorted(other.trial.names))
         for other, _ in _without(search, node, cause)
@@ -156,6 +156,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         and len(other.members) == len(node.members)
         and not _has_effect(other, cause)
         and is_complete(search, other)
+        and other.trial.left - node.trial.left < spare
         and not search.checked(other).reasons
         and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
     )

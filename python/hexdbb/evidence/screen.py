@@ -104,6 +104,11 @@ class Screen:
         scored, block = self._of(hypothesis)
         return replace(scored, heldout_share=self._heldout_share(block, scored.marginal))
 
+    def most_explained(self, hypotheses: Sequence[Learned]) -> float:
+        """Return the largest share that one of some learned hypotheses explains, of the few with the most evidence."""
+        ranked = self._ranked(hypotheses)[: self.criteria.full_fits]
+        return max((self._of(each)[0].share for each in ranked), default=0.0)
+
     def _of(self, hypothesis: Learned) -> tuple[Scored, Block]:
         space = signature_of(hypothesis, self.sums.readings)
         block = self.sums.block(space.table)
@@ -136,6 +141,11 @@ class Screen:
             sizes = np.array(self.criteria.catalogue_scale)
             scored.append((self._scored(known, own, [np.eye(len(at))], sizes), own))
         return self._held_out(scored)
+
+    def at_several(self, known: Known, signatures: Floats) -> Scored:
+        """Score an effect at several of its elements together, not held out; signatures of shape (n, k)."""
+        sizes = np.array(self.criteria.catalogue_scale)
+        return self._scored(known, self.sums.block(signatures), [np.eye(signatures.shape[1])], sizes)
 
     def _held_out(self, scored: list[tuple[Scored, Block]]) -> list[Scored]:
         """Add the held-out shares of those with the largest evidence."""

@@ -34,22 +34,37 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
     screen : Screen
         Of its linearisation.
     """
-    engine, criteria = search.engine, search.criteria
-    present = {each.hypothesis for each in base.members}
-    signatures, whose = engine.absent.signatures(base.model, search.known)
-    kinds = {name for name in search.known if search.is_whole(name)}
-    scored = screen.known(signatures, whose, kinds)
-    shaped = [name for name in search.known if engine.absent.has_shape(name)]
-    for shape in filter(None, criteria.shape_starts if shaped else ()):
-        scored = better_shaped(scored, screen.known(*engine.absent.signatures(base.model, shaped, shape), kinds))
-    known = [each for each in scored if each.hypothesis not in present]
+    known = known_beside(search, base, screen)
     if not search.learns:
         return known, []
-    proposed = proposals(screen.sums.linear, engine.readings, search.thinned, criteria)
+    engine = search.engine
+    signatures, whose = engine.absent.signatures(base.model, search.known)
+    proposed = proposals(screen.sums.linear, engine.readings, search.thinned, search.criteria)
     search.learnable.propose(proposed)
     _add_kin(search, screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
     every = [*search.learnable.simple, *(each.hypothesis for each in proposed)]
+    present = {each.hypothesis for each in base.members}
     return known, screen.learned([each for each in every if each not in present])
+
+
+def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
+    """Screen the known effects beside those of a trial.
+
+    Parameters
+    ----------
+    search : Search
+    base : Trial
+    screen : Screen
+        Of its linearisation.
+    """
+    absent = search.engine.absent
+    kinds = {name for name in search.known if search.is_whole(name)}
+    scored = screen.known(*absent.signatures(base.model, search.known), kinds)
+    shaped = [name for name in search.known if absent.has_shape(name)]
+    for shape in filter(None, search.criteria.shape_starts if shaped else ()):
+        scored = better_shaped(scored, screen.known(*absent.signatures(base.model, shaped, shape), kinds))
+    present = {each.hypothesis for each in base.members}
+    return [each for each in scored if each.hypothesis not in present]
 
 
 def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored]:
@@ -64,8 +79,10 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     """
     present = {each.hypothesis for each in base.members}
     every = [each for each in search.learnable.further.values() if each not in present]
-    # Those products that lend no functions to a known effect's form may still say the same as one.
-    others = [each for each in every if each.variable.times and each not in search.learnable.products]
+    # Those products that lend no functions to a known effect's form may still say the same as one, and so may those
+    # that push in both directions of a guideway.
+    others = [each for each in every if each.variable.times or each.components > 1]
+    others = [each for each in others if each not in search.learnable.products]
     _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
     return screen.learned(every)
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import Checked, check
+from hexdbb.evidence.beside import with_known_beside
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.formula import left_by_formulas
@@ -29,6 +30,7 @@ from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import in_other_words, screened, screened_further
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, settles
+from hexdbb.evidence.several import or_at_several, with_every_element
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
@@ -130,7 +132,7 @@ class Search:
             if is_complete(self, best) and not (is_doubtful(self, best) and rests_on_form(self, best.trial)):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
-        return best_of(self, best, [together])
+        return with_known_beside(self, or_at_several(self, best_of(self, best, [together])))
 
     def _asks_for_sets(self, best: Node) -> bool:
         """Check that what explains most alone leaves something, or is only excused, or explains much by its form."""
@@ -183,25 +185,29 @@ class Search:
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Check whether two hypotheses are one cause in different words."""
         if isinstance(one, Known) and isinstance(other, Known):
-            return one.name == other.name
+            return one.effect == other.effect and not set(one.elements).isdisjoint(other.elements)
         if isinstance(one, Known) or isinstance(other, Known):
             known, learned = (one, other) if isinstance(one, Known) else (other, one)
             return learned.name in self.kin.get(known.name, set())
         return (one.place, one.element) == (other.place, other.element)
 
     def _children(self, node: Node) -> list[Node]:
-        sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
-        screen = Screen(sums, self.criteria, self.thinned)
+        screen = self.screen(node)
         known, learned = screened(self, node.trial, screen)
         count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
         most = self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
-        found = self._tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
+        found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
         if self.learns and not any(settles(self, each) for each in found):
-            found += self._tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
+            found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 
-    def _tried(self, node: Node, every: Sequence[Scored]) -> list[Node]:
+    def screen(self, node: Node) -> Screen:
+        """Return what scores hypotheses beside those of a set."""
+        sums = Sums(self.trials.linear(node.trial), self.engine.readings, ("circle",))
+        return Screen(sums, self.criteria, self.thinned)
+
+    def tried(self, node: Node, every: Sequence[Scored]) -> list[Node]:
         """Fit sets with one more hypothesis each in full."""
         found = []
         trials = self.trials.each_of((*node.members, self.member(scored)) for scored in every)
@@ -210,8 +216,14 @@ class Search:
                 trial = fitted()
             except RunError:
                 continue
-            trial = with_best_number(self, trial, len(node.members))
-            prior = self.log_prior(scored.hypothesis)
+            if isinstance(scored.hypothesis, Known) and len(scored.hypothesis.elements) > 1:
+                whole = with_every_element(self, trial)
+                if whole is None:
+                    continue
+                trial = whole
+            else:
+                trial = with_best_number(self, trial, len(node.members))
+            prior = sum(map(self.log_prior, {each.hypothesis for each in trial.members} - set(node.hypotheses)))
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))
         return found

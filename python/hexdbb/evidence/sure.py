@@ -54,7 +54,7 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
         Part of what is explained by which it may err on what was left out; `Criteria.missed_sure` where not given.
     """
     missed_most = search.criteria.missed_sure if missed_most is None else missed_most
-    checked, is_one = search.checked(node), len(node.members) == 1
+    checked, is_one = search.checked(node), node.faults == 1
     if checked.share < search.criteria.explained_min or _is_put_together(search, node):
         return False
     if not _errs_little(search, node, missed_most):
@@ -93,8 +93,13 @@ def _explains_by_formulas(search: Search, node: Node) -> bool:
 
 
 def _least_by_formulas(search: Search, node: Node) -> float:
-    """Return what formulas must explain: more of several that leave something, or that nothing left out tests."""
-    if len(node.members) == 1 or (is_complete(search, node) and not _leads_away(search, _held(search, node))):
+    """Return what formulas must explain: more of several that leave something, or that nothing left out tests.
+
+    More also of an effect at several elements: sizes of its own at each are as free as a function.
+    """
+    is_free = any(isinstance(each, Known) and len(each.elements) > 1 for each in node.hypotheses)
+    is_tested = is_complete(search, node) and not _leads_away(search, _held(search, node))
+    if node.faults == 1 or (is_tested and not is_free):
         return search.criteria.formula_explains
     return search.criteria.explained_min
 
@@ -125,5 +130,5 @@ def _leads_away(search: Search, held: Sequence[HeldOut]) -> bool:
 def _is_exact(search: Search, node: Node) -> bool:
     """Check that one effect's formula, hardly bent, leaves only noise."""
     form = node.trial.forms[0]
-    is_formula = len(node.members) == 1 and form is not None and form.deviation <= search.criteria.form_exact
+    is_formula = node.faults == 1 and form is not None and form.deviation <= search.criteria.form_exact
     return is_formula and node.trial.left - 1.0 < NOTHING_LEFT

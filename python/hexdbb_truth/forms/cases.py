@@ -2,6 +2,7 @@
 
     backlash-d10-x3-judge-s7          play, 10 % off the catalogue's form, 3 times the noise remaining, judging half
     backlash+bar_drift-d10-x3-judge-s7   a pair; three and more in the same way
+    backlash+bar_drift-d10-x30,3-judge-s7   the same, each of a size of its own
     dent-d0-x10-judge-s2              a fault outside the catalogue (it has no form to deviate from)
     none-judge-s4                     a machine without a fault
     ...@varied                        on another plan than the kind's own
@@ -47,8 +48,9 @@ FAMILIES: dict[str, Family] = {
 CATALOGUED = tuple(FAMILIES)
 WARMING = frozenset({"leg_thermal", "screw_thermal"})
 ROOM_C, RISE_C, SENSOR_NOISE_C = 20.0, 2.0, 0.02
+TIMES = r"\d+(?:\.\d+)?"
 NAME = re.compile(
-    r"(?:(?P<kinds>[a-z_0-9]+(?:\+[a-z_0-9]+)*)-d(?P<percent>\d+)-x(?P<times>\d+(?:\.\d+)?)|none)"
+    rf"(?:(?P<kinds>[a-z_0-9]+(?:\+[a-z_0-9]+)*)-d(?P<percent>\d+)-x(?P<times>{TIMES}(?:,{TIMES})*)|none)"
     r"-(?P<half>calibrate|judge)-s(?P<seed>\d+)(?:@(?P<plan>[a-z_]+))?"
 )
 
@@ -104,6 +106,8 @@ class Case:
         Of the errors of geometry and set-up, where it is not the usual one.
     noise_um : float or None
         Of the gauge, where it is not the usual one.
+    times_each : tuple of float
+        The same as `times_noise` fault by fault, where they differ; that is then the largest.
     """
 
     kinds: tuple[str, ...]
@@ -116,11 +120,13 @@ class Case:
     driven: History | None = None
     spread: Spread | None = None
     noise_um: float | None = None
+    times_each: tuple[float, ...] = ()
 
     @property
     def name(self) -> str:
         """The name that `case` understands."""
-        fault = f"{'+'.join(self.kinds)}-d{100.0 * self.form_deviation:.0f}-x{self.times_noise:g}"
+        times = ",".join(f"{each:g}" for each in self.times_each or (self.times_noise,))
+        fault = f"{'+'.join(self.kinds)}-d{100.0 * self.form_deviation:.0f}-x{times}"
         plan = f"@{self.plan_name}" if self.plan_name is not None else ""
         return f"{fault if self.kinds else 'none'}-{self.half}-s{self.seed}{plan}"
 
@@ -160,7 +166,8 @@ class Case:
         UnreachableSizeError
             No machine in use has a fault so large.
         """
-        return tuple(self._hidden(kind) for kind in self.kinds)
+        times = self.times_each or (self.times_noise,) * len(self.kinds)
+        return tuple(self._hidden(*each) for each in zip(self.kinds, times, strict=True))
 
     @property
     def labels(self) -> tuple[Label, ...]:
@@ -238,22 +245,22 @@ class Case:
         tau_s = self._drawn(next(kind for kind in self.kinds if kind in WARMING))[1]
         return np.asarray(ROOM_C - RISE_C * np.expm1(-self.history.time_s[rows] / tau_s))
 
-    def _hidden(self, kind: str) -> Hidden:
+    def _hidden(self, kind: str, times_noise: float) -> Hidden:
         if kind in EVERY_OUTSIDE:
-            return self._outside(kind, EVERY_OUTSIDE[kind])
+            return self._outside(kind, EVERY_OUTSIDE[kind], times_noise)
         family = FAMILIES[kind]
         formed, _, form = self._drawn(kind)
         action = formed.action()
-        size = size_of(action, self.measured, self.times_noise, family.start, family.limit)
+        size = size_of(action, self.measured, times_noise, family.start, family.limit)
         alike = len(formed.elements) == 6
         elements = () if alike else tuple(each + 1 for each in formed.elements)
         port = {"compliance": "leg", "delay": "slider"}.get(formed.port, formed.port)
         label = Label(kind, kind in CATALOGUED, port, elements, VARIABLES[kind], equivalents(kind, elements))
         return Hidden(label, action, size, family.unit, form, formed)
 
-    def _outside(self, kind: str, outside: Outside) -> Hidden:
+    def _outside(self, kind: str, outside: Outside, times_noise: float) -> Hidden:
         fault = outside.drawn(self._draw(kind))
-        size = size_of(fault.action, self.measured, self.times_noise, outside.start, outside.limit)
+        size = size_of(fault.action, self.measured, times_noise, outside.start, outside.limit)
         every = 3 if fault.action.port == "guideway" else 6
         elements = () if len(fault.action.elements) == every else tuple(each + 1 for each in fault.action.elements)
         label = Label(kind, False, fault.action.port, elements, outside.variables, fault.equivalents)
@@ -300,4 +307,8 @@ def case(name: str) -> Case:
         if kind not in FAMILIES and kind not in EVERY_OUTSIDE:
             known = ", ".join([*FAMILIES, *EVERY_OUTSIDE])
             raise InputError(f'case "{name}": kind "{kind}" (expected one of {known})')
-    return Case(kinds, int(match["percent"]) / 100.0, float(match["times"]), match["half"], int(match["seed"]), plan)
+    times = tuple(map(float, match["times"].split(",")))
+    if len(times) not in (1, len(kinds)):
+        raise InputError(f'case "{name}": {len(times)} sizes (expected one, or one for each of {len(kinds)} kinds)')
+    deviation, seed = int(match["percent"]) / 100.0, int(match["seed"])
+    return Case(kinds, deviation, max(times), match["half"], seed, plan, times_each=times if len(times) > 1 else ())

@@ -96,3 +96,19 @@ def test_what_circles_that_hardly_hold_geometry_predict_makes_nothing_sure() -> 
     found = found_in("joint-lobes")
     assert found.verdict in ("unknown", "ambiguous")
     assert not [each for each in found.causes if each.verdict == "effect"]
+
+
+def test_a_fault_that_all_six_drives_share_is_one_cause() -> None:
+    """All lag, alike but not the same; beside it play of one slider, of the same size."""
+    found = found_in("lags-alike")
+    assert found.verdict == "effect"
+    assert {each.choice for each in found.causes} == {"servo_lag", "backlash:6"}
+    (lag,) = [each for each in found.causes if each.choice == "servo_lag"]
+    assert lag.elements == ("1", "2", "3", "4", "5", "6") and len(lag.values) == 6
+
+
+def test_what_is_small_beside_another_fault_is_no_form_of_it() -> None:
+    """A pitch error of thirty times the noise that grows along the screw, and another screw that warms, of five."""
+    found = found_in("unequal-pair")
+    assert found.verdict == "effect"
+    assert {each.choice for each in found.causes} == {"pitch_cyclic:3", "screw_thermal:4"}

@@ -9,6 +9,7 @@ from hexdbb.diagnosis import judging_noise
 from hexdbb.discovery import discover
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
+from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case
@@ -61,3 +62,14 @@ def test_a_joint_far_off_its_place_is_named_for_sure(samples: Samples) -> None:
     assert cause.effect == "joint_offset"
     assert {each.element for each in cause.values} == {"3"}
     assert max(abs(each.value) for each in cause.values) > 1.0  # millimetres, where some hundredths are expected
+
+
+def test_what_is_learned_already_keeps_the_prior_that_it_was_learned_with(samples: Samples) -> None:
+    """However far from it: a learned function alone in a model is not the effect that is tried."""
+    model = add_effect(samples, new_model(samples.machine), "learned:slider:2:position").model
+    mine = [each.effect == "learned:slider:2:position" for each in model.parameters()]
+    far = model.with_values(np.where(mine, 10.0 * model.prior_sigma, model.values))
+    engine = Engine(samples, far.with_mounts(samples.mounts), judging_noise(samples).noise)
+    assert np.sqrt(np.mean((engine.base.values[mine] / engine.base.prior_sigma[mine]) ** 2)) > 1.5
+    assert (engine.prior_scale(engine.base) == 1.0).all()
+    assert np.isfinite(engine.linearised(engine.base).linear.log_evidence)

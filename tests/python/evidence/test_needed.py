@@ -14,6 +14,7 @@ from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.exchange import settled
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead, is_better, needs_all, rests_on_form
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.trial import Member, Trials
@@ -62,7 +63,7 @@ def searched(
         nodes=[node],
         log_prior=lambda hypothesis: 0.0,
         left_by_formulas=lambda trial: (by_formulas or {}).get(trial.members, trial.left),
-        checked_trial=lambda trial: SimpleNamespace(reasons=(), excused=trial.members == excused),
+        checked_trial=lambda trial: SimpleNamespace(reasons=(), excused=trial.members == excused, missed=1.0),
         checked=lambda node: SimpleNamespace(
             reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0
         ),
@@ -73,12 +74,8 @@ def searched(
     return search, node
 
 
-def node_of(trial: Any) -> Any:
-    hypotheses = tuple(each.hypothesis for each in trial.members)
-    is_known = all(isinstance(each, Known) for each in hypotheses)
-    return SimpleNamespace(
-        trial=trial, members=trial.members, hypotheses=hypotheses, score=trial.log_evidence, is_known=is_known
-    )
+def node_of(trial: Any) -> Node:
+    return Node(trial, trial.log_evidence)
 
 
 @pytest.mark.parametrize(("left", "expected"), [(1.0, True), (1.19, False)])

@@ -9,8 +9,10 @@ import pytest
 
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Known
+from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
 
 CAUSE = Known("ball_eccentricity", ("2",))
@@ -21,11 +23,10 @@ DRIFT, GAIN = Known("bar_drift", ("bar",), is_whole=True), Known("bar_gain", ("b
 CIRCLES, FEED = "does not predict other circles", "does not predict the other feed"
 
 
-def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> Any:
-    names = tuple(each.name for each in hypotheses)
-    trial = SimpleNamespace(refused=(), left=left, names=names, forms=(None,) * len(names))
-    is_known = all(isinstance(each, Known) for each in hypotheses)
-    return SimpleNamespace(trial=trial, score=score, hypotheses=hypotheses, members=hypotheses, is_known=is_known)
+def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> Node:
+    names, members = tuple(each.name for each in hypotheses), tuple(map(Member, hypotheses))
+    trial: Any = SimpleNamespace(members=members, refused=(), left=left, names=names, forms=(None,) * len(names))
+    return Node(trial, score)
 
 
 def rivals(

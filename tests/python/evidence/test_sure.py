@@ -13,6 +13,7 @@ from hexdbb.evidence import sure
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sure import Grade, graded, is_for_sure
 from hexdbb.evidence.trial import Member
@@ -42,7 +43,8 @@ def searched(left: float | None) -> Any:
     return SimpleNamespace(criteria=DEFAULT, root=root, trials=SimpleNamespace(of=of))
 
 
-NODE: Any = SimpleNamespace(members=(LEGS, STEPS))
+TRIAL: Any = SimpleNamespace(members=(LEGS, STEPS))
+NODE = Node(TRIAL, 0.0)
 ENOUGH = BEFORE - DEFAULT.explained_min * SHARE
 
 
@@ -65,7 +67,8 @@ def held(before: float, error: float) -> HeldOut:
 def asked(form: Form, *, before: float = 5.0, missed: float = 0.0, left: float = 1.0, **checked: Any) -> bool:
     """Return whether one known effect is for sure that misses a part of what it explains."""
     error = float(np.sqrt(1.0 + missed**2 * (BEFORE - 1.0)))
-    node: Any = SimpleNamespace(members=(LEGS,), is_known=True, trial=SimpleNamespace(left=1.0, forms=(form,)))
+    trial: Any = SimpleNamespace(members=(LEGS,), left=1.0, forms=(form,))
+    node = Node(trial, 0.0)
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
@@ -104,8 +107,8 @@ def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, 
 )
 def test_several_explain_enough_by_their_formulas(left: float, missed: float, before: float, sure_of_it: bool) -> None:
     """What they miss is that of their formulas: the functions of a form lead away beside another cause."""
-    trial = SimpleNamespace(left=1.0, forms=(None, None))
-    node: Any = SimpleNamespace(members=(LEGS, SCREW), is_known=True, trial=trial)
+    trial: Any = SimpleNamespace(members=(LEGS, SCREW), left=1.0, forms=(None, None))
+    node = Node(trial, 0.0)
     heldout = {"circle": held(before * BEFORE**0.5, 1.0)}
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
@@ -116,3 +119,17 @@ def test_several_explain_enough_by_their_formulas(left: float, missed: float, be
         ),
     )
     assert is_for_sure(search, node) is sure_of_it
+
+
+@pytest.mark.parametrize(("left", "sure_of_it"), [(5.0, True), (8.0, False)], ids=["by its formula", "by its form"])
+def test_an_effect_at_all_elements_explains_most_by_its_formula(left: float, sure_of_it: bool) -> None:
+    """Sizes of its own at each of six are as free as a function."""
+    every = Member(Known("servo_lag", tuple("123456"), is_whole=True))
+    trial: Any = SimpleNamespace(members=(every,), left=1.0, forms=(None,))
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        left_by_formulas=lambda trial: left,
+        checked=lambda node: SimpleNamespace(share=1.0, excused=False, missed=0.1, missed_at_least=0.1, heldout={}),
+    )
+    assert is_for_sure(search, Node(trial, 0.0)) is sure_of_it

@@ -49,6 +49,8 @@ def test_kinds_by_name_only_are_in_a_list_only_where_it_is_told_so():
         "backlash-d10-x3-train-s1",
         "none-judge-s1@nowhere",
         "none-d10-x3-judge-s1",
+        "backlash+bar_drift-d10-x3,10,30-judge-s1",
+        "backlash+bar_drift-d10-x3,-judge-s1",
     ],
 )
 def test_a_name_that_tells_no_case_is_refused(name):
@@ -92,3 +94,10 @@ def test_every_plan_is_driven_with_as_many_readings(tmp_path):
         assert gaps.min() > record.machine.sliders.min_gap_mm
     written = one.write(tmp_path)
     np.testing.assert_array_equal(read_record(written).columns["reading_um"], record.columns["reading_um"])
+
+
+def test_faults_of_one_machine_may_be_of_sizes_of_their_own():
+    name = "backlash+bar_gain-d10-x30,3-judge-s3"
+    one, same, large = case(name), case("backlash+bar_gain-d10-x3-judge-s3"), case("backlash-d10-x30-judge-s3")
+    assert one.name == name and one.times_noise == 30.0
+    assert [each.size for each in one.hidden] == [large.hidden[0].size, same.hidden[1].size]

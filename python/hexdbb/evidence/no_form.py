@@ -1,0 +1,64 @@
+"""Whether a known effect, small beside others, is more than their forms: it explains what these do not describe."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from hexdbb.evidence.place import functions_at
+from hexdbb.evidence.screen import Screen
+from hexdbb.evidence.settling import explained
+from hexdbb.evidence.sums import Sums
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.node import Node
+    from hexdbb.evidence.search import Search
+    from hexdbb.evidence.trial import Member, Trial
+
+NOISE = 1.0
+"""Mean square of the noise, in its variances: what explains less beside others is too small to be told from a form."""
+
+
+def is_no_form(search: Search, node: Node, member: Member) -> bool:
+    """Check that a known effect explains, by its formula, more than the forms of the others may leave undescribed.
+
+    That is: more than these are seen to be off, or nearly all that they leave, or far more than any function at their
+    own places does.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        The set.
+    member : Member
+        The effect of the set.
+    """
+    criteria = search.criteria
+    if len(node.members) < 2:
+        return False
+    others = search.trials.of(tuple(each for each in node.members if each is not member))
+    beyond, left = others.left - node.trial.left, others.left - 1.0
+    by_formula = search.left_by_formulas(others) - search.left_by_formulas(node.trial)
+    least = max(criteria.secondary * criteria.form_described**2 * explained(search, node.trial), NOISE)
+    if beyond < least or by_formula < criteria.formula_explains * beyond:
+        return False
+    if beyond >= criteria.form_explains * left or beyond >= _seen(search, node, member):
+        return True
+    return beyond >= criteria.no_form * left * _explained_at_their_places(search, others)
+
+
+def _seen(search: Search, node: Node, member: Member) -> float:
+    """Return what forms may leave undescribed that are seen to be off, beside what is asked for, by so much.
+
+    What is learned has no form that could be seen, and may leave what forms may.
+    """
+    criteria = search.criteria
+    forms = [form for each, form in zip(node.members, node.trial.forms, strict=True) if each is not member]
+    off = max(criteria.form_sigma if form is None else form.deviation for form in forms)
+    return criteria.secondary * max(off, criteria.form_described) ** 2 * explained(search, node.trial)
+
+
+def _explained_at_their_places(search: Search, trial: Trial) -> float:
+    """Return the largest part of what causes leave that a function at their own places explains."""
+    linear = search.trials.linear(trial)
+    screen = Screen(Sums(linear, search.engine.readings, ()), search.criteria, search.thinned)
+    return screen.most_explained(functions_at(search, trial, linear))

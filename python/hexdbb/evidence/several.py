@@ -1,0 +1,141 @@
+"""One effect at several elements at once: drives of one make lag alike, screws of one batch err alike.
+
+Looked for one by one, six such faults are more causes than a search follows, and two of them explain so little that
+functions of all sliders stand before them. Here an effect is one cause at all its elements, where it is seen at most.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.needed import best_of, needs
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
+from hexdbb.evidence.screened import known_beside
+from hexdbb.evidence.settling import is_complete, is_doubtful, leaves_room, predicts
+from hexdbb.evidence.shortlist import shortlist
+from hexdbb.evidence.trial import Member, Trial
+from hexdbb.learned import ALL
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
+
+FEWEST = 4
+"""Elements at which an effect is seen that is one cause at all of them; a search finds fewer one by one."""
+
+
+def or_at_several(search: Search, best: Node) -> Node:
+    """Return a set with an effect at all its elements, where that is better than what was found one by one.
+
+    It is looked for beside the best set less one of its causes, which may have stood in for it; not where known effects
+    explain all, each at one element, and predict.
+    """
+    effects = [_effect_of(each) for each in best.hypotheses]
+    is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
+    if is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best):
+        return best
+    found: list[Node] = []
+    for member in best.members:
+        fewer = search.node(tuple(each for each in best.members if each is not member), near=best)
+        at_several = at_all_elements(search, fewer, search.screen(fewer))
+        at_several.sort(key=lambda each: -each.log_evidence)
+        found += [_grown(search, each) for each in search.tried(fewer, at_several[: search.criteria.beam])]
+    return best_of(search, best, (each for each in found if predicts(search, each)))
+
+
+def _grown(search: Search, node: Node) -> Node:
+    """Add known effects, the best first, until a set explains all."""
+    search.nodes.append(node)
+    while len(node.members) < search.criteria.max_effects and not is_complete(search, node):
+        tried = search.tried(node, beside(search, node))
+        search.nodes += tried
+        more = [each for each in tried if not each.trial.refused and needs(search, each, each.members[-1])]
+        if not more:
+            break
+        node = max(more, key=lambda each: each.score)
+    return node
+
+
+def beside(search: Search, node: Node) -> list[Scored]:
+    """Return the known effects beside a set that are worth a full fit, some of them at several elements."""
+    screen, criteria = search.screen(node), search.criteria
+    single = known_beside(search, node.trial, screen)
+    every = [*at_all_elements(search, node, screen, single), *single]
+    return shortlist(every, criteria.later_fits, criteria.most_of_one_effect)
+
+
+def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence[Scored] = ()) -> list[Scored]:
+    """Return effects at all elements that explain more so than their forms may at the best one alone.
+
+    Effects of one value at each: with two, as of screws that warm in their own time, six are as free as a function.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Beside which they are screened, at the elements that it does not have.
+    screen : Screen
+        Of its linearisation.
+    single : sequence of Scored, optional
+        The same at single elements, where they were screened.
+    """
+    table, whose = search.engine.absent.signatures(node.trial.model, search.known)
+    single = single or known_beside(search, node.trial, screen)
+    columns: dict[str, list[int]] = defaultdict(list)
+    for place, (effect, *_) in enumerate(whose):
+        columns[effect].append(place)
+    found = []
+    for effect, at in columns.items():
+        elements = tuple(dict.fromkeys(whose[place][1] for place in at))
+        if len(elements) < FEWEST or len(at) > len(elements):
+            continue
+        scored = screen.at_several(Known(effect, elements), table[:, at])
+        best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
+        if scored.share - best > search.criteria.form_variance:
+            found.append(scored)
+    return found
+
+
+def with_every_element(search: Search, trial: Trial) -> Trial | None:
+    """Return a trial, its last an effect at several elements, with the effect as one cause at all of them.
+
+    Returns
+    -------
+    Trial or None
+        None where forms at the others account for what most of them do, or where the engine cannot fit it.
+    """
+    *before, last = trial.members
+    effect = _effect_of(last.hypothesis)
+    every = tuple(search.engine.base.info(effect).elements)
+    there = {element for each in trial.members if _effect_of(each.hypothesis) == effect for element in _elements(each)}
+    others = [each for each in before if _effect_of(each.hypothesis) != effect]
+    try:
+        whole = search.trials.of((*others, Member(_of_all(search, effect, every))))
+    except RunError:
+        return None
+    least = search.criteria.form_variance * search.trials.size(whole, Known(effect, every))
+    seen = sum(search.trials.size(whole, Known(effect, (each,))) > least for each in every)
+    return whole if there == set(every) and seen >= FEWEST else None
+
+
+def _effect_of(hypothesis: Hypothesis) -> str:
+    return hypothesis.effect if isinstance(hypothesis, Known) else ""
+
+
+def _elements(member: Member) -> tuple[str, ...]:
+    return member.hypothesis.elements if isinstance(member.hypothesis, Known) else ()
+
+
+def _of_all(search: Search, effect: str, elements: tuple[str, ...]) -> Known:
+    """Return an effect at all its elements, and count what is learned at all of them among its kin."""
+    known = Known(effect, elements, True)
+    if known.name not in search.kin:
+        kin = set().union(*(search.kin.get(Known(effect, (each,)).name, set()) for each in elements))
+        by_name = search.learnable.by_name
+        every = (replace(by_name[each], element=ALL).name for each in kin if each in by_name)
+        search.kin[known.name] = by_name.keys() & set(every)
+    return known
