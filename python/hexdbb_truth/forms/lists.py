@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -42,13 +42,29 @@ def combined(
 ) -> Iterator[Case]:
     """Return combinations of catalogue faults that one plan can see, drawn evenly."""
     draw = np.random.default_rng([zlib.crc32(f"{half}/{number}".encode())])
-    every = [
+    every = _on_one_plan(number)
+    for seed in range(count):
+        yield Case(every[int(draw.integers(len(every)))], deviation, times_noise, half, seed)
+
+
+def unequal(
+    half: str, times_noise: Sequence[float] = (3.0, 10.0, 30.0), count: int = 40, deviation: float = 0.1
+) -> Iterator[Case]:
+    """Return pairs of catalogue faults, each of another size than the other, drawn evenly."""
+    draw = np.random.default_rng([zlib.crc32(f"{half}/unequal".encode())])
+    every, sizes = _on_one_plan(2), list(itertools.permutations(times_noise, 2))
+    for seed in range(count):
+        kinds, times = every[int(draw.integers(len(every)))], sizes[int(draw.integers(len(sizes)))]
+        yield Case(kinds, deviation, max(times), half, seed, times_each=times)
+
+
+def _on_one_plan(number: int) -> list[tuple[str, ...]]:
+    """Return the combinations of so many catalogue faults that one plan can see."""
+    return [
         kinds
         for kinds in itertools.combinations(CATALOGUED, number)
         if sum(FAMILIES[kind].plan != "standard" for kind in kinds) < 2
     ]
-    for seed in range(count):
-        yield Case(every[int(draw.integers(len(every)))], deviation, times_noise, half, seed)
 
 
 def clean(half: str, seeds: Iterable[int] = range(60)) -> Iterator[Case]:

@@ -97,7 +97,7 @@ def test_every_plan_is_driven_with_as_many_readings(tmp_path):
 
 
 def test_faults_of_one_machine_may_be_of_sizes_of_their_own():
-    name = "backlash+bar_gain-d10-x30,3-judge-s3"
-    one, same, large = case(name), case("backlash+bar_gain-d10-x3-judge-s3"), case("backlash-d10-x30-judge-s3")
+    name = "backlash+servo_lag-d10-x30,3-judge-s3"
+    one, same, large = case(name), case("backlash+servo_lag-d10-x3-judge-s3"), case("backlash-d10-x30-judge-s3")
     assert one.name == name and one.times_noise == 30.0
     assert [each.size for each in one.hidden] == [large.hidden[0].size, same.hidden[1].size]

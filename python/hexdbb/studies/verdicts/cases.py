@@ -33,8 +33,8 @@ from hexdbb_truth.forms.history import History
 from hexdbb_truth.forms.sizes import UnreachableSizeError
 from hexdbb_truth.simulate import Pace
 
-CLEAN, PAIRS, TRIPLES = 20, 20, 10
-"""Clean machines, pairs and triples for each seed of single faults, which are some four hundred."""
+CLEAN, PAIRS, UNEQUAL, TRIPLES = 20, 20, 20, 10
+"""Clean machines, pairs of one size and of two, triples for each seed of single faults, which are some four hundred."""
 WITHHELD_DEVIATION, WITHHELD_TIMES = 0.1, (3.0, 10.0, 30.0)
 """Form deviation and sizes of faults whose effect is withheld: nothing learned is sharper than a form so far off."""
 KEPT = 5
@@ -75,8 +75,9 @@ def _series(half: str, first: int) -> Iterator[tuple[str, tuple[str, ...]]]:
             *lists.alone(half, seeds=[seed]),
             *lists.outside(half, seeds=[seed]),
             *lists.clean(half, range(CLEAN * seed, CLEAN * (seed + 1))),
-            *_combined(half, 2, PAIRS, seed),
-            *_combined(half, 3, TRIPLES, seed),
+            *_of_seed(lists.combined(half, 2, 3.0, PAIRS * (seed + 1)), PAIRS, seed),
+            *_of_seed(lists.unequal(half, count=UNEQUAL * (seed + 1)), UNEQUAL, seed),
+            *_of_seed(lists.combined(half, 3, 3.0, TRIPLES * (seed + 1)), TRIPLES, seed),
         ]
         every: list[tuple[str, tuple[str, ...]]] = [(each.name, ()) for each in single]
         withheld = lists.alone(half, deviations=(WITHHELD_DEVIATION,), times_noise=WITHHELD_TIMES, seeds=[seed])
@@ -85,8 +86,8 @@ def _series(half: str, first: int) -> Iterator[tuple[str, tuple[str, ...]]]:
         yield from every
 
 
-def _combined(half: str, number: int, count: int, seed: int) -> Iterator[forms.Case]:
-    return itertools.islice(lists.combined(half, number, 3.0, count * (seed + 1)), count * seed, None)
+def _of_seed(every: Iterator[forms.Case], count: int, seed: int) -> Iterator[forms.Case]:
+    return itertools.islice(every, count * seed, None)
 
 
 def row(setting: Setting, case: Case) -> Row:

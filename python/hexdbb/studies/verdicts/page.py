@@ -89,7 +89,9 @@ def goals(lines: Sequence[Line]) -> list[tuple[str, str, str]]:
     strange = [each for each in lines if is_single(each) and (each["withheld"] or not each["hidden"][0]["catalogued"])]
     strange_large = [each for each in strange if times_of(each) >= 3.0]
     clean = [each for each in lines if not each["hidden"]]
-    pairs, triples = ([each for each in lines if len(each["hidden"]) == number] for number in (2, 3))
+    combined, triples = ([each for each in lines if len(each["hidden"]) == number] for number in (2, 3))
+    unequal = [each for each in combined if forms.case(each["case"]).times_each]
+    pairs = [each for each in combined if each not in unequal]
     added = [each for each in lines if each.get("after_adding")]
     right_effect = [each for each in large if _is_right_effect(each)]
     seconds = [each["seconds"] for each in lines]
@@ -109,6 +111,7 @@ def goals(lines: Sequence[Line]) -> list[tuple[str, str, str]]:
         ("clean machine: `none`", "≥ 99 %", clean, lambda each: each["grade"] == "none"),
         ("machine whose fault has been added: `none`", "≥ 97 %", added, lambda each: each["after_adding"] == "none"),
         ("pairs at 3 × noise: both, nothing else", "≥ 95 %", pairs, lambda each: each["outcome"] == "right"),
+        ("pairs of two sizes, 3 to 30 × noise: the same", "≥ 95 %", unequal, lambda each: each["outcome"] == "right"),
         ("triples at 3 × noise: all, nothing else", "", triples, lambda each: each["outcome"] == "right"),
     ):
         rows.append((what, goal, shown(rate(of, good))))
