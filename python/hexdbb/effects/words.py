@@ -44,9 +44,18 @@ def effect_clause(info: _core.EffectInfo, sizes: Sequence[Size]) -> str:
         Values of the elements that are meant.
     """
     elements = [(name, list(each)) for name, each in groupby(sizes, key=lambda size: size.element)]
+    if MAX_CLAUSES < len(elements) == len(info.elements):
+        return _of_all(info, elements)
     said = [_clause(info, element, own) for element, own in elements[:MAX_CLAUSES]]
     more = len(elements) - MAX_CLAUSES
     return " and ".join(said) + (f", and so on for {more} more" if more > 0 else "")
+
+
+def _of_all(info: _core.EffectInfo, elements: Sequence[tuple[str, Sequence[Size]]]) -> str:
+    """Return an effect that all elements have: where it is largest, and its first value where it is smallest."""
+    ranked, kind = sorted(elements, key=lambda each: -abs(each[1][0].value)), info.element_kind
+    element, (least, *_) = ranked[-1]
+    return f"all {len(elements)} {kind}s: {_clause(info, *ranked[0])}, down to {size_words(least)} of {kind} {element}"
 
 
 def _clause(info: _core.EffectInfo, element: str, sizes: Sequence[Size]) -> str:

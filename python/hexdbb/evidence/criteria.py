@@ -182,9 +182,11 @@ class Criteria:
         The same from which what explains nearly as much (`same_kind_share`) is named beside the effect: forms 20 % off,
         the largest that the calibration has, measure up to 0.19, 0.42 where geometry takes most of the effect itself.
     form_exact : float
-        The same up to which an effect is its formula as it is: what leaves only noise so is named for sure though it
-        errs on circles left out by more than `missed_sure`: a joint, a screw that warms. A platform that warms reads as
-        legs that grow a hundredth off, but leaves a quarter of the noise's variance.
+        The same up to which an effect is its formula as it is: what leaves only noise so, or the square of
+        `form_described` of what it explains, is named for sure though it errs on circles left out by more than
+        `missed_sure`: a joint, a screw that warms. Of those that did so true ones left 0.2 % and less, a beam that
+        sags, called a bowed guideway, 0.6 % and more. A platform that warms reads as legs that grow a hundredth off,
+        but leaves a quarter of the noise's variance.
     same_kind_share : float
         Part of the unexplained by which a known effect may lag behind the learned function that contains it.
     secondary : float
@@ -192,7 +194,8 @@ class Criteria:
         `form_sigma` squared is a form 20 % off, the largest that the calibration has.
     form_described : float
         Part of a form that the functions beside an effect leave undescribed, at most: a further known effect, itself
-        larger than forms may be off, must explain more than its square where others stand in for most of it.
+        larger than forms may be off, must explain more than `secondary` times its square where others stand in for
+        most of it: a bow beside a screw that warms in a way of its own explained 0.8 of that.
     no_form : float
         Multiple of what any function at the causes' own places explains that a further known effect must explain to be
         no form of theirs, however small beside them: true ones a tenth as large had 2.6 and more, one that stood in for

@@ -45,7 +45,7 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
             return False
     if node.score <= than.score:
         return False
-    if node.faults <= than.faults or than.trial.left - node.trial.left > must_explain(search, than):
+    if node.faults <= than.faults or than.trial.left - node.trial.left > must_explain(search, than.trial):
         return True
     return _instead(search, node, than.trial)
 
@@ -113,7 +113,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
         return False
     if _instead(search, node, others):
         return True
-    if beyond < criteria.form_described**2 * explained(search, others):
+    if beyond < criteria.secondary * must_explain(search, others):
         return False
     least = of_forms(search, others)
     if beyond >= least or search.checked_trial(others).reasons:

@@ -38,8 +38,7 @@ def is_no_form(search: Search, node: Node, member: Member) -> bool:
     others = search.trials.of(tuple(each for each in node.members if each is not member))
     beyond, left = others.left - node.trial.left, others.left - 1.0
     by_formula = search.left_by_formulas(others) - search.left_by_formulas(node.trial)
-    least = max(criteria.secondary * criteria.form_described**2 * explained(search, node.trial), NOISE)
-    if beyond < least or by_formula < criteria.formula_explains * beyond:
+    if beyond < NOISE or by_formula < criteria.formula_explains * beyond:
         return False
     if beyond >= criteria.form_explains * left or beyond >= _seen(search, node, member):
         return True

@@ -39,7 +39,7 @@ def outside_domain(
             continue
         value, sigma = float(fitted.model.values[column]), float(fitted.spread[place] * fitted.prior_sigma[place])
         shown = f"{value * shown_factor(each.unit):.3g} {shown_unit(each.unit)}"
-        if _is_one_sided(fitted.model.info(each.effect), each.name):
+        if is_one_sided(fitted.model.info(each.effect), each.name):
             change += float(np.log(2.0)) + _core.log_normal_below(value / sigma)
             if value < -criteria.domain_sigmas * sigma:
                 refused.append(f"negative {each.name} ({each.element}: {shown})")
@@ -48,5 +48,6 @@ def outside_domain(
     return tuple(refused), change
 
 
-def _is_one_sided(info: _core.EffectInfo, name: str) -> bool:
+def is_one_sided(info: _core.EffectInfo, name: str) -> bool:
+    """Check whether a value of an effect is physically of one sign."""
     return any(each.name == name and each.lower >= 0.0 for each in info.parameters)

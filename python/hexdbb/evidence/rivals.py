@@ -148,7 +148,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
 
     Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions.
     """
-    left, spare = search.left_by_formulas(node.trial), must_explain(search, node)
+    left, spare = search.left_by_formulas(node.trial), must_explain(search, node.trial)
     found = (
         " + ".join(sorted(other.trial.names))
         for other, _ in _without(search, node, cause)

@@ -39,12 +39,12 @@ def explains_all_alone(search: Search, node: Node) -> bool:
 
 def leaves_room(search: Search, node: Node) -> bool:
     """Check that a set leaves as much as one more effect would have to explain (`is_better`)."""
-    return node.trial.left - 1.0 >= max(must_explain(search, node), NOTHING_LEFT)
+    return node.trial.left - 1.0 >= max(must_explain(search, node.trial), NOTHING_LEFT)
 
 
-def must_explain(search: Search, node: Node) -> float:
+def must_explain(search: Search, trial: Trial) -> float:
     """Return what a further effect must explain of what a set leaves, in noise variances: more than forms may hide."""
-    return search.criteria.form_described**2 * explained(search, node.trial)
+    return search.criteria.form_described**2 * explained(search, trial)
 
 
 def explained(search: Search, trial: Trial) -> float:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from hexdbb.errors import RunError
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import known_beside
 from hexdbb.evidence.settling import is_complete, is_doubtful, leaves_room, predicts
@@ -71,7 +72,8 @@ def beside(search: Search, node: Node) -> list[Scored]:
 def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence[Scored] = ()) -> list[Scored]:
     """Return effects at all elements that explain more so than their forms may at the best one alone.
 
-    Effects of one value at each: with two, as of screws that warm in their own time, six are as free as a function.
+    Effects of one value at each, of one sign: six leads, some long and some short, are as free as a function, and so
+    are screws that warm, each with a rate and a coefficient.
 
     Parameters
     ----------
@@ -86,8 +88,9 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     table, whose = search.engine.absent.signatures(node.trial.model, search.known)
     single = single or known_beside(search, node.trial, screen)
     columns: dict[str, list[int]] = defaultdict(list)
-    for place, (effect, *_) in enumerate(whose):
-        columns[effect].append(place)
+    for place, (effect, _, name, _) in enumerate(whose):
+        if is_one_sided(search.engine.base.info(effect), name):
+            columns[effect].append(place)
     found = []
     for effect, at in columns.items():
         elements = tuple(dict.fromkeys(whose[place][1] for place in at))

@@ -12,7 +12,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, is_complete, missed
+from hexdbb.evidence.settling import explained_by_formulas, is_complete, leaves_room, missed
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -128,7 +128,7 @@ def _leads_away(search: Search, held: Sequence[HeldOut]) -> bool:
 
 
 def _is_exact(search: Search, node: Node) -> bool:
-    """Check that one effect's formula, hardly bent, leaves only noise."""
+    """Check that one effect's formula, hardly bent, leaves only noise, or what its form may leave undescribed."""
     form = node.trial.forms[0]
     is_formula = node.faults == 1 and form is not None and form.deviation <= search.criteria.form_exact
-    return is_formula and node.trial.left - 1.0 < NOTHING_LEFT
+    return is_formula and not leaves_room(search, node)

@@ -105,6 +105,7 @@ def test_a_fault_that_all_six_drives_share_is_one_cause() -> None:
     assert {each.choice for each in found.causes} == {"servo_lag", "backlash:6"}
     (lag,) = [each for each in found.causes if each.choice == "servo_lag"]
     assert lag.elements == ("1", "2", "3", "4", "5", "6") and len(lag.values) == 6
+    assert lag.clause.startswith("all 6 sliders: slider ") and "behind its drive's encoder, down to " in lag.clause
 
 
 def test_what_is_small_beside_another_fault_is_no_form_of_it() -> None:

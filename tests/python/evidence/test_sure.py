@@ -64,14 +64,20 @@ def held(before: float, error: float) -> HeldOut:
     return HeldOut(before=before, after=error, share=0.9, expected=1.0, as_fitted=error)
 
 
-def asked(form: Form, *, before: float = 5.0, missed: float = 0.0, left: float = 1.0, **checked: Any) -> bool:
-    """Return whether one known effect is for sure that misses a part of what it explains."""
+def asked(
+    form: Form, *, before: float = 5.0, missed: float = 0.0, left: float = 1.0, fitted: float = 1.0, **checked: Any
+) -> bool:
+    """Return whether one known effect is for sure that misses a part of what it explains.
+
+    `left` is what its formula leaves, `fitted` what it leaves with its form, noise variances.
+    """
     error = float(np.sqrt(1.0 + missed**2 * (BEFORE - 1.0)))
-    trial: Any = SimpleNamespace(members=(LEGS,), left=1.0, forms=(form,))
+    trial: Any = SimpleNamespace(members=(LEGS,), left=fitted, forms=(form,))
     node = Node(trial, 0.0)
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        trials=SimpleNamespace(explained_before=0.0),
         left_by_formulas=lambda trial: left,
         checked=lambda node: SimpleNamespace(
             **{"share": 1.0, "excused": False, **checked}, missed=missed, heldout={"circle": held(before, error)}
@@ -86,6 +92,13 @@ def test_one_effect_errs_by_no_more_than_it_explains(beyond: float, sure_of_it: 
     """Whether its form excuses it, or its formula nearly as it is leaves only noise."""
     form = Form(0.02, 0.5 * DEFAULT.form_exact, ())
     assert asked(form, missed=DEFAULT.missed_bent + beyond, excused=excused) is sure_of_it
+
+
+@pytest.mark.parametrize(("part", "sure_of_it"), [(0.9, True), (1.1, False)])
+def test_a_formula_that_leaves_what_its_form_may_is_nearly_as_it_is(part: float, sure_of_it: bool) -> None:
+    form = Form(0.02, 0.5 * DEFAULT.form_exact, ())
+    fitted = 1.0 + part * DEFAULT.form_described**2 * SHARE
+    assert asked(form, missed=1.0, left=0.5 * BEFORE, fitted=fitted) is sure_of_it
 
 
 @pytest.mark.parametrize(
