@@ -13,9 +13,8 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import Places, functions_at
 from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.screen import Known, Scored, Screen
+from hexdbb.evidence.screen import Known, Scored
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import retunings, with_other_splines
 from hexdbb.learned import Learned, part_of
@@ -92,7 +91,7 @@ def _widened(search: Search, node: Node, places: Places | None = None) -> Node:
 def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | None:
     """Return a set with the function that explains most of what is left, if that is much; None where none does."""
     linear = search.trials.linear(node.trial)
-    screen = Screen(Sums(linear, search.engine.readings, ("circle",)), search.criteria, search.thinned)
+    screen = search.screen(node)
     worth = [
         each for each in screen.learned(functions_at(search, node.trial, linear, places)) if _is_asked_for(search, each)
     ]
