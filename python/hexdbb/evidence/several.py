@@ -17,7 +17,13 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import known_beside
-from hexdbb.evidence.settling import is_complete, is_doubtful, leaves_room, predicts
+from hexdbb.evidence.settling import (
+    explained_by_formulas,
+    is_complete,
+    is_doubtful,
+    leaves_room,
+    predicts,
+)
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.learned import ALL
@@ -32,28 +38,40 @@ FEWEST = 4
 def or_at_several(search: Search, best: Node) -> Node:
     """Return a set with an effect at all its elements, where that is better than what was found one by one.
 
-    It is looked for beside the best set less one of its causes, which may have stood in for it; not where known effects
-    explain all, each at one element, and predict.
+    It is looked for beside nothing, and beside the known effects of the best set, all or less one of them, which may
+    have stood in for it; not where known effects explain all, each at one element, and predict.
     """
     effects = [_effect_of(each) for each in best.hypotheses]
     is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
     if is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best):
         return best
     found: list[Node] = []
-    for member in best.members:
-        fewer = search.node(tuple(each for each in best.members if each is not member), near=best)
+    known = tuple(each for each in best.members if isinstance(each.hypothesis, Known))
+    starts = dict.fromkeys([(), known, *(tuple(e for e in known if e is not member) for member in known)])
+    for start in starts:
+        fewer = search.node(start, near=best)
         at_several = at_all_elements(search, fewer, search.screen(fewer))
         at_several.sort(key=lambda each: -each.log_evidence)
         found += [_grown(search, each) for each in search.tried(fewer, at_several[: search.criteria.beam])]
-    return best_of(search, best, (each for each in found if predicts(search, each)))
+    found = [each for each in found if _may_be_sure(search, each)]
+    search.nodes += found
+    return best_of(search, best, found)
+
+
+def _may_be_sure(search: Search, node: Node) -> bool:
+    """Check for known effects that predict, and explain enough by their formulas.
+
+    Sizes at six elements, each with its form, are as free as a function: such are no better lead than what is learned.
+    """
+    if node.trial.refused or not (node.is_known and predicts(search, node)):
+        return False
+    return explained_by_formulas(search, node) >= search.criteria.explained_min
 
 
 def _grown(search: Search, node: Node) -> Node:
     """Add known effects, the best first, until a set explains all."""
-    search.nodes.append(node)
     while len(node.members) < search.criteria.max_effects and not is_complete(search, node):
         tried = search.tried(node, beside(search, node))
-        search.nodes += tried
         more = [each for each in tried if not each.trial.refused and needs(search, each, each.members[-1])]
         if not more:
             break
