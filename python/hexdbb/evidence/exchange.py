@@ -22,7 +22,7 @@ def settled(search: Search, node: Node) -> Node:
         if len(node.members) < 2:
             return node
         for member in node.members:
-            others = tuple(each for each in node.members if each is not member)
+            others = node.without(member)
             search.expand(search.node(others, near=node))
         better = sorted(
             (each for each in search.nodes if is_better(search, each, node) and _may_replace(search, each, node)),
@@ -59,7 +59,7 @@ def _all_needed(search: Search, node: Node) -> Node:
     """Leave out a known effect that stood in for what was found after it, where the others predict without it."""
     for member in node.members:
         if len(node.members) > 1 and isinstance(member.hypothesis, Known) and not needs(search, node, member):
-            others = search.node(tuple(each for each in node.members if each is not member), near=node)
+            others = search.node(node.without(member), near=node)
             if not (others.trial.refused or search.checked(others).reasons):
                 return others
     return node
@@ -108,7 +108,7 @@ def of_better_form(search: Search, node: Node) -> Node:
         form = node.trial.forms[place]
         if form is None or form.deviation <= search.criteria.form_named:
             continue
-        others = tuple(each for each in node.members if each is not member)
+        others = node.without(member)
         for known in _known_for(search, list(form.functions)):
             if known in node.hypotheses:
                 continue
@@ -130,7 +130,7 @@ def _without_the_needless(search: Search, node: Node) -> Node:
     """Leave out what made up for a form that is exchanged now."""
     excess = search.root.trial.left - 1.0
     for member in node.members:
-        others = tuple(each for each in node.members if each is not member)
+        others = node.without(member)
         if not others:
             break
         trial = search.trials.of(others)

@@ -23,12 +23,8 @@ SLOW_DRIFTS = 3
 def needs_all(search: Search, node: Node) -> bool:
     """Check that no hypothesis of a set could be left out, and that known effects together are what they explain."""
     # A set without a member that was fitted already costs nothing to ask, and one member too many settles it.
-    first = sorted(node.members, key=lambda member: not search.trials.has(_without(node, member)))
+    first = sorted(node.members, key=lambda member: not search.trials.has(node.without(member)))
     return _are_of_size(search, node) and all(needs(search, node, member) for member in first)
-
-
-def _without(node: Node, member: Member) -> tuple[Member, ...]:
-    return tuple(each for each in node.members if each is not member)
 
 
 def is_better(search: Search, node: Node, than: Node) -> bool:
@@ -106,7 +102,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
         The hypothesis in question.
     """
     criteria, trials = search.criteria, search.trials
-    others = trials.of(_without(node, member))
+    others = trials.of(node.without(member))
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
     beyond = others.left - node.trial.left
     if gain < criteria.detect_nats:

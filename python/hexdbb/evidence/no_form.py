@@ -35,7 +35,7 @@ def is_no_form(search: Search, node: Node, member: Member) -> bool:
     criteria = search.criteria
     if len(node.members) < 2:
         return False
-    others = search.trials.of(tuple(each for each in node.members if each is not member))
+    others = search.trials.of(node.without(member))
     beyond, left = others.left - node.trial.left, others.left - 1.0
     by_formula = search.left_by_formulas(others) - search.left_by_formulas(node.trial)
     if beyond < NOISE or by_formula < criteria.formula_explains * beyond:

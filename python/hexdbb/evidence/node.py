@@ -34,3 +34,7 @@ class Node:
     def faults(self) -> int:
         """How many faults they are: an effect at several elements is one at each."""
         return sum(len(each.elements) if isinstance(each, Known) else 1 for each in self.hypotheses)
+
+    def without(self, member: Member) -> tuple[Member, ...]:
+        """Return the others of a member of the set."""
+        return tuple(each for each in self.members if each is not member)

@@ -106,13 +106,14 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     table, whose = search.engine.absent.signatures(node.trial.model, search.known)
     single = single or known_beside(search, node.trial, screen)
     columns: dict[str, list[int]] = defaultdict(list)
-    for place, (effect, _, name, _) in enumerate(whose):
-        if is_one_sided(search.engine.base.info(effect), name):
-            columns[effect].append(place)
+    for place, (effect, *_) in enumerate(whose):
+        columns[effect].append(place)
     found = []
     for effect, at in columns.items():
         elements = tuple(dict.fromkeys(whose[place][1] for place in at))
-        if len(elements) < FEWEST or len(at) > len(elements):
+        info = search.engine.base.info(effect)
+        has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at)
+        if len(elements) < FEWEST or len(at) > len(elements) or not has_one_sign:
             continue
         scored = screen.at_several(Known(effect, elements), table[:, at])
         best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
