@@ -39,6 +39,9 @@ class Criteria:
         Functions of so many variables stand for a discrepancy; more add columns and no freedom.
     shape_starts : tuple of float
         Starts of a shape parameter (the logarithm of a time), in prior standard deviations: first order cannot move it.
+    shapes_for_all : tuple of float
+        Values tried, in prior standard deviations, of a shape that all elements of an effect share: one each, screws
+        that warm alike part into fast ones and slow ones.
     shape_rounds : int
         Steps of Gauss and Newton for shapes of users' effects: enough to compare; what is added is fitted on.
     constant_rounds : int
@@ -217,6 +220,7 @@ class Criteria:
     near_form: float = 0.5
     most_homes: int = 3
     shape_starts: tuple[float, ...] = (-1.5, 0.0, 1.5)
+    shapes_for_all: tuple[float, ...] = (-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0)
     shape_rounds: int = 3
     constant_rounds: int = 3
     least_seen: float = 0.05

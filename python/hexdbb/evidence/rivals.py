@@ -144,7 +144,7 @@ def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
 
 
 def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return sets of as many effects without a cause that explain all too, by their formulas, and more by these.
+    """Return sets of no more effects without a cause that explain all too, by their formulas, and more by these.
 
     Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions.
     """
@@ -153,7 +153,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         " + ".join(sorted(other.trial.names))
         for other, _ in _without(search, node, cause)
         if other.is_known
-        and len(other.members) == len(node.members)
+        and len(other.members) <= len(node.members)
         and not _has_effect(other, cause)
         and is_complete(search, other)
         and other.trial.left - node.trial.left < spare

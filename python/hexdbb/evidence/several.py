@@ -7,9 +7,12 @@ functions of all sliders stand before them. Here an effect is one cause at all i
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.needed import best_of, needs
@@ -31,6 +34,8 @@ from hexdbb.learned import ALL
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
+Floats = NDArray[np.float64]
+
 FEWEST = 4
 """Elements at which an effect is seen that is one cause at all of them; a search finds fewer one by one."""
 
@@ -39,23 +44,31 @@ def or_at_several(search: Search, best: Node) -> Node:
     """Return a set with an effect at all its elements, where that is better than what was found one by one.
 
     It is looked for beside nothing, and beside the known effects of the best set, all or less one of them, which may
-    have stood in for it; not where known effects explain all, each at one element, and predict.
+    have stood in for it. Where known effects, each at one element, explain all and predict, only what may be the one
+    cause of all that several of them explain is looked at.
     """
     effects = [_effect_of(each) for each in best.hypotheses]
     is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
-    if is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best):
-        return best
+    is_settled = is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best)
     found: list[Node] = []
-    known = tuple(each for each in best.members if isinstance(each.hypothesis, Known))
-    starts = dict.fromkeys([(), known, *(tuple(e for e in known if e is not member) for member in known)])
-    for start in starts:
+    for start in _starts(best, is_settled):
         fewer = search.node(start, near=best)
         at_several = at_all_elements(search, fewer, search.screen(fewer))
+        if is_settled:
+            at_several = [each for each in at_several if each.share >= search.criteria.explained_min]
         at_several.sort(key=lambda each: -each.log_evidence)
         found += [_grown(search, each) for each in search.tried(fewer, at_several[: search.criteria.beam])]
     found = [each for each in found if _may_be_sure(search, each)]
     search.nodes += found
     return best_of(search, best, found)
+
+
+def _starts(best: Node, is_settled: bool) -> Iterable[tuple[Member, ...]]:
+    """Return the sets beside which an effect at all its elements is looked for."""
+    if is_settled:
+        return [()] if len(best.members) > 1 else []
+    known = tuple(each for each in best.members if isinstance(each.hypothesis, Known))
+    return dict.fromkeys([(), known, *(tuple(e for e in known if e is not member) for member in known)])
 
 
 def _may_be_sure(search: Search, node: Node) -> bool:
@@ -90,8 +103,8 @@ def beside(search: Search, node: Node) -> list[Scored]:
 def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence[Scored] = ()) -> list[Scored]:
     """Return effects at all elements that explain more so than their forms may at the best one alone.
 
-    Effects of one value at each, of one sign: six leads, some long and some short, are as free as a function, and so
-    are screws that warm, each with a rate and a coefficient.
+    Effects of one value at each, of one sign by their nature. Others only where they err alike, one value for all
+    explaining most of what a value for each does: six leads, some long and some short, are as free as a function.
 
     Parameters
     ----------
@@ -112,14 +125,25 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
     for effect, at in columns.items():
         elements = tuple(dict.fromkeys(whose[place][1] for place in at))
         info = search.engine.base.info(effect)
-        has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at)
-        if len(elements) < FEWEST or len(at) > len(elements) or not has_one_sign:
+        if len(elements) < FEWEST:
             continue
         scored = screen.at_several(Known(effect, elements), table[:, at])
         best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
-        if scored.share - best > search.criteria.form_variance:
-            found.append(scored)
+        if scored.share - best <= search.criteria.form_variance:
+            continue
+        has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
+        alike = scored if has_one_sign else screen.at_several(scored.hypothesis, _alike(table, whose, at))
+        if alike.share >= search.criteria.explained_min * scored.share:
+            found.append(alike)
     return found
+
+
+def _alike(table: Floats, whose: Sequence[tuple[str, str, str, float]], at: Sequence[int]) -> Floats:
+    """Return what an effect does where all its elements err alike, a column for each of its values."""
+    names = dict.fromkeys(whose[place][2] for place in at)
+    return np.stack(
+        [table[:, [place for place in at if whose[place][2] == name]].sum(axis=1) for name in names], axis=1
+    )
 
 
 def with_every_element(search: Search, trial: Trial) -> Trial | None:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.alike import gained_alike
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.form import Form, Forms
@@ -211,10 +212,11 @@ class Trials:
         moved = self._linear[_key(members)] = linear.moved(change)
         if len(self._linear) > KEPT:
             self._linear.popitem(last=False)
+        alike = gained_alike(moved, fitted, [each.hypothesis for each in members])
         return Trial(
             members=members,
             model=fitted.model,
-            log_evidence=linear.log_evidence + gain + penalty + prior,
+            log_evidence=linear.log_evidence + gain + penalty + prior + alike,
             forms=tuple(forms),
             refused=refused,
             left=float(np.mean(moved.residual**2)),
@@ -244,15 +246,16 @@ class Trials:
             else:
                 assert member.factor is not None
                 model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
-        free, effects = model.free, {m.hypothesis.effect for m in added if isinstance(m.hypothesis, Known)}
-        shapes = (
-            np.array([each.is_shape and each.shape is None and each.effect in effects for each in model.parameters()])
-            & free
+        known = [each.hypothesis for each in added if isinstance(each.hypothesis, Known)]
+        shapes, one_for_all = (
+            _free_shapes(model, {each.effect for each in some})
+            for some in (known, [each for each in known if len(each.elements) > 1])
         )
         if not shapes.any():
             return self.engine.fit(model)
+        model = model.with_free(model.free & ~one_for_all)
         found = []
-        for start in self.criteria.shape_starts:
+        for start in self.criteria.shapes_for_all if one_for_all.any() else self.criteria.shape_starts:
             values = np.where(shapes, start * model.prior_sigma, model.values)
             try:
                 found.append(self.engine.fit(model.with_values(values)))
@@ -261,6 +264,12 @@ class Trials:
         if not found:
             raise RunError("no start of the fit succeeded")
         return max(found, key=lambda each: each.linear.log_evidence)
+
+
+def _free_shapes(model: Model, effects: set[str]) -> NDArray[np.bool_]:
+    """Return which values of a model are free shapes of some effects of the engine's, shape (size,)."""
+    of = [each.is_shape and each.shape is None and each.effect in effects for each in model.parameters()]
+    return np.array(of, bool) & model.free
 
 
 def _beyond(columns: Floats, values: Floats, own: NDArray[np.bool_], others: NDArray[np.bool_]) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import MEMORIES, remembered
+from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, remembered
 from hexdbb.learned.variable import ELAPSED, Variable
 
 SPLINES = 6
@@ -20,6 +20,9 @@ OVER_TIME = 24
 CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
 """Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
 then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
+RUN_UPS_DEG = (15.0, 45.0, 135.0)
+"""Run-ups to circles, at first, which the readings then move: what settles since the machine started is smaller at the
+first reading of a slow circle than at that of a fast one."""
 FACTORS = {
     "velocity": ("velocity_mm_s", "velocity"),
     "acceleration": ("acceleration_mm_s2", "acceleration"),
@@ -60,10 +63,11 @@ def _neighbour(variable: Variable) -> Variable:
 
 def _remembered(*variables: Variable) -> Iterator[Variable]:
     for each in variables:
-        for how in MEMORIES:
+        for how in (LAGGED, RELAXING):
             yield from (remembered(each, how, constant_s) for constant_s in CONSTANTS_S)
 
 
+SINCE_START = tuple(remembered(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
 PRODUCTS_OF_SLIDER = (
     *(product("velocity", each) for each in (v.POSITION, v.FORCE, v.DRIVE_LOAD)),
     product("acceleration", v.POSITION),
@@ -105,10 +109,15 @@ OF_BALL = (
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (
-    *(v.POSITION, v.DIRECTION_POSITION, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_POSITION),
+    *(v.POSITION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_POSITION),
     product("leg_force", v.POSITION),
 )
 """Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
+OF_SLIDER_JOINT = (v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD)
+"""Variables of one carriage that is pushed across its guideway: it cocks, it floats, it gives. What its way does to a
+carriage it does to both."""
+OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE)
+"""Variables of a platform's joint that is loose, or soft, in whatever direction."""
 OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED)
 """Variables of the platform's joint that two legs share: those that both have. No function of time is among those of
 several axes here: such follow any drift, and claim nothing of a time that was left out."""
@@ -116,14 +125,23 @@ GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
 FURTHER: dict[str, tuple[Variable, ...]] = {
-    "slider": (v.DRIVE_LOAD, v.CARRIAGE_LOAD, *PRODUCTS_OF_SLIDER, *NEIGHBOURS, *_remembered(v.DRIVE_LOAD)),
-    "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE)),
+    "slider": (
+        v.DRIVE_LOAD,
+        v.CARRIAGE_LOAD,
+        *PRODUCTS_OF_SLIDER,
+        *NEIGHBOURS,
+        *_remembered(v.DRIVE_LOAD),
+        *SINCE_START,
+    ),
+    "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE), *SINCE_START),
     "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.CARRIAGE_LOAD)),
     "vertical": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.CARRIAGE_LOAD)),
     "guideway": OF_GUIDEWAY,
+    "slider_joint": OF_SLIDER_JOINT,
+    "platform_joint": OF_PLATFORM_JOINT,
     "ball": OF_BALL,
     "cup": OF_BALL,
-    "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION)),
+    "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION), *SINCE_START),
 }
 """Further variables of single elements by place."""
 OF_PAIRS: dict[str, tuple[Variable, ...]] = {

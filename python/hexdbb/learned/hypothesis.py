@@ -15,6 +15,7 @@ from hexdbb.learned.places import (
     AXES,
     COMPONENTS,
     KINDS,
+    OF_GUIDEWAY,
     PORTS,
     PREFIX,
     SHARED,
@@ -162,9 +163,9 @@ class Learned:
     @property
     def _pushed(self) -> tuple[int, ...]:
         """Elements, from 0, that are pushed."""
-        if self.place == "platform" or (self.place in (*SHARED, *AXES) and self.element == ALL):
+        if self.place == "platform" or (self.place in (*SHARED, *OF_GUIDEWAY) and self.element == ALL):
             return tuple(range(6))
-        if self.place in AXES:
+        if self.place in OF_GUIDEWAY:
             return (2 * self.element - 2, 2 * self.element - 1)
         return tuple(max(each - 1, 0) for each in members(self.element))
 
@@ -203,4 +204,4 @@ class Learned:
 
 def part_of(learned: Learned) -> str:
     """Return the part of the machine at which a function acts: a guideway's two directions are one."""
-    return "guideway" if learned.place in AXES else learned.place
+    return "guideway" if learned.place in OF_GUIDEWAY else learned.place

@@ -1,8 +1,8 @@
 """Variables whose names carry numbers, which the readings chose: instants, periods, and times that memory lasts.
 
-Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), and what follows another
-variable late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the
-variable less the same lag).
+Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
+late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
+less the same lag), and the time since a circle's run-up began (`time_in_sweep_after@45`, its angle in degrees).
 """
 
 from __future__ import annotations
@@ -20,9 +20,13 @@ INSTANT_S = 1e-4
 """Resolution of instants in names: far below the time between two samples."""
 MEMORY_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
-LAGGED, RELAXING = "lagged", "relaxing"
-MEMORIES = {LAGGED: "{} as it was about {:.3g} s before", RELAXING: "change of the {} within about {:.3g} s"}
-"""How a variable may be remembered, and how people say it."""
+LAGGED, RELAXING, AFTER = "lagged", "relaxing", "after"
+MEMORIES = {
+    LAGGED: "{} as it was about {:.3g} s before",
+    RELAXING: "change of the {} within about {:.3g} s",
+    AFTER: "{} with its run-up of about {:.3g}°",
+}
+"""How a variable may be remembered, and how people say it; a time since a capture began, with the run-up to it."""
 MEMORY_DIGITS = 4
 """Significant digits of a time that memory lasts: readings determine it to a few per cent."""
 
@@ -42,15 +46,15 @@ def periodic(column: str, period: float) -> Variable:
     return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
 
 
-def remembered(variable: Variable, how: str, constant_s: float) -> Variable:
-    """Return the variable of what remembers another one, `LAGGED` or `RELAXING`, with a time constant."""
-    number = f"{constant_s:.{MEMORY_DIGITS}g}"
+def remembered(variable: Variable, how: str, constant: float) -> Variable:
+    """Return the variable of what remembers another one, `LAGGED`, `RELAXING` (s) or `AFTER` (degrees)."""
+    number = f"{constant:.{MEMORY_DIGITS}g}"
     return replace(
         variable,
         name=f"{variable.name}_{how}@{number}",
         column=f"{variable.column}{OF_MEMORY}{how}@{number}",
         words=MEMORIES[how].format(variable.words, float(number)),
-        count=MEMORY_SPLINES,
+        count=variable.count if how == AFTER else MEMORY_SPLINES,
         signed=False,
     )
 
@@ -61,7 +65,7 @@ def has_chosen_number(variable: Variable) -> bool:
 
 
 def number_of(variable: Variable) -> float:
-    """Return the number in a variable's name: a period (s or mm) or a time constant (s)."""
+    """Return the number in a variable's name: a period (s or mm), a time constant (s), a run-up (degrees)."""
     return float(variable.name.partition("@")[2])
 
 

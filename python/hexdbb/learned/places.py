@@ -23,12 +23,13 @@ VARIABLES: dict[str, tuple[Variable, ...]] = {
     "cup": v.OF_BALL,
     "reading": v.OF_READING,
     "guideway": (),
+    "slider_joint": (),
     "platform": (),
 }
 """The simple variables of every place."""
-ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "guideway": 3, "platform_joint": 6}
+ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "guideway": 3, "slider_joint": 6, "platform_joint": 6}
 """Number of elements of those places that have more than one."""
-COMPONENTS = {"platform_joint": 3, "ball": 3, "cup": 3, "guideway": 2}
+COMPONENTS = {"platform_joint": 3, "ball": 3, "cup": 3, "guideway": 2, "slider_joint": 2}
 """Number of functions of places that push along several axes, because the direction is not known."""
 KINDS = {
     "slider": "slider",
@@ -36,6 +37,7 @@ KINDS = {
     "lateral": "guideway",
     "vertical": "guideway",
     "guideway": "guideway",
+    "slider_joint": "slider",
     "platform_joint": "leg",
 }
 SHARED = ("slider", "leg")
@@ -47,8 +49,10 @@ PORTS = {
     "platform": "platform_joint",
 }
 """Ports of the engine that places push, where they have another name."""
-AXES = {"lateral": "x", "vertical": "z", "guideway": "xz"}
+AXES = {"lateral": "x", "vertical": "z", "guideway": "xz", "slider_joint": "xz"}
 """Axes of a guideway's frame (x outward from the base centre, z up) along which a place pushes."""
+OF_GUIDEWAY = tuple(place for place in AXES if KINDS[place] == "guideway")
+"""Places whose elements are guideways, each with the joints of both its sliders."""
 
 
 def is_learned(name: str) -> bool:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hexdbb.learned.hypothesis import Learned, part_of
-from hexdbb.learned.places import ALL, PAIRS
+from hexdbb.learned.hypothesis import Learned
+from hexdbb.learned.places import ALL, AXES, PAIRS
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
@@ -21,6 +21,7 @@ PLACES = {
     "cup": "cup",
     "reading": "reading of the gauge",
     "guideway": "guideway {}",
+    "slider_joint": "joint of slider {}",
     "platform": "all joints of the platform, outward",
 }
 PAIR_OF = {
@@ -40,7 +41,7 @@ ACROSS = {"x": ", sideways", "z": ", up and down"}
 def place_words(hypothesis: Learned, component: int = 0) -> str:
     """Return where a function pushes, in words."""
     axis = hypothesis.axis_name(component)
-    across = ACROSS if part_of(hypothesis) == "guideway" else {}
+    across = ACROSS if hypothesis.place in AXES else {}
     return whole_place_words(hypothesis) + (across.get(axis, f" along {axis}") if axis else "")
 
 

@@ -114,6 +114,15 @@ ANGLE_DIRECTION = Variable(
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
 READ = Variable("reading", "nominal_reading_mm", "mm", "nominal reading", 8, of_forms=True)
 DEFLECTION = Variable("deflection", "deflection_mm", "mm", "predicted deflection of the gauge", 12)
+SINCE_TURN = Variable(
+    "deflection_since_turn",
+    "deflection_since_turn_mm",
+    "mm",
+    "way of the gauge since it turned",
+    10,
+    times="deflection_direction",
+    is_log=True,
+)
 CIRCLE_DIRECTION = Variable("circle_direction", "", "", "direction of the circle", times="direction")
 SPEED = Variable("speed", "speed_mm_s", "mm/s", "speed of the platform", 8)
 FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
@@ -155,7 +164,7 @@ OF_PLATFORM_JOINT = (
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
-    *(FEED, SPEED, ROLL, PITCH, YAW),
+    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""

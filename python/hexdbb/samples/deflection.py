@@ -22,7 +22,8 @@ from hexdbb.model import Model, MountKey, new_model
 
 Floats = NDArray[np.float64]
 
-DEFLECTION, DEFLECTION_DIRECTION = "deflection_mm", "deflection_direction"
+DEFLECTION = "deflection_mm"
+DIRECTION_AND_WAY = ("deflection_direction", "deflection_since_turn_mm")
 FITTED_ROWS = 3000
 """Readings that the step is taken from: some tens for each value of geometry and set-up, as in `Criteria.fit_rows`."""
 STEPS = 5
@@ -33,6 +34,8 @@ BEND_MM = 0.1
 """Prior standard deviation of their coefficients: as large as the deflections that geometry makes."""
 LEAST_TURN_MM = 5e-4
 """Way back from which a gauge has turned: several counts of the encoders, far below any deflection."""
+NOT_YET_MM = 1e6
+"""As the engine writes a travel since a reversal that has not been."""
 NOISE_MM = 1e-3
 """Against which priors count: of tenths of a millimetre, they are the same beside the noise of any gauge."""
 
@@ -87,25 +90,37 @@ def _stepped(model: Model, rows: _core.Samples, reading_mm: Floats, degrees: Seq
     return model.with_values(values)
 
 
-def direction_of(deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
-    """Return the sense in which the gauge moves: +1, -1, 0 where it never moved in its sweep; shape (n,).
+def direction_and_way(deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]) -> tuple[Floats, Floats]:
+    """Return the sense in which the gauge moves, and its way since it turned.
 
     It turns over where the deflection has come back by `LEAST_TURN_MM` from the farthest that it was: the encoders'
     steps do not show in it.
+
+    Returns
+    -------
+    direction : ndarray, shape (n,)
+        +1, -1, 0 where it never moved in its sweep.
+    way_mm : ndarray, shape (n,)
+        From the farthest that it was before; 1e6 where it has not turned in its sweep yet.
     """
     order = np.lexsort((time_s, sweep))
-    found = np.zeros(len(deflection_mm))
+    found, since_mm = np.zeros(len(deflection_mm)), np.full(len(deflection_mm), NOT_YET_MM)
     for rows in np.split(order, np.flatnonzero(np.diff(sweep[order])) + 1):
-        found[rows] = _turning(deflection_mm[rows])
-    return found
+        found[rows], since_mm[rows] = _turning(deflection_mm[rows])
+    return found, since_mm
 
 
-def _turning(values: Floats) -> Floats:
-    """Return the sense of one sweep, in order of time."""
-    found, way, farthest = np.zeros(len(values)), 0.0, float(values[0])
+def _turning(values: Floats) -> tuple[Floats, Floats]:
+    """Return the sense, and the way since it turned over, of one sweep in order of time."""
+    found, since = np.zeros(len(values)), np.full(len(values), NOT_YET_MM)
+    way, farthest, turned = 0.0, float(values[0]), None
     for place, value in enumerate(values.tolist()):
         ahead = value - farthest
         if abs(ahead) > LEAST_TURN_MM or ahead * way > 0.0:
+            if ahead * way < 0.0:
+                turned = farthest
             way, farthest = float(np.sign(ahead)), value
         found[place] = way
-    return found
+        if turned is not None:
+            since[place] = abs(value - turned)
+    return found, since

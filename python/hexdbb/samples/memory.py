@@ -1,9 +1,10 @@
-"""Columns that remember others: `leg_force.lagged@12`, `leg_force.relaxing@12`.
+"""Columns that remember others: `leg_force.lagged@12`, `leg_force.relaxing@12`, `time_in_sweep_s.after@45`.
 
 Rubber yields late, grease and warmth follow slowly: what acts is a state as it was some time before. The lag is of
 first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. What the machine did between two
 sweeps no record says: it is taken to have run out along the circle and up along the next one, as it came round in other
-laps, and to have gone evenly from the one to the other. Before the first sweep it stood.
+laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
+degrees is one to which is added what these take at the rate at which the circle is driven.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing)@(?P<constant_s>[0-9.e+-]+)")
+NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after)@(?P<constant>[0-9.e+-]+)")
 RUN_UP_RAD = np.pi / 4.0
 """Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 LONGEST = 30.0
@@ -33,7 +34,7 @@ def remembered_of(name: str) -> re.Match[str] | None:
 
 def remembered_column(
     how: str,
-    constant_s: float,
+    constant: float,
     column: Floats,
     time_s: Floats,
     sweep: NDArray[np.integer[Any]],
@@ -44,9 +45,9 @@ def remembered_column(
     Parameters
     ----------
     how : str
-        `lagged` or `relaxing`.
-    constant_s : float
-        Its time constant.
+        `lagged`, `relaxing` or `after`.
+    constant : float
+        Its time constant, s; of `after` the run-up, degrees.
     column : ndarray, shape (n,) or (n, k)
     time_s, angle_rad : ndarray, shape (n,)
         Times rise within a sweep; polar angles with or without their turns.
@@ -55,14 +56,24 @@ def remembered_column(
     values = np.asarray(column, np.float64).reshape(len(column), -1)
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
     sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
+    if how == "after":
+        run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]
+        added = np.repeat(run_up_s, [rows.stop - rows.start for rows in sweeps])
+        return np.asarray((values + added[:, None]).reshape(column.shape))
     lagged = np.empty_like(values)
     for chain in _chains(sweeps, time_s):
         at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows]) for rows in chain])
-        whole = _lagged(given, (at_s - at_s[0]) / constant_s, given[0])
+        whole = _lagged(given, (at_s - at_s[0]) / constant, given[0])
         for rows in chain:
             lagged[rows] = whole[np.searchsorted(at_s, time_s[rows])]
     found: Floats = lagged if how == "lagged" else values - lagged
     return found.reshape(column.shape)
+
+
+def _rate_rad_s(time_s: Floats, angle_rad: Floats) -> float:
+    """Return at what rate a circle is driven; infinity for one sample."""
+    way, took_s = float(np.abs(np.ptp(np.unwrap(angle_rad)))), float(np.ptp(time_s))
+    return way / took_s if way * took_s > 0.0 else float("inf")
 
 
 def _chains(sweeps: Sequence[slice], time_s: Floats) -> list[list[slice]]:

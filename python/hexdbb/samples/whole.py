@@ -18,7 +18,7 @@ from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
-from hexdbb.samples.deflection import DEFLECTION, DEFLECTION_DIRECTION, deflection_mm, direction_of
+from hexdbb.samples.deflection import DEFLECTION, DIRECTION_AND_WAY, deflection_mm, direction_and_way
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
@@ -64,7 +64,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, DEFLECTION, DEFLECTION_DIRECTION)
+        later = (*STATE, *DERIVED, *LOADS, DEFLECTION, *DIRECTION_AND_WAY)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -73,7 +73,7 @@ class Whole:
         if name not in self.columns:
             # There are as many columns that remember as numbers in their names: none is kept.
             if (how := remembered_of(name)) is not None:
-                return self._remembered(how["column"], how["how"], float(how["constant_s"]))
+                return self._remembered(how["column"], how["how"], float(how["constant"]))
             self._make(name)
         return self.columns.get(name)
 
@@ -91,13 +91,14 @@ class Whole:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
-        elif name == DEFLECTION_DIRECTION:
-            self.columns[name] = direction_of(*self._known(DEFLECTION, "time_s", "sweep"))
+        elif name in DIRECTION_AND_WAY:
+            found = direction_and_way(*self._known(DEFLECTION, "time_s", "sweep"))
+            self.columns |= dict(zip(DIRECTION_AND_WAY, found, strict=True))
 
-    def _remembered(self, name: str, how: str, constant_s: float) -> Floats | None:
+    def _remembered(self, name: str, how: str, constant: float) -> Floats | None:
         if name not in self.names:
             return None
-        return remembered_column(how, constant_s, *self._known(name, "time_s", "sweep", "angle_rad"))
+        return remembered_column(how, constant, *self._known(name, "time_s", "sweep", "angle_rad"))
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
         """Return the engine's form with at least some columns of the state, and the names of those that it holds.

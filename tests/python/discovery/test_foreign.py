@@ -113,3 +113,25 @@ def test_what_is_small_beside_another_fault_is_no_form_of_it() -> None:
     found = found_in("unequal-pair")
     assert found.verdict == "effect"
     assert {each.choice for each in found.causes} == {"pitch_cyclic:3", "screw_thermal:4"}
+
+
+def test_a_carriage_that_cocks_is_found_at_the_joint_of_its_slider() -> None:
+    """Loose in its rail, it leans over a few millimetres after each reversal, and its joint goes sideways and up."""
+    found = found_in("carriage-cocks")
+    assert found.verdict == "unknown"
+    assert [each.choice for each in found.causes] == ["learned:slider_joint:5:since_reversal_travel"]
+    assert "joint of slider 5" in found.sentence and "reversal" in found.sentence
+    assert all(each.after_um < 0.6 * each.before_um for each in found.heldout.values())
+
+
+def test_a_gauge_that_sticks_is_found_by_its_way_since_it_turned() -> None:
+    found = found_in("gauge-sticks")
+    assert found.verdict == "unknown"
+    assert [each.choice for each in found.causes] == ["learned:reading:deflection_since_turn"]
+
+
+def test_screws_that_all_warm_are_not_for_sure_something_else() -> None:
+    """A gauge that drifts and legs that grow fit three times the noise as well, each with a form of its own."""
+    found = found_in("screws-alike")
+    assert found.verdict == "ambiguous"
+    assert all("screw_thermal" in each.rivals or each.choice == "screw_thermal" for each in found.causes)

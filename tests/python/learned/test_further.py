@@ -31,6 +31,9 @@ def test_every_name_is_parsed_back_and_stands_for_one_hypothesis() -> None:
         ("learned:slider:5-6:fine_position", (4, 5), (4, 5), "sliders 5 and 6 along their guideway"),
         ("learned:slider:4:neighbour_leg_force", (3,), (2,), "slider 4 along its guideway"),
         ("learned:leg:2:leg_force_lagged@7.5", (1,), (1,), "length of leg 2"),
+        ("learned:leg:3:time_in_sweep_after@60", (2,), (2,), "length of leg 3"),
+        ("learned:reading:time_in_sweep_after@60", (0,), (0,), "reading of the gauge"),
+        ("learned:platform_joint:5:since_reversal_travel", (12,), (4,), "platform's joint of leg 5 along x"),
         ("learned:platform_joint:1-2:angle", (0, 3), (0, 1), "platform's joint of legs 1 and 2 along x"),
     ],
 )
@@ -54,6 +57,20 @@ def test_a_guideway_pushes_both_joints_outward_and_up() -> None:
     assert [place_words(learned, component) for component in range(2)] == [
         "guideway 1, sideways",
         "guideway 1, up and down",
+    ]
+
+
+def test_the_joint_of_one_slider_is_pushed_across_its_own_guideway() -> None:
+    learned = Learned.parse("learned:slider_joint:6:since_reversal_travel")
+    first, angle = _core.PORTS["slider_joint"][0] + 15, MACHINE.base.guideway_angles_rad[2]
+    outward, up = (learned.pushes(component, MACHINE) for component in range(2))
+    assert up == ((5, ((first + 2, 1.0),)),)
+    ((element, ports),) = outward
+    assert element == 5
+    assert dict(ports) == pytest.approx({first: math.cos(angle), first + 1: math.sin(angle)})
+    assert [place_words(learned, each) for each in range(2)] == [
+        "joint of slider 6, sideways",
+        "joint of slider 6, up and down",
     ]
 
 

@@ -41,6 +41,7 @@ VARIABLES = {
     "circle_direction": ("direction",),
     "deflection_direction": ("deflection", "direction"),
     "joint_direction": ("joint_turning",),
+    "deflection_since_turn": ("deflection", "direction"),
     "drive_load": ("leg_force",),
     "carriage_load": ("leg_force",),
     "speed": ("feed", "velocity"),
