@@ -1,10 +1,12 @@
-// Stiction: after a reversal the slider sticks while the drive winds up whatever is elastic between the two; at the
-// windup `height` it breaks away, and the windup decays as exp(-(t - t_b) / tau). With sigma the direction of travel, d
-// the travel and t the time since the reversal,
-//   push = -sigma d                            while d < height,
+// Stiction: after a reversal the slider sticks while the drive winds up whatever is elastic between the two; after a
+// way w it breaks away, behind by the height, and the windup decays as exp(-(t - t_b) / tau). With sigma the direction
+// of travel, d the travel and t the time since the reversal,
+//   push = -sigma height d / w                 while d < w,
 //   push = -sigma height exp(-(t - t_b)/tau)   from then on,
-// where t_b = t sqrt(height / d): near a reversal a slider starts with constant acceleration, d = a t^2 / 2.
-// tau = 50 ms exp(log_time): positive whatever the value, and 50 ms at log_time = 0.
+// where t_b = t sqrt(w / d): near a reversal a slider starts with constant acceleration, d = a t^2 / 2.
+// tau = 50 ms exp(log_time): positive whatever the value, and 50 ms at log_time = 0. w = height exp(log_way): a slider
+// that stands still falls behind by the way of its drive, w = height at log_way = 0. It falls behind sooner where the
+// friction that turns over shows in its drive at once, later where it creeps.
 //
 // Assumption: the slider breaks away before it reverses again.
 #include <cmath>
@@ -23,28 +25,33 @@ class ReversalSpike : public Effect {
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
     for (int k = 0; k < kLegs; ++k) {
-      const double height = values[2 * k];
+      const double height = values[kValues * k];
       if (height == 0.0) continue;
       const Decay decay(block, values, k);
-      const auto windup = decay.sticks.select(decay.travelled_mm, std::abs(height) * decay.left);
+      const auto windup = std::abs(height) * decay.sticks.select(decay.part, decay.left);
       ports.col(port::kSlider + k).array() -= std::copysign(1.0, height) * decay.direction * windup;
     }
   }
 
   // Sliding, with e = exp(-(t - t_b)/tau):
-  //   d/d height = -sigma e (1 + t_b / 2 tau),   d/d log_time = push (t - t_b)/tau.
+  //   d/d height = -sigma e (1 + t_b / 2 tau),   d/d log_time = push (t - t_b)/tau,   d/d log_way = push t_b / 2 tau;
+  // sticking, only d/d log_way = -push is not zero.
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
              JacobianBlock jacobian) const override {
     for (int k = 0; k < kLegs; ++k) {
       const Decay decay(block, values, k);
-      const BlockColumn slope =
-          -decay.direction * decay.sticks.select(0.0, decay.left) * sensitivity.col(port::kSlider + k).array();
-      jacobian.col(2 * k).array() = slope * (1.0 + 0.5 * decay.stuck);
-      jacobian.col(2 * k + 1).array() = values[2 * k] * slope * decay.slid;
+      const double height = values[kValues * k];
+      const BlockColumn way = -decay.direction * sensitivity.col(port::kSlider + k).array();
+      const BlockColumn slope = way * decay.sticks.select(0.0, decay.left);
+      jacobian.col(kValues * k).array() = slope * (1.0 + 0.5 * decay.stuck);
+      jacobian.col(kValues * k + 1).array() = height * slope * decay.slid;
+      jacobian.col(kValues * k + 2).array() =
+          height * decay.sticks.select(-way * decay.part, 0.5 * slope * decay.stuck);
     }
   }
 
  private:
+  static constexpr int kValues = 3;  // of an element: height, log_time, log_way
   static constexpr double kExpectedTime_s = 0.05;
   static constexpr double kSmallestTravel_mm = 1e-9;  // avoids a division by zero at the turning point itself
 
@@ -52,18 +59,24 @@ class ReversalSpike : public Effect {
   struct Decay {
     Decay(const SampleBlock& block, Values values, int k)
         : direction(block.of(block.samples.state.travel_direction, k).array()),
-          travelled_mm(block.of(block.samples.state.since_reversal_mm, k).array()),
-          sticks(travelled_mm < std::abs(values[2 * k])) {
-      const BlockColumn since =
-          block.of(block.samples.state.since_reversal_s, k).array() / (kExpectedTime_s * std::exp(values[2 * k + 1]));
-      stuck = since * (std::abs(values[2 * k]) / travelled_mm.max(kSmallestTravel_mm)).sqrt();
+          sticks(block.of(block.samples.state.since_reversal_mm, k).array() < way_mm(values, k)) {
+      const BlockColumn since = block.of(block.samples.state.since_reversal_s, k).array() /
+                                (kExpectedTime_s * std::exp(values[kValues * k + 1]));
+      const BlockColumn travelled_mm =
+          block.of(block.samples.state.since_reversal_mm, k).array().max(kSmallestTravel_mm);
+      part = travelled_mm / std::max(way_mm(values, k), kSmallestTravel_mm);
+      stuck = since / part.sqrt();
       slid = since - stuck;
       left = (-slid).exp();
     }
 
-    BlockColumn direction, travelled_mm;
+    static double way_mm(Values values, int k) {
+      return std::abs(values[kValues * k]) * std::exp(values[kValues * k + 2]);
+    }
+
+    BlockColumn direction;
     Eigen::Array<bool, Eigen::Dynamic, 1, 0, Block::kRows, 1> sticks;
-    BlockColumn stuck, slid, left;
+    BlockColumn part, stuck, slid, left;  // of the way that it sticks; times in time constants; of the windup
   };
 };
 
@@ -74,17 +87,20 @@ EffectPtr reversal_spike(const Context&) {
       .name = "reversal_spike",
       .group = group::kCatalogue,
       .physics =
-          "Stiction: after a reversal a slider sticks until its drive has moved on by the height, then catches up "
-          "exponentially, with a time constant of 50 ms times e to the log_time; unlike backlash the error has "
-          "decayed after a few time constants.",
+          "Stiction: after a reversal a slider falls behind by the height until its drive has moved on by a way of the "
+          "height times e to the log_way, then catches up exponentially, with a time constant of 50 ms times e to the "
+          "log_time; unlike backlash the error has decayed after a few time constants.",
       .formula =
-          "slider = -travel_direction x (since_reversal up to the height, then height exp(-(t - t_breakaway) / tau))",
+          "slider = -travel_direction x height x (since_reversal / way up to the way, then "
+          "exp(-(t - t_breakaway) / tau))",
       .source = "friction at velocity reversal (quadrant glitch), ISO 230-4 Annex",
       .element_kind = "slider",
       .elements = kSixElements,
       // Uncompensated quadrant glitches of machine tools are 5 to 20 um high and last some tens of ms.
       .parameters = {{.name = "height", .unit = "mm", .prior_sigma = 0.01, .limit = 0.5, .is_nonnegative = true},
-                     {.name = "log_time", .unit = "1", .prior_sigma = 0.7, .limit = 3.0, .is_shape = true}},
+                     {.name = "log_time", .unit = "1", .prior_sigma = 0.7, .limit = 3.0, .is_shape = true},
+                     // A drive that shows friction at once has a way of a few micrometres, whatever the height.
+                     {.name = "log_way", .unit = "1", .prior_sigma = 1.0, .limit = 4.0, .is_shape = true}},
       .ports = {"slider"},
       .needs = {"travel_direction", "since_reversal_s", "since_reversal_mm"},
   });

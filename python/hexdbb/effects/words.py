@@ -14,7 +14,7 @@ from hexdbb.units import readable_unit
 
 CLAUSES = {
     "backlash": "{who} has {play} of play between drive and carriage",
-    "reversal_spike": "{who} sticks after each reversal until its drive has moved on by {height}",
+    "reversal_spike": "{who} falls {height} behind after each reversal, then catches up",
     "pitch_cyclic": "the screw of {who} has a pitch error that repeats with each turn",
     "lead_error": "the screw of {who} has a lead too long by {lead}",
     "straightness": "{who} is bowed by {lateral} outward and {vertical} up",

@@ -265,7 +265,7 @@ def test_lag_is_removed_at_the_reversals_too() -> None:
 
 def test_a_spike_at_the_reversal_stays_and_nothing_is_added_to_it() -> None:
     plan = fast_plan()
-    spike = {"reversal_spike": [v for k in range(6) for v in ((0.015, 0.7) if k == 1 else (0.0, 0.0))]}
+    spike = {"reversal_spike": [v for k in range(6) for v in ((0.015, 0.7, 0.0) if k == 1 else (0.0, 0.0, 0.0))]}
     data = make_compensation(model_of(**spike))
     assert [name for name, _ in data.left_out] == ["reversal_spike"]
     all_three = [SPIKE, PLAY, LAG]
