@@ -3,10 +3,11 @@
 // of travel, d the travel and t the time since the reversal,
 //   push = -sigma height d / w                 while d < w,
 //   push = -sigma height exp(-(t - t_b)/tau)   from then on,
-// where t_b = t sqrt(w / d): near a reversal a slider starts with constant acceleration, d = a t^2 / 2.
+// where t_b = t sqrt(w / d): near a reversal a slider starts with constant acceleration, d = a t^2 / 2, which is told
+// better by the acceleration where it is less than the encoder's steps.
 // tau = 50 ms exp(log_time): positive whatever the value, and 50 ms at log_time = 0. w = height exp(log_way): a slider
 // that stands still falls behind by the way of its drive, w = height at log_way = 0. It falls behind sooner where the
-// friction that turns over shows in its drive at once, later where it creeps.
+// friction that turns over shows at once, as in a drive that is stiff and holds its position by a slow integral.
 //
 // Assumption: the slider breaks away before it reverses again.
 #include <cmath>
@@ -59,12 +60,10 @@ class ReversalSpike : public Effect {
   struct Decay {
     Decay(const SampleBlock& block, Values values, int k)
         : direction(block.of(block.samples.state.travel_direction, k).array()),
-          sticks(block.of(block.samples.state.since_reversal_mm, k).array() < way_mm(values, k)) {
+          part(travelled_mm(block, k) / std::max(way_mm(values, k), kSmallestTravel_mm)),
+          sticks(part < 1.0) {
       const BlockColumn since = block.of(block.samples.state.since_reversal_s, k).array() /
                                 (kExpectedTime_s * std::exp(values[kValues * k + 1]));
-      const BlockColumn travelled_mm =
-          block.of(block.samples.state.since_reversal_mm, k).array().max(kSmallestTravel_mm);
-      part = travelled_mm / std::max(way_mm(values, k), kSmallestTravel_mm);
       stuck = since / part.sqrt();
       slid = since - stuck;
       left = (-slid).exp();
@@ -74,9 +73,18 @@ class ReversalSpike : public Effect {
       return std::abs(values[kValues * k]) * std::exp(values[kValues * k + 2]);
     }
 
-    BlockColumn direction;
+    static BlockColumn travelled_mm(const SampleBlock& block, int k) {
+      const auto since_s = block.of(block.samples.state.since_reversal_s, k).array();
+      const auto acceleration = block.of(block.samples.state.acceleration_mm_s2, k).array();
+      return block.of(block.samples.state.since_reversal_mm, k)
+          .array()
+          .max(0.5 * acceleration.abs() * since_s.square())
+          .max(kSmallestTravel_mm);
+    }
+
+    BlockColumn direction, part;  // of the way that it sticks
     Eigen::Array<bool, Eigen::Dynamic, 1, 0, Block::kRows, 1> sticks;
-    BlockColumn part, stuck, slid, left;  // of the way that it sticks; times in time constants; of the windup
+    BlockColumn stuck, slid, left;  // times in time constants; of the windup
   };
 };
 
@@ -99,10 +107,10 @@ EffectPtr reversal_spike(const Context&) {
       // Uncompensated quadrant glitches of machine tools are 5 to 20 um high and last some tens of ms.
       .parameters = {{.name = "height", .unit = "mm", .prior_sigma = 0.01, .limit = 0.5, .is_nonnegative = true},
                      {.name = "log_time", .unit = "1", .prior_sigma = 0.7, .limit = 3.0, .is_shape = true},
-                     // A drive that shows friction at once has a way of a few micrometres, whatever the height.
-                     {.name = "log_way", .unit = "1", .prior_sigma = 1.0, .limit = 4.0, .is_shape = true}},
+                     // Friction that shows at once has a way of a ten-thousandth of the height.
+                     {.name = "log_way", .unit = "1", .prior_sigma = 2.0, .limit = 10.0, .is_shape = true}},
       .ports = {"slider"},
-      .needs = {"travel_direction", "since_reversal_s", "since_reversal_mm"},
+      .needs = {"travel_direction", "since_reversal_s", "since_reversal_mm", "acceleration_mm_s2"},
   });
 }
 

@@ -153,7 +153,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         " + ".join(sorted(other.trial.names))
         for other, _ in _without(search, node, cause)
         if other.is_known
-        and len(other.members) <= len(node.members)
+        and _is_no_freer(other, node)
         and not _has_effect(other, cause)
         and is_complete(search, other)
         and other.trial.left - node.trial.left < spare
@@ -161,6 +161,13 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
     )
     return list(dict.fromkeys(found))
+
+
+def _is_no_freer(other: Node, node: Node) -> bool:
+    """Check for a set of fewer causes; of as many, one at no more elements: six sizes stand in for any drift."""
+    return len(other.members) < len(node.members) or (
+        len(other.members) == len(node.members) and other.faults <= node.faults
+    )
 
 
 def _is_bent(search: Search, node: Node) -> bool:
