@@ -122,6 +122,7 @@ def discrepancy(
 ) -> list[tuple[Learned, ...]]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
 
+    What turns over with the direction of travel may be more one way than the other.
     What belongs to the set-up, as a gauge that is read late, is one thing that the elements share, form and all.
 
     Returns
@@ -135,7 +136,8 @@ def discrepancy(
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
     useful = [each for each in near if each.variable.columns <= MOST_COLUMNS] or near[:1]
     own = {each.hypothesis for each in homes if each.explained >= criteria.form_own}
-    return [_by_element(each) if each in own and not is_set_up else (each,) for each in useful]
+    both_ways = [other for each in useful if (other := each.alike_both_ways) is not None]
+    return [_by_element(each) if each in own and not is_set_up else (each,) for each in (*useful, *both_ways)]
 
 
 def _by_element(each: Learned) -> tuple[Learned, ...]:

@@ -119,6 +119,13 @@ class Learned:
             return None
         return replace(self, element=left.pop())
 
+    @property
+    def alike_both_ways(self) -> Learned | None:
+        """The same function without the sign of the direction of travel; None where there is none such at the place."""
+        variables = {each.name: each for each in variables_of(self.place, self.element)}
+        variable = variables.get(f"{self.variable.name}_alike")
+        return None if variable is None else replace(self, variable=variable)
+
     def finer(self, times: int) -> Learned:
         """Return the same hypothesis, name and all, with so many times as many splines."""
         return replace(self, variable=replace(self.variable, count=self.variable.count * times))
