@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +13,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.model.entries import EarlierEffectEntry, EarlierEntry
+from hexdbb.model.gained import with_gained_shape
 from hexdbb.model.learned import LearnedEffect
 from hexdbb.model.learned_entry import learned_effect, learned_entry
 from hexdbb.model.ledger import Snapshot
@@ -43,10 +46,10 @@ def earlier_snapshot(entry: EarlierEntry, mounts: Sequence[MountKey], describe: 
         place = f"{where}.effect[{index}]"
         try:
             learned = None if effect.learned is None else learned_effect(effect.name, effect.learned)
-            units = units_of(describe(entry.mounts, effect.name, learned))
+            info = describe(entry.mounts, effect.name, learned)
         except InputError as error:
             raise InputError(f"{place}.name: {error}") from None
-        terms.append(replace(_term(effect, units, place), learned=learned))
+        terms.append(replace(_term(_of_now(effect, info), units_of(info), place), learned=learned))
     return Snapshot(tuple(terms), tuple(mounts[: entry.mounts]))
 
 
@@ -60,6 +63,21 @@ def _entry(term: Term, units: Sequence[str]) -> EarlierEffectEntry:
         free=None if term.free.all() else _flags(term.free),
         learned=None if term.learned is None else learned_entry(term.learned),
     )
+
+
+def _of_now(entry: EarlierEffectEntry, info: _core.EffectInfo) -> EarlierEffectEntry:
+    """Return what a file has of an effect with the shape that the effect has gained since."""
+    starts: dict[str, Callable[[str, Any], Any]] = {
+        "values": lambda _, last: 0.0,
+        "sigma": lambda _, last: math.nan,
+        "identifiable": lambda _, last: False,
+        "free": lambda _, last: last,
+    }
+    given = {key: getattr(entry, key) for key in starts}
+    changed = {
+        key: tuple(with_gained_shape(values, info, starts[key])) for key, values in given.items() if values is not None
+    }
+    return entry.model_copy(update=changed)
 
 
 def _term(entry: EarlierEffectEntry, units: Sequence[str], where: str) -> Term:

@@ -18,6 +18,7 @@ from hexdbb.machine import MachineFile
 from hexdbb.model.catalogue import effect_info
 from hexdbb.model.earlier import Describe, earlier_entry, earlier_snapshot
 from hexdbb.model.entries import EffectEntry, ModelFile, MountEntry, ParameterEntry, SizeEntry, StepEntry
+from hexdbb.model.gained import with_gained_shape
 from hexdbb.model.learned import LearnedEffect
 from hexdbb.model.learned_entry import learned_effect, learned_entry
 from hexdbb.model.ledger import LedgerStep, Size
@@ -119,10 +120,11 @@ def _entry(term: Term, parameters: list[Parameter]) -> EffectEntry:
 def _term(model: Model, entry: EffectEntry, where: str) -> Term:
     learned, info = _described(model, entry, where)
     expected = [(element, each.name, each.unit) for element in info.elements for each in info.parameters]
-    if len(entry.parameters) != len(expected):
+    entries = with_gained_shape(entry.parameters, info, lambda element, last: _start(info, element, last))
+    if len(entries) != len(expected):
         raise InputError(f"{where}.parameter: {len(entry.parameters)} entries (expected {len(expected)})")
     values, sigma = np.zeros(len(expected)), np.full(len(expected), np.nan)
-    for index, (given, (element, name, unit)) in enumerate(zip(entry.parameters, expected, strict=True)):
+    for index, (given, (element, name, unit)) in enumerate(zip(entries, expected, strict=True)):
         found = (given.element, given.name, given.unit)
         if found != (element, name, shown_unit(unit)):
             raise InputError(
@@ -131,9 +133,15 @@ def _term(model: Model, entry: EffectEntry, where: str) -> Term:
         values[index] = given.value / shown_factor(unit)
         if given.sigma is not None:
             sigma[index] = given.sigma / shown_factor(unit)
-    identifiable = np.array([given.identifiable for given in entry.parameters], dtype=bool)
-    free = np.array([given.free for given in entry.parameters], dtype=bool)
+    identifiable = np.array([given.identifiable for given in entries], dtype=bool)
+    free = np.array([given.free for given in entries], dtype=bool)
     return Term(entry.name, free, values, sigma, identifiable, learned)
+
+
+def _start(info: _core.EffectInfo, element: str, last: ParameterEntry) -> ParameterEntry:
+    """Return the entry of a shape that an effect has gained, free where the value written before it is."""
+    shape = info.parameters[-1]
+    return ParameterEntry(element=element, name=shape.name, value=0.0, unit=shown_unit(shape.unit), free=last.free)
 
 
 def _described(model: Model, entry: EffectEntry, where: str) -> tuple[LearnedEffect | None, _core.EffectInfo]:
