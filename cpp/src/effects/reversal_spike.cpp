@@ -98,9 +98,8 @@ EffectPtr reversal_spike(const Context&) {
           "Stiction: after a reversal a slider falls behind by the height until its drive has moved on by a way of the "
           "height times e to the log_way, then catches up exponentially, with a time constant of 50 ms times e to the "
           "log_time; unlike backlash the error has decayed after a few time constants.",
-      .formula =
-          "slider = -travel_direction x height x (since_reversal / way up to the way, then "
-          "exp(-(t - t_breakaway) / tau))",
+      .formula = "slider = -travel_direction x height x (since_reversal / way up to the way, then "
+                 "exp(-(t - t_breakaway) / tau))",
       .source = "friction at velocity reversal (quadrant glitch), ISO 230-4 Annex",
       .element_kind = "slider",
       .elements = kSixElements,
