@@ -45,8 +45,10 @@ def gained_alike(linear: Linear, fitted: Fitted, hypotheses: Sequence[Known | Le
         Of the even mixture of both priors over the prior of values on their own.
     """
     every = [each for each in hypotheses if isinstance(each, Known) and each.is_whole and len(each.elements) > 1]
-    covariance = np.linalg.inv(linear.normal[:-1, :-1] + np.eye(len(linear.standing))) if every else np.empty((0, 0))
-    return sum(_gained(linear, covariance, fitted, each) for each in every)
+    if not every:
+        return 0.0
+    covariance: Floats = np.linalg.inv(linear.normal[:-1, :-1] + np.eye(len(linear.standing)))
+    return float(sum(_gained(linear, covariance, fitted, each) for each in every))
 
 
 def _gained(linear: Linear, covariance: Floats, fitted: Fitted, known: Known) -> float:

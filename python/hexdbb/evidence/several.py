@@ -127,12 +127,13 @@ def at_all_elements(search: Search, node: Node, screen: Screen, single: Sequence
         info = search.engine.base.info(effect)
         if len(elements) < FEWEST:
             continue
-        scored = screen.at_several(Known(effect, elements), table[:, at])
+        known = Known(effect, elements)
+        scored = screen.at_several(known, table[:, at])
         best = max((each.share for each in single if _effect_of(each.hypothesis) == effect), default=0.0)
         if scored.share - best <= search.criteria.form_variance:
             continue
         has_one_sign = all(is_one_sided(info, whose[place][2]) for place in at) and len(at) == len(elements)
-        alike = scored if has_one_sign else screen.at_several(scored.hypothesis, _alike(table, whose, at))
+        alike = scored if has_one_sign else screen.at_several(known, _alike(table, whose, at))
         if alike.share >= search.criteria.explained_min * scored.share:
             found.append(alike)
     return found
