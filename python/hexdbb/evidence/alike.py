@@ -47,7 +47,7 @@ def gained_alike(linear: Linear, fitted: Fitted, hypotheses: Sequence[Known | Le
     every = [each for each in hypotheses if isinstance(each, Known) and each.is_whole and len(each.elements) > 1]
     if not every:
         return 0.0
-    covariance: Floats = np.linalg.inv(linear.normal[:-1, :-1] + np.eye(len(linear.standing)))
+    covariance = np.asarray(np.linalg.inv(linear.normal[:-1, :-1] + np.eye(len(linear.standing))), np.float64)
     return float(sum(_gained(linear, covariance, fitted, each) for each in every))
 
 
