@@ -52,10 +52,19 @@ def effect_clause(info: _core.EffectInfo, sizes: Sequence[Size]) -> str:
 
 
 def _of_all(info: _core.EffectInfo, elements: Sequence[tuple[str, Sequence[Size]]]) -> str:
-    """Return an effect that all elements have: where it is largest, and its first value where it is smallest."""
-    ranked, kind = sorted(elements, key=lambda each: -abs(each[1][0].value)), info.element_kind
-    element, (least, *_) = ranked[-1]
-    return f"all {len(elements)} {kind}s: {_clause(info, *ranked[0])}, down to {size_words(least)} of {kind} {element}"
+    """Return an effect that all elements have: where it is largest, and what it is where it is smallest."""
+    kind, place = info.element_kind, _telling(elements)
+    ranked = sorted(elements, key=lambda each: -abs(each[1][place].value))
+    (largest, most), (element, least) = ranked[0], ranked[-1]
+    all_of_them = f"all {len(elements)} {kind}s: {_clause(info, largest, most)}"
+    if f"{{{least[place].name}}}" not in CLAUSES.get(info.name, ""):
+        return f"{all_of_them} most, that of {kind} {element} least"
+    return f"{all_of_them}, down to {size_words(least[place])} of {kind} {element}"
+
+
+def _telling(elements: Sequence[tuple[str, Sequence[Size]]]) -> int:
+    """Return the place of the first value that is not zero everywhere, as that by a temperature nobody measured is."""
+    return next((k for k in range(len(elements[0][1])) if any(sizes[k].value for _, sizes in elements)), 0)
 
 
 def _clause(info: _core.EffectInfo, element: str, sizes: Sequence[Size]) -> str:

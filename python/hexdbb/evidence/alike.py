@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.engine import Fitted
+from hexdbb.evidence.form import diagonal
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
@@ -67,7 +68,7 @@ def _gained(linear: Linear, covariance: Floats, fitted: Fitted, known: Known) ->
         one_sided += (len(places) - 1) * np.log(2.0) if is_one_sided(info, name) else 0.0
         for part in DIFFERENCES:
             blocks[part].append(_prior(len(places), max(part * common, LEAST_DIFFERENCE)))
-    ratios = [_log_ratio(standing, spread, np.diag(unit**2), _diagonal(each)) for each in blocks.values()]
+    ratios = [_log_ratio(standing, spread, np.diag(unit**2), diagonal(each)) for each in blocks.values()]
     alike = np.logaddexp.reduce(ratios) - np.log(len(ratios)) - one_sided
     return float(np.logaddexp(alike, 0.0) - np.log(2.0))
 
@@ -85,16 +86,6 @@ def _values_of(fitted: Fitted, known: Known) -> dict[str, Ints]:
 def _prior(number: int, difference: float) -> Floats:
     """Return the covariance of values that share one of unit variance."""
     return np.ones((number, number)) + difference**2 * np.eye(number)
-
-
-def _diagonal(blocks: Sequence[Floats]) -> Floats:
-    """Return the matrix of some blocks on its diagonal."""
-    found = np.zeros((sum(map(len, blocks)),) * 2)
-    first = 0
-    for each in blocks:
-        found[first : first + len(each), first : first + len(each)] = each
-        first += len(each)
-    return found
 
 
 def _log_ratio(mean: Floats, spread: Floats, before: Floats, after: Floats) -> float:

@@ -137,7 +137,7 @@ class Forms:
         spaces = [self._signature(each) for each in functions]
         roughness = self.criteria.roughness[1]
         parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
-        factor = _diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
+        factor = diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
         square = np.block([[self._square(one, other) for other in functions] for one in functions])
         projected = sums.whole.project(Block(square[None], np.concatenate([cross[each] for each in functions], axis=1)))
         factor = _visible(factor, projected.information, square, self.criteria.form_visible)
@@ -243,7 +243,8 @@ def _visible(factor: Floats, projected: Floats, whole: Floats, least: float) -> 
     return found
 
 
-def _diagonal(parts: Sequence[Floats]) -> Floats:
+def diagonal(parts: Sequence[Floats]) -> Floats:
+    """Return the matrix with some matrices along its diagonal."""
     width = sum(each.shape[0] for each in parts)
     table, at = np.zeros((width, sum(each.shape[1] for each in parts))), [0, 0]
     for each in parts:
