@@ -188,6 +188,7 @@ TEST_F(Catalogue, ReversalSpike) {
     const double travelled_mm = 0.5 * acceleration_mm_s2 * since_s * since_s;
     samples.state.since_reversal_s.row(kRow).setConstant(since_s);
     samples.state.since_reversal_mm.row(kRow).setConstant(travelled_mm);
+    samples.state.acceleration_mm_s2.row(kRow).setConstant(-acceleration_mm_s2);
     for (int k = 0; k < kLegs; ++k) {
       const double height = std::abs(values[3 * k]), way_mm = height * std::exp(values[3 * k + 2]);
       const double breakaway_s = std::sqrt(2.0 * way_mm / acceleration_mm_s2);
@@ -196,6 +197,9 @@ TEST_F(Catalogue, ReversalSpike) {
                                    : height * std::exp(-(since_s - breakaway_s) / (0.05 * std::exp(values[3 * k + 1])));
       expected.slider()[k] = -state().travel_direction(kRow, k) * std::copysign(windup_mm, values[3 * k]);
     }
+    expect_same(pushed("reversal_spike", values), expected);
+    // An encoder whose steps are longer than the travel shows none of it: the acceleration does.
+    samples.state.since_reversal_mm.row(kRow).setZero();
     expect_same(pushed("reversal_spike", values), expected);
   }
   samples.state.since_reversal_s.row(kRow).setConstant(kLongAgo);
