@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.trial import Member, Trial
+from hexdbb.learned.places import members
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +33,10 @@ class Node:
 
     @property
     def faults(self) -> int:
-        """How many faults they are: an effect at several elements is one at each."""
-        return sum(len(each.elements) if isinstance(each, Known) else 1 for each in self.hypotheses)
+        """How many faults they are: an effect at several elements is one at each, a function of a pair one of both."""
+        return sum(
+            len(each.elements if isinstance(each, Known) else members(each.element)) for each in self.hypotheses
+        )
 
     def without(self, member: Member) -> tuple[Member, ...]:
         """Return the others of a member of the set."""
