@@ -3,18 +3,19 @@
 Repeated laps: the slider positions of two laps at one angle differ by micrometres only, so the difference of their
 readings is noise, whatever the machine's errors are (pure error, in the terms of regression). The sweep's lowest
 harmonics are removed from both, so that the contour's curvature between two readings does not count; with the earlier
-lap then interpolated linearly between two readings at part f, white noise s makes differences of variance
-s^2 (1 + f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness:
-second differences of neighbouring readings, harmonics removed as well, cancel what changes smoothly; of white noise s
-they have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in
-either; the variance that this removes from normal noise is restored. A median would be robust too, but the readings are
-rounded, so that it could only be one of few values.
+lap then interpolated linearly between two readings at part f, white noise s makes differences of variance s^2 (1 +
+f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness: second
+differences of neighbouring readings, harmonics removed as well, cancel what changes smoothly; of white noise s they
+have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in
+either; the variance that this removes from normal noise is restored. Nor do the first parts of laps count where their
+differences are far larger than the usual: what settles after a start is in the first lap alone, and is no noise. A
+median would be robust too, but the readings are rounded, so that it could only be one of few values.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 from typing import Literal
@@ -45,6 +46,14 @@ ROUNDS = 20
 """Iterations of clipping: the clipped variance settles within a few."""
 
 
+PARTS = 8
+"""Parts of a lap whose differences are compared: what settles after a start does so within a few of them."""
+SETTLES = 1.5
+"""Times the usual difference from which the first parts of laps hold something that settles, no noise: parts of one
+noise scatter by a tenth, differ by a third where a screw turns by much between two readings; gauges that stick and
+brakes that are released late made it two to five."""
+
+
 @dataclass(frozen=True)
 class Noise:
     """Standard deviation of one reading, and where it comes from."""
@@ -57,7 +66,7 @@ def noise_of(samples: Samples) -> Noise:
     """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
-        return Noise(_robust_sigma(np.concatenate(repeated)), "repeated laps")
+        return Noise(_repeated_sigma(repeated), "repeated laps")
     stated = stated_noise(samples)
     if stated is not None:
         return stated
@@ -71,7 +80,7 @@ def noise_of(samples: Samples) -> Noise:
 def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
     """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated."""
     repeated = list(lap_differences(samples, residual_mm))
-    return _robust_sigma(np.concatenate(repeated)) if repeated else float("inf")
+    return _repeated_sigma(repeated) if repeated else float("inf")
 
 
 def stated_noise(samples: Samples) -> Noise | None:
@@ -79,6 +88,15 @@ def stated_noise(samples: Samples) -> Noise | None:
     stated = [samples.records[each].gauge.stated_noise_mm for each in np.unique(samples["record"])]
     known = [each for each in stated if each is not None]
     return Noise(max(known), "stated") if known and len(known) == len(stated) else None
+
+
+def _repeated_sigma(repeated: Sequence[Floats]) -> float:
+    """Return the standard deviation of laps' differences, less the first parts of laps where something settles."""
+    parts = [np.concatenate(each) for each in zip(*(np.array_split(each, PARTS) for each in repeated), strict=True)]
+    sigma = [_robust_sigma(each) for each in parts]
+    usual = SETTLES * float(np.median(sigma))
+    first = next(place for place, each in enumerate(sigma) if each <= usual)
+    return _robust_sigma(np.concatenate(parts[first:] if first else list(repeated)))
 
 
 def _robust_sigma(values: Floats) -> float:

@@ -34,9 +34,7 @@ class Node:
     @property
     def faults(self) -> int:
         """How many faults they are: an effect at several elements is one at each, a function of a pair one of both."""
-        return sum(
-            len(each.elements if isinstance(each, Known) else members(each.element)) for each in self.hypotheses
-        )
+        return sum(len(each.elements if isinstance(each, Known) else members(each.element)) for each in self.hypotheses)
 
     def without(self, member: Member) -> tuple[Member, ...]:
         """Return the others of a member of the set."""

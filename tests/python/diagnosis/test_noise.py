@@ -54,6 +54,16 @@ def test_jumps_do_not_count() -> None:
     assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.06)
 
 
+def test_what_settles_in_the_first_lap_of_each_run_is_no_noise() -> None:
+    record = rounded(clean(1), 0.5, 0.1, 7)
+    settles_s, size_um = 2.0, 8.0
+    settling_um = size_um * np.exp(-Samples.of([record])["time_in_sweep_s"] / settles_s)
+    columns = {**record.columns, "reading_um": record.columns["reading_um"] + settling_um}
+    found = noise_of(Samples.of([replace(record, columns=columns)]))
+    assert found.source == "repeated laps"
+    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
+
+
 def test_one_lap_has_its_roughness() -> None:
     record = clean(2)
     single = record.part(record.columns["lap"] == 0)
