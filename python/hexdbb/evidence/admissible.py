@@ -69,14 +69,20 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
-    missed = max((missed_of(held, held.as_fitted, trial, base) for held in claimed), default=0.0)
-    at_least = max((missed_of(held, held.after, trial, base) for held in claimed), default=0.0)
+    missed = max((missed_of(held, held.as_fitted, trial, base, criteria) for held in claimed), default=0.0)
+    at_least = max((missed_of(held, held.after, trial, base, criteria) for held in claimed), default=0.0)
     return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least)
 
 
-def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial) -> float:
-    """Return an error of a grouping beyond what is expected of it, over what is explained where fitted."""
-    beyond = error**2 - held.expected**2 * max(trial.left, 1.0)
+def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: Criteria) -> float:
+    """Return an error of a grouping beyond what is expected of it, over what is explained where fitted.
+
+    What is expected beyond the noise comes of few directions that the other groups hardly determine, and is by chance
+    larger: by up to `Criteria.heldout_ratio`.
+    """
+    noise = min(held.expected, 1.0) ** 2
+    expected = noise + criteria.heldout_ratio**2 * (held.expected**2 - noise)
+    beyond = error**2 - expected * max(trial.left, 1.0)
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 
 

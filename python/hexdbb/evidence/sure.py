@@ -116,7 +116,7 @@ def _geometry_misses(search: Search, node: Node) -> bool:
     missing = [
         each
         for each in _held(search, node)
-        if missed_of(each, each.as_fitted, node.trial, search.root.trial) > search.criteria.missed_sure
+        if missed_of(each, each.as_fitted, node.trial, search.root.trial, search.criteria) > search.criteria.missed_sure
     ]
     return node.is_known and all(_leads_away(search, [each]) for each in missing)
 
