@@ -77,11 +77,12 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
 def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: Criteria) -> float:
     """Return an error of a grouping beyond what is expected of it, over what is explained where fitted.
 
-    What is expected beyond the noise comes of few directions that the other groups hardly determine, and is by chance
-    larger: by up to `Criteria.heldout_ratio`.
+    Where geometry leads away, what is expected beyond the noise comes of few directions that the other groups hardly
+    determine, and is by chance larger: by up to `Criteria.heldout_ratio`.
     """
     noise = min(held.expected, 1.0) ** 2
-    expected = noise + criteria.heldout_ratio**2 * (held.expected**2 - noise)
+    leads_away = held.before > criteria.leads_away * base.left**0.5
+    expected = noise + (criteria.heldout_ratio**2 if leads_away else 1.0) * (held.expected**2 - noise)
     beyond = error**2 - expected * max(trial.left, 1.0)
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 

@@ -117,8 +117,8 @@ class Criteria:
         Share, held out to first order, below which a refinement is not fitted in full: with splines not chosen yet,
         what predicts in the end may miss by half of what it explains.
     heldout_ratio : float
-        Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted. What
-        it expects beyond the noise, of directions hardly determined, may be so many times larger by chance.
+        Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
+        Where geometry leads away (`leads_away`), what it expects beyond the noise may be so many times larger by chance.
     beam : int
         Sets of hypotheses that are followed where one does not explain all.
     known_sets : int
