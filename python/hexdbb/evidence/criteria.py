@@ -118,7 +118,7 @@ class Criteria:
         what predicts in the end may miss by half of what it explains.
     heldout_ratio : float
         Error where held out over the error that the fit expects of itself, beyond which a hypothesis is refuted.
-        Where geometry leads away (`leads_away`), what it expects beyond the noise may by chance be so many times larger.
+        Where geometry leads away (`leads_away`), what it expects beyond the noise may by chance be that much larger.
     beam : int
         Sets of hypotheses that are followed where one does not explain all.
     known_sets : int
