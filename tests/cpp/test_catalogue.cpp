@@ -183,17 +183,17 @@ TEST_F(Catalogue, ReversalSpike) {
   const Eigen::VectorXd values = some("reversal_spike", 0.3);
   Ports expected;
   for (const double since_s : {0.01, 0.5}) {
-    // Constant acceleration: the slider breaks away where the travel is the way.
+    // Constant acceleration: the slider breaks away at the breakaway travel.
     const double acceleration_mm_s2 = 10.0;
     const double travelled_mm = 0.5 * acceleration_mm_s2 * since_s * since_s;
     samples.state.since_reversal_s.row(kRow).setConstant(since_s);
     samples.state.since_reversal_mm.row(kRow).setConstant(travelled_mm);
     samples.state.acceleration_mm_s2.row(kRow).setConstant(-acceleration_mm_s2);
     for (int k = 0; k < kLegs; ++k) {
-      const double height = std::abs(values[3 * k]), way_mm = height * std::exp(values[3 * k + 2]);
-      const double breakaway_s = std::sqrt(2.0 * way_mm / acceleration_mm_s2);
+      const double height = std::abs(values[3 * k]), breakaway_mm = height * std::exp(values[3 * k + 2]);
+      const double breakaway_s = std::sqrt(2.0 * breakaway_mm / acceleration_mm_s2);
       const double windup_mm = since_s < breakaway_s
-                                   ? height * travelled_mm / way_mm
+                                   ? height * travelled_mm / breakaway_mm
                                    : height * std::exp(-(since_s - breakaway_s) / (0.05 * std::exp(values[3 * k + 1])));
       expected.slider()[k] = -state().travel_direction(kRow, k) * std::copysign(windup_mm, values[3 * k]);
     }

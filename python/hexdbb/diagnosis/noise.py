@@ -44,8 +44,6 @@ MAX_JUMPS = 0.1
 """Share of jumps that the start of the iteration stands: more than any gauge seen, far below one half."""
 ROUNDS = 20
 """Iterations of clipping: the clipped variance settles within a few."""
-
-
 PARTS = 8
 """Parts of a lap whose differences are compared: what settles after a start does so within a few of them."""
 SETTLES = 1.5
@@ -93,10 +91,12 @@ def stated_noise(samples: Samples) -> Noise | None:
 def _repeated_sigma(repeated: Sequence[Floats]) -> float:
     """Return the standard deviation of laps' differences, less the first parts of laps where something settles."""
     parts = [np.concatenate(each) for each in zip(*(np.array_split(each, PARTS) for each in repeated), strict=True)]
-    sigma = [_robust_sigma(each) for each in parts]
-    usual = SETTLES * float(np.median(sigma))
-    first = next(place for place, each in enumerate(sigma) if each <= usual)
-    return _robust_sigma(np.concatenate(parts[first:] if first else list(repeated)))
+    if min(map(len, parts)) < MIN_REPEATS:
+        return _robust_sigma(np.concatenate(repeated))
+    largest = [float(np.quantile(np.abs(each), 1.0 - MAX_JUMPS)) for each in parts]
+    usual = SETTLES * float(np.median(largest))
+    first = next(place for place, each in enumerate(largest) if each <= usual)
+    return _robust_sigma(np.concatenate(parts[first:] if first else repeated))
 
 
 def _robust_sigma(values: Floats) -> float:

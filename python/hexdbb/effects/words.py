@@ -63,7 +63,7 @@ def _of_all(info: _core.EffectInfo, elements: Sequence[tuple[str, Sequence[Size]
 
 
 def _telling(elements: Sequence[tuple[str, Sequence[Size]]]) -> int:
-    """Return the place of the first value that is not zero everywhere, as that by a temperature nobody measured is."""
+    """Return the index of the first value that is not zero at all elements (without a temperature, `per_kelvin` is)."""
     return next((k for k in range(len(elements[0][1])) if any(sizes[k].value for _, sizes in elements)), 0)
 
 

@@ -81,10 +81,15 @@ def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: 
     determine, and is by chance larger: by up to `Criteria.heldout_ratio`.
     """
     noise = min(held.expected, 1.0) ** 2
-    leads_away = held.before > criteria.leads_away * base.left**0.5
-    expected = noise + (criteria.heldout_ratio**2 if leads_away else 1.0) * (held.expected**2 - noise)
+    larger = criteria.heldout_ratio**2 if leads_away(held, base, criteria) else 1.0
+    expected = noise + larger * (held.expected**2 - noise)
     beyond = error**2 - expected * max(trial.left, 1.0)
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
+
+
+def leads_away(held: HeldOut, base: Trial, criteria: Criteria) -> bool:
+    """Check whether the readings left in hold geometry so badly that what is left out says nothing."""
+    return held.before > criteria.leads_away * base.left**0.5
 
 
 def _not_between(predicted: Mapping[str, HeldOut], share: float, criteria: Criteria) -> tuple[str, ...]:

@@ -40,8 +40,9 @@ class Criteria:
     shape_starts : tuple of float
         Starts of a shape parameter (the logarithm of a time), in prior standard deviations: first order cannot move it.
     shapes_for_all : tuple of float
-        Values tried, in prior standard deviations, of a shape that all elements of an effect share: one each, screws
-        that warm alike part into fast ones and slow ones.
+        Values tried, in prior standard deviations, of a shape that all elements of an effect share: with a shape each,
+        screws that warm alike were fitted as fast ones and slow ones. Half a standard deviation apart: between two, a
+        third of a time constant is gained or lost, which rates of their own make up for.
     shape_rounds : int
         Steps of Gauss and Newton for shapes of users' effects: enough to compare; what is added is fitted on.
     constant_rounds : int

@@ -122,7 +122,7 @@ def discrepancy(
 ) -> list[tuple[Learned, ...]]:
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
 
-    What turns over with the direction of travel may be more one way than the other.
+    What changes sign with the direction of travel may be larger in one direction than in the other.
     What belongs to the set-up, as a gauge that is read late, is one thing that the elements share, form and all.
 
     Returns

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.admissible import missed_of
+from hexdbb.evidence.admissible import leads_away, missed_of
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
@@ -122,9 +122,8 @@ def _geometry_misses(search: Search, node: Node) -> bool:
 
 
 def _leads_away(search: Search, held: Sequence[HeldOut]) -> bool:
-    """Check whether the readings left in hold geometry so badly that what is left out says nothing."""
-    before = search.root.trial.left**0.5
-    return any(each.before > search.criteria.leads_away * before for each in held)
+    """Check whether geometry leads away on any of some groupings left out."""
+    return any(leads_away(each, search.root.trial, search.criteria) for each in held)
 
 
 def _is_exact(search: Search, node: Node) -> bool:

@@ -21,8 +21,9 @@ CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
 """Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
 then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
 RUN_UPS_DEG = (15.0, 45.0, 135.0)
-"""Run-ups to circles, at first, which the readings then move: what settles since the machine started is smaller at the
-first reading of a slow circle than at that of a fast one."""
+"""Run-ups to circles that are tried first; the readings then move them. What settles since the start of the motion is
+smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
+step changes nearly two (`evidence/number.py`): any run-up between 8 and 260 degrees is reached."""
 FACTORS = {
     "velocity": ("velocity_mm_s", "velocity"),
     "acceleration": ("acceleration_mm_s2", "acceleration"),
@@ -114,8 +115,8 @@ OF_GUIDEWAY = (
 )
 """Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
 OF_SLIDER_JOINT = (v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD)
-"""Variables of one carriage that is pushed across its guideway: it cocks, it floats, it gives. What its way does to a
-carriage it does to both."""
+"""Variables of one carriage that is pushed across its guideway: it tilts, floats or yields. What depends on the
+position alone is a fault of the rail, which both carriages of a guideway have."""
 OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE)
 """Variables of a platform's joint that is loose, or soft, in whatever direction."""
 OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED)

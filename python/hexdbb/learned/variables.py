@@ -118,7 +118,7 @@ SINCE_TURN = Variable(
     "deflection_since_turn",
     "deflection_since_turn_mm",
     "mm",
-    "way of the gauge since it turned",
+    "travel of the gauge since it turned",
     10,
     times="deflection_direction",
     is_log=True,

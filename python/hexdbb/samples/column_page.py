@@ -28,7 +28,7 @@ OWN = {
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
     "deflection_direction": ("sample", "1", "sense in which that changes, +1 or -1; 0: never moved"),
-    "deflection_since_turn_mm": ("sample", "mm", "way of that since it turned in its sweep; 1e6: not yet"),
+    "deflection_since_turn_mm": ("sample", "mm", "travel of the gauge since it turned in its sweep; 1e6: not yet"),
     "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),
     "NAME.relaxing@S": ("sample", "1", "column `NAME` less the same"),
     "NAME.after@D": ("sample", "s", "time `NAME` and what a run-up of `D` degrees takes at the sweep's rate"),

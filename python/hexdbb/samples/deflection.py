@@ -23,7 +23,7 @@ from hexdbb.model import Model, MountKey, new_model
 Floats = NDArray[np.float64]
 
 DEFLECTION = "deflection_mm"
-DIRECTION_AND_WAY = ("deflection_direction", "deflection_since_turn_mm")
+DIRECTION_AND_TRAVEL = ("deflection_direction", "deflection_since_turn_mm")
 FITTED_ROWS = 3000
 """Readings that the step is taken from: some tens for each value of geometry and set-up, as in `Criteria.fit_rows`."""
 STEPS = 5
@@ -90,8 +90,10 @@ def _stepped(model: Model, rows: _core.Samples, reading_mm: Floats, degrees: Seq
     return model.with_values(values)
 
 
-def direction_and_way(deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]) -> tuple[Floats, Floats]:
-    """Return the sense in which the gauge moves, and its way since it turned.
+def direction_and_travel(
+    deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]
+) -> tuple[Floats, Floats]:
+    """Return the direction in which the gauge moves, and its travel since it turned.
 
     It turns over where the deflection has come back by `LEAST_TURN_MM` from the farthest that it was: the encoders'
     steps do not show in it.
@@ -100,7 +102,7 @@ def direction_and_way(deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.i
     -------
     direction : ndarray, shape (n,)
         +1, -1, 0 where it never moved in its sweep.
-    way_mm : ndarray, shape (n,)
+    travel_mm : ndarray, shape (n,)
         From the farthest that it was before; 1e6 where it has not turned in its sweep yet.
     """
     order = np.lexsort((time_s, sweep))
@@ -111,16 +113,16 @@ def direction_and_way(deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.i
 
 
 def _turning(values: Floats) -> tuple[Floats, Floats]:
-    """Return the sense, and the way since it turned over, of one sweep in order of time."""
+    """Return direction and travel since the last turn, of one sweep in order of time."""
     found, since = np.zeros(len(values)), np.full(len(values), NOT_YET_MM)
-    way, farthest, turned = 0.0, float(values[0]), None
+    direction, farthest, turned = 0.0, float(values[0]), None
     for place, value in enumerate(values.tolist()):
         ahead = value - farthest
-        if abs(ahead) > LEAST_TURN_MM or ahead * way > 0.0:
-            if ahead * way < 0.0:
+        if abs(ahead) > LEAST_TURN_MM or ahead * direction > 0.0:
+            if ahead * direction < 0.0:
                 turned = farthest
-            way, farthest = float(np.sign(ahead)), value
-        found[place] = way
+            direction, farthest = float(np.sign(ahead)), value
+        found[place] = direction
         if turned is not None:
             since[place] = abs(value - turned)
     return found, since

@@ -72,7 +72,7 @@ def remembered_column(
 
 def _rate_rad_s(time_s: Floats, angle_rad: Floats) -> float:
     """Return at what rate a circle is driven; infinity for one sample."""
-    way, took_s = float(np.abs(np.ptp(np.unwrap(angle_rad)))), float(np.ptp(time_s))
+    way, took_s = float(np.ptp(np.unwrap(angle_rad))), float(np.ptp(time_s))
     return way / took_s if way * took_s > 0.0 else float("inf")
 
 

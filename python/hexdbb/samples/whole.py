@@ -18,7 +18,7 @@ from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
-from hexdbb.samples.deflection import DEFLECTION, DIRECTION_AND_WAY, deflection_mm, direction_and_way
+from hexdbb.samples.deflection import DEFLECTION, DIRECTION_AND_TRAVEL, deflection_mm, direction_and_travel
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
@@ -64,7 +64,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, DEFLECTION, *DIRECTION_AND_WAY)
+        later = (*STATE, *DERIVED, *LOADS, DEFLECTION, *DIRECTION_AND_TRAVEL)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -91,9 +91,9 @@ class Whole:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
-        elif name in DIRECTION_AND_WAY:
-            found = direction_and_way(*self._known(DEFLECTION, "time_s", "sweep"))
-            self.columns |= dict(zip(DIRECTION_AND_WAY, found, strict=True))
+        elif name in DIRECTION_AND_TRAVEL:
+            found = direction_and_travel(*self._known(DEFLECTION, "time_s", "sweep"))
+            self.columns |= dict(zip(DIRECTION_AND_TRAVEL, found, strict=True))
 
     def _remembered(self, name: str, how: str, constant: float) -> Floats | None:
         if name not in self.names:

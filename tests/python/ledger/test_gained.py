@@ -19,7 +19,7 @@ from hexdbb.model.entries import ModelFile
 from hexdbb.model.gained import with_gained_shape
 from hexdbb.model.ledger import LedgerStep
 
-EFFECT, GAINED = "reversal_spike", "log_way"
+EFFECT, GAINED = "reversal_spike", "log_travel"
 INFO = new_model(shipped_machine(), [EFFECT]).info(EFFECT)
 
 
