@@ -72,8 +72,8 @@ def remembered_column(
 
 def _rate_rad_s(time_s: Floats, angle_rad: Floats) -> float:
     """Return at what rate a circle is driven; infinity for one sample."""
-    way, took_s = float(np.ptp(np.unwrap(angle_rad))), float(np.ptp(time_s))
-    return way / took_s if way * took_s > 0.0 else float("inf")
+    turned_rad, took_s = float(np.ptp(np.unwrap(angle_rad))), float(np.ptp(time_s))
+    return turned_rad / took_s if turned_rad * took_s > 0.0 else float("inf")
 
 
 def _chains(sweeps: Sequence[slice], time_s: Floats) -> list[list[slice]]:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from hexdbb.diagnosis import noise_of
+from hexdbb.diagnosis.noise import MIN_REPEATS, PARTS, lap_differences
 from hexdbb.record import Record
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import case
@@ -60,6 +61,17 @@ def test_what_settles_in_the_first_lap_of_each_run_is_no_noise() -> None:
     settling_um = size_um * np.exp(-Samples.of([record])["time_in_sweep_s"] / settles_s)
     columns = {**record.columns, "reading_um": record.columns["reading_um"] + settling_um}
     found = noise_of(Samples.of([replace(record, columns=columns)]))
+    assert found.source == "repeated laps"
+    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
+
+
+def test_laps_that_are_too_short_for_parts_count_whole() -> None:
+    """Parts of fewer differences than `MIN_REPEATS` would scatter by more than what settles."""
+    record = rounded(clean(1), 0.5, 0.1, 7)
+    short = record.part((record.columns["circle"] == 0) & (np.arange(len(record)) % 4 == 0))
+    differences = sum(map(len, lap_differences(Samples.of([short]))))
+    assert MIN_REPEATS < differences < MIN_REPEATS * PARTS
+    found = noise_of(Samples.of([short]))
     assert found.source == "repeated laps"
     assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
 

@@ -89,7 +89,7 @@ def test_samples_know_such_columns_by_name(record: Record) -> None:
 
 
 def test_a_time_after_a_run_up_is_longer_by_what_the_run_up_took() -> None:
-    """Two circles, the second at twice the rate and the other way, from an angle of its own."""
+    """Two circles, the second at twice the rate and the other direction, from an angle of its own."""
     first, second = np.linspace(0.0, 20.0, 200), np.linspace(30.0, 40.0, 200)
     sweep = np.repeat(np.array([0, 1], np.int32), 200)
     angle = np.concatenate([np.pi / 10.0 * first, 1.0 - np.pi / 5.0 * (second - 30.0)])
@@ -105,27 +105,27 @@ def test_samples_know_times_after_a_run_up_by_name(record: Record) -> None:
     assert len(np.unique(np.round(after - since, 9))) <= len(np.unique(samples["sweep"]))
 
 
-def test_the_sense_of_a_gauge_turns_once_where_it_comes_back() -> None:
+def test_the_direction_of_a_gauge_turns_once_where_it_comes_back() -> None:
     """Encoders' steps of a tenth of a micrometre, and the flat top of a sine, turn nothing over."""
     time_s = np.linspace(0.0, 2.0, 4001)
     steps_mm = 1e-4 * np.random.default_rng(5).uniform(-1.0, 1.0, len(time_s))
     moved_mm = 0.05 * np.sin(2.0 * np.pi * time_s)
-    way, since_mm = direction_and_travel(moved_mm + steps_mm, time_s, np.zeros(len(time_s), np.int32))
-    assert np.count_nonzero(np.diff(way[100:])) == 4
-    assert np.mean(way == np.sign(np.cos(2.0 * np.pi * time_s))) > 0.95
+    direction, since_mm = direction_and_travel(moved_mm + steps_mm, time_s, np.zeros(len(time_s), np.int32))
+    assert np.count_nonzero(np.diff(direction[100:])) == 4
+    assert np.mean(direction == np.sign(np.cos(2.0 * np.pi * time_s))) > 0.95
     later = time_s > 0.3
     assert since_mm[later & (time_s < 0.7)] == pytest.approx(0.05 - moved_mm[later & (time_s < 0.7)], abs=3e-4)
     assert (since_mm[time_s < 0.24] == 1e6).all()
 
 
-def test_a_gauge_that_rests_has_no_sense() -> None:
-    way, since_mm = direction_and_travel(np.full(50, 0.02), np.arange(50.0), np.zeros(50, np.int32))
-    assert not way.any() and (since_mm == 1e6).all()
+def test_a_gauge_that_rests_has_no_direction() -> None:
+    direction, since_mm = direction_and_travel(np.full(50, 0.02), np.arange(50.0), np.zeros(50, np.int32))
+    assert not direction.any() and (since_mm == 1e6).all()
 
 
-def test_the_way_of_a_gauge_begins_anew_with_each_sweep() -> None:
+def test_the_travel_of_a_gauge_begins_anew_with_each_sweep() -> None:
     time_s, sweep = np.arange(8.0), np.repeat(np.array([3, 4], np.int32), 4)
     moved_mm = np.array([0.0, 0.1, 0.04, 0.0, 0.5, 0.4, 0.3, 0.35])
-    way, since_mm = direction_and_travel(moved_mm, time_s, sweep)
-    assert way.tolist() == [0.0, 1.0, -1.0, -1.0, 0.0, -1.0, -1.0, 1.0]
+    direction, since_mm = direction_and_travel(moved_mm, time_s, sweep)
+    assert direction.tolist() == [0.0, 1.0, -1.0, -1.0, 0.0, -1.0, -1.0, 1.0]
     assert since_mm == pytest.approx([1e6, 1e6, 0.06, 0.1, 1e6, 1e6, 1e6, 0.05])
