@@ -89,7 +89,7 @@ def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: 
 
 def leads_away(held: HeldOut, base: Trial, criteria: Criteria) -> bool:
     """Check whether the readings left in hold geometry so badly that what is left out says nothing."""
-    return held.before > criteria.leads_away * base.left**0.5
+    return bool(held.before > criteria.leads_away * base.left**0.5)
 
 
 def _not_between(predicted: Mapping[str, HeldOut], share: float, criteria: Criteria) -> tuple[str, ...]:
