@@ -5,6 +5,7 @@ from __future__ import annotations
 from hexdbb.errors import RunError
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
@@ -67,7 +68,6 @@ def _all_needed(search: Search, node: Node) -> Node:
 
 def in_known_words(search: Search, node: Node) -> Node:
     """Put known effects in the place of the learned functions that contain them, where they explain nearly as much."""
-    excess = search.root.trial.left - 1.0
     for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
         if learned not in node.hypotheses:
             continue
@@ -83,7 +83,7 @@ def in_known_words(search: Search, node: Node) -> Node:
                 trial = search.trials.of((*kept, Member(known)))
             except RunError:
                 continue
-            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            near = explains_nearly(search, trial.left, node.trial.left)
             if near and not trial.refused:
                 others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
         if search.learnable.is_further(learned):
@@ -103,7 +103,6 @@ def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
 
 def of_better_form(search: Search, node: Node) -> Node:
     """Exchange an effect of quite another form for a known one whose own form fits, at the same place."""
-    excess = search.root.trial.left - 1.0
     for place, member in enumerate(node.members):
         form = node.trial.forms[place]
         if form is None or form.deviation <= search.criteria.form_named:
@@ -117,7 +116,7 @@ def of_better_form(search: Search, node: Node) -> Node:
             except RunError:
                 continue
             own = trial.forms[-1]
-            near = trial.left - node.trial.left < search.criteria.same_kind_share * excess
+            near = explains_nearly(search, trial.left, node.trial.left)
             if near and not trial.refused and own is not None and own.deviation < form.deviation:
                 found = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
                 search.nodes.append(found)

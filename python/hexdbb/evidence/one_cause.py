@@ -17,9 +17,15 @@ def is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) 
     one place the lesser is the form of the other, however much less, unless it changes with time and the other does
     not. One function that pushes across a guideway in both of its directions is two learned ones.
     """
-    if isinstance(cause, Learned) and (cause.variable == learned.variable or cause.is_of_time == learned.is_of_time):
+    if isinstance(cause, Learned) and (
+        cause in learned.parts or cause.variable == learned.variable or cause.is_of_time == learned.is_of_time
+    ):
         return True
-    one, other = left_without(search, node, learned), left_without(search, node, cause)
+    return explains_nearly(search, left_without(search, node, learned), left_without(search, node, cause))
+
+
+def explains_nearly(search: Search, one: float, other: float) -> bool:
+    """Check that what leaves so much explains nearly as much as what leaves the other."""
     return one - other < search.criteria.same_kind_share * _excess(search)
 
 

@@ -15,6 +15,7 @@ from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_doubtful
+from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.sure import Grade, graded
 from hexdbb.evidence.tuned import with_tuned_numbers
@@ -101,7 +102,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
     node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
-    node = with_tuned_numbers(search, node)
+    node = in_simple_words(search, with_tuned_numbers(search, node))
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
     known = {each.name for each in node.hypotheses}
@@ -154,7 +155,7 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
     causes: list[Hypothesis] = [each for each in node.hypotheses if isinstance(each, Known)]
     refinements: dict[str, tuple[str, ...]] = {}
     learned = [each for each in node.hypotheses if isinstance(each, Learned)]
-    for each in sorted(learned, key=lambda each: -left_without(search, node, each)) if len(learned) > 1 else learned:
+    for each in _in_order(search, node, learned) if len(learned) > 1 else learned:
         there = (one for one in causes if at_its_place(search, one, each))
         of = next((one for one in there if is_refined(search, node, one, each)), None)
         if of is None:
@@ -162,6 +163,15 @@ def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tu
         else:
             refinements[of.name] = (*refinements.get(of.name, ()), each.name)
     return causes, refinements
+
+
+def _in_order(search: Search, node: Node, learned: list[Learned]) -> list[Learned]:
+    """Sort functions: what explains most first, but a product after the function whose form it describes."""
+
+    def place(each: Learned) -> tuple[bool, float]:
+        return any(one in each.parts for one in learned), -left_without(search, node, each)
+
+    return sorted(learned, key=place)
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:

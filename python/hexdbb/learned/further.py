@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, remembered
+from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, following, rocking
 from hexdbb.learned.variable import ELAPSED, Variable
 
 SPLINES = 6
@@ -24,6 +24,9 @@ RUN_UPS_DEG = (15.0, 45.0, 135.0)
 """Run-ups to circles that are tried first; the readings then move them. What settles since the start of the motion is
 smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
 step changes nearly two (`evidence/number.py`): any run-up between 8 and 260 degrees is reached."""
+DIRECTIONS_DEG = (45.0, 90.0, 135.0, 180.0)
+"""Directions in which a base may rock that are tried first; the readings then move them. Of a motion along another one
+the nearest contains 85 % at least."""
 FACTORS = {
     "velocity": ("velocity_mm_s", "velocity"),
     "acceleration": ("acceleration_mm_s2", "acceleration"),
@@ -53,6 +56,7 @@ def product(factor: str, variable: Variable) -> Variable:
         times=column,
         signed=False,
         of_forms=False,
+        parts=(factor, variable.name),
     )
 
 
@@ -65,10 +69,10 @@ def _neighbour(variable: Variable) -> Variable:
 def _remembered(*variables: Variable) -> Iterator[Variable]:
     for each in variables:
         for how in (LAGGED, RELAXING):
-            yield from (remembered(each, how, constant_s) for constant_s in CONSTANTS_S)
+            yield from (following(each, how, constant_s) for constant_s in CONSTANTS_S)
 
 
-SINCE_START = tuple(remembered(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
+SINCE_START = tuple(following(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
 PRODUCTS_OF_SLIDER = (
     *(product("velocity", each) for each in (v.POSITION, v.FORCE, v.DRIVE_LOAD)),
     product("acceleration", v.POSITION),
@@ -105,8 +109,11 @@ OF_PAIR_OF_LEGS = (
     *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE)),
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
+ROCKING = tuple(map(rocking, DIRECTIONS_DEG))
+"""A base that stands softly rocks one way, by the inertia of what moves on it."""
 OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
+    *ROCKING,
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (

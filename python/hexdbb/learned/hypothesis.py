@@ -126,6 +126,12 @@ class Learned:
         variable = variables.get(f"{self.variable.name}_alike")
         return None if variable is None else replace(self, variable=variable)
 
+    @property
+    def parts(self) -> tuple[Learned, ...]:
+        """Of a product of two states, the functions of one of them alone that there are at the place."""
+        variables = {each.name: each for each in variables_of(self.place, self.element)}
+        return tuple(replace(self, variable=variables[name]) for name in self.variable.parts if name in variables)
+
     def finer(self, times: int) -> Learned:
         """Return the same hypothesis, name and all, with so many times as many splines."""
         return replace(self, variable=replace(self.variable, count=self.variable.count * times))

@@ -2,7 +2,8 @@
 
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
-less the same lag), and the time since a circle's run-up began (`time_in_sweep_after@45`, its angle in degrees).
+less the same lag), the time since a circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), and a
+vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane).
 """
 
 from __future__ import annotations
@@ -18,17 +19,21 @@ PERIOD_SPLINES = 8
 """Splines of a period that the readings chose: a sine with two harmonics."""
 INSTANT_S = 1e-4
 """Resolution of instants in names: far below the time between two samples."""
-MEMORY_SPLINES = 6
+FOLLOWING_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
-LAGGED, RELAXING, AFTER = "lagged", "relaxing", "after"
-MEMORIES = {
+LAGGED, RELAXING, AFTER, ALONG = "lagged", "relaxing", "after", "along"
+BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
     RELAXING: "change of the {} within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
 }
-"""How a variable may be remembered, and how people say it; a time since a capture began, with the run-up to it."""
-MEMORY_DIGITS = 4
-"""Significant digits of a time that memory lasts: readings determine it to a few per cent."""
+"""How a variable may follow another one, and how people say it: remembered, a time since a capture began with the
+run-up to it."""
+NUMBER_DIGITS = 4
+"""Significant digits of such a number: readings determine it to a few per cent."""
+ROCKING = f"acceleration_{ALONG}"
+HALF_TURN_DEG = 180.0
+"""A direction and its opposite are one: splines have either sign."""
 
 
 def step(instants_s: Sequence[float]) -> Variable:
@@ -46,16 +51,28 @@ def periodic(column: str, period: float) -> Variable:
     return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
 
 
-def remembered(variable: Variable, how: str, constant: float) -> Variable:
-    """Return the variable of what remembers another one, `LAGGED`, `RELAXING` (s) or `AFTER` (degrees)."""
-    number = f"{constant:.{MEMORY_DIGITS}g}"
+def following(variable: Variable, how: str, constant: float) -> Variable:
+    """Return the variable of what follows another one: `LAGGED`, `RELAXING` (s) or `AFTER` (degrees)."""
+    number = f"{constant:.{NUMBER_DIGITS}g}"
     return replace(
         variable,
         name=f"{variable.name}_{how}@{number}",
         column=f"{variable.column}{OF_MEMORY}{how}@{number}",
-        words=MEMORIES[how].format(variable.words, float(number)),
-        count=variable.count if how == AFTER else MEMORY_SPLINES,
+        words=BY_NUMBER[how].format(variable.words, float(number)),
+        count=variable.count if how == AFTER else FOLLOWING_SPLINES,
         signed=False,
+    )
+
+
+def rocking(direction_deg: float) -> Variable:
+    """Return the variable of what rocks a base along a direction: the inertia of all carriages."""
+    number = f"{direction_deg % HALF_TURN_DEG or HALF_TURN_DEG:.{NUMBER_DIGITS}g}"
+    return Variable(
+        f"{ROCKING}@{number}",
+        f"carriages_acceleration_mm_s2{OF_MEMORY}{ALONG}@{number}",
+        "mm/s²",
+        f"acceleration of all carriages along {float(number):.3g}° in the x-y plane",
+        FOLLOWING_SPLINES,
     )
 
 
@@ -65,7 +82,7 @@ def has_chosen_number(variable: Variable) -> bool:
 
 
 def number_of(variable: Variable) -> float:
-    """Return the number in a variable's name: a period (s or mm), a time constant (s), a run-up (degrees)."""
+    """Return the number in a variable's name: a period (s or mm), a time constant (s), an angle (degrees)."""
     return float(variable.name.partition("@")[2])
 
 
@@ -104,6 +121,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in ("time_period", "position_period"):
         return periodic(kind.removesuffix("_period"), values[0])
+    if kind == ROCKING and any(each.name.startswith(ROCKING) for each in variables):
+        return rocking(values[0])
     of, _, how = kind.rpartition("_")
     known = {each.name: each for each in variables}
-    return remembered(known[of], how, values[0]) if how in MEMORIES and of in known else None
+    return following(known[of], how, values[0]) if how in BY_NUMBER and of in known else None

@@ -58,6 +58,8 @@ class Variable:
         Whether it only describes how the form of a cause differs, and no cause is sought in it.
     instants : tuple of float
         Values of the column from which a step each holds; then there are no splines.
+    parts : tuple of str
+        Of a product of two states, the names of the variables of either, whether the place has them or not.
     """
 
     name: str
@@ -76,6 +78,7 @@ class Variable:
     least: float = 0.0
     of_forms: bool = False
     instants: tuple[float, ...] = ()
+    parts: tuple[str, ...] = ()
 
     @property
     def columns(self) -> int:

@@ -17,7 +17,13 @@ POSITION = Variable("position", "sliders_mm", "mm", "position of the slider", 14
 FINE_POSITION = Variable("fine_position", "sliders_mm", "mm", "position of the slider", 64)
 DIRECTION = Variable("direction", "", "", "direction of travel", times="travel_direction")
 DIRECTION_POSITION = Variable(
-    "direction_position", "sliders_mm", "mm", "position, by direction of travel", 6, times="travel_direction"
+    "direction_position",
+    "sliders_mm",
+    "mm",
+    "position, by direction of travel",
+    6,
+    times="travel_direction",
+    parts=("direction", "position"),
 )
 SINCE_REVERSAL = Variable(
     "since_reversal_time", "since_reversal_s", "s", "time since the reversal", 10, times="travel_direction", is_log=True
@@ -57,7 +63,9 @@ ROLL, PITCH, YAW = (
     Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
     for axis, name in enumerate(("roll", "pitch", "yaw"))
 )
-TIME_POSITION = Variable("time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED)
+TIME_POSITION = Variable(
+    "time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED, parts=("time", "position")
+)
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
 TURNING = Variable(
@@ -71,6 +79,7 @@ JOINT_ANGLE_DIRECTION = Variable(
     "angle of the slider's joint, by the sense of its turning",
     12,
     times="slider_joint_direction",
+    parts=("joint_angle", "turning_rate"),
 )
 TURNING_BY_ANGLE = Variable(
     "turning_rate_angle",
@@ -109,7 +118,14 @@ INCLINATION = Variable(
 )
 ANGLE = Variable("angle", "angle_rad", "rad", "polar angle", 24, period=TURN)
 ANGLE_DIRECTION = Variable(
-    "angle_direction", "angle_rad", "rad", "polar angle, by direction of the circle", 24, times="direction", period=TURN
+    "angle_direction",
+    "angle_rad",
+    "rad",
+    "polar angle, by direction of the circle",
+    24,
+    times="direction",
+    period=TURN,
+    parts=("circle_direction",),
 )
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
 READ = Variable("reading", "nominal_reading_mm", "mm", "nominal reading", 8, of_forms=True)

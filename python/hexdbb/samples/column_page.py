@@ -25,6 +25,7 @@ OWN = {
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
     "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
+    "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
     "deflection_direction": ("sample", "1", "direction in which that changes, +1 or -1; 0: never moved"),
@@ -32,6 +33,11 @@ OWN = {
     "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),
     "NAME.relaxing@S": ("sample", "1", "column `NAME` less the same"),
     "NAME.after@D": ("sample", "s", "time `NAME` and what a run-up of `D` degrees takes at the sweep's rate"),
+    "NAME.along@D": (
+        "sample",
+        "1",
+        "part of the vector `NAME` along the direction of `D` degrees in the base's x-y plane",
+    ),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}

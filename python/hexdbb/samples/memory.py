@@ -1,10 +1,11 @@
-"""Columns that remember others: `leg_force.lagged@12`, `leg_force.relaxing@12`, `time_in_sweep_s.after@45`.
+"""Columns that follow others by a number: `leg_force.lagged@12`, `leg_force.relaxing@12`, `time_in_sweep_s.after@45`.
 
 Rubber yields late, grease and warmth follow slowly: what acts is a state as it was some time before. The lag is of
 first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. What the machine did between two
 sweeps no record says: it is taken to have run out along the circle and up along the next one, as it came round in other
 laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
-degrees is one to which is added what these take at the rate at which the circle is driven.
+degrees is one to which is added what these take at the rate at which the circle is driven. What is `along` so many
+degrees is a vector's part along that direction in the base's x-y plane.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after)@(?P<constant>[0-9.e+-]+)")
+NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along)@(?P<constant>[0-9.e+-]+)")
 RUN_UP_RAD = np.pi / 4.0
 """Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 LONGEST = 30.0
@@ -40,20 +41,22 @@ def remembered_column(
     sweep: NDArray[np.integer[Any]],
     angle_rad: Floats,
 ) -> Floats:
-    """Return a column that remembers another one, of the same shape.
+    """Return a column that remembers another one, of the same shape, or what of it is along a direction, shape (n,).
 
     Parameters
     ----------
     how : str
-        `lagged`, `relaxing` or `after`.
+        `lagged`, `relaxing`, `after` or `along`.
     constant : float
-        Its time constant, s; of `after` the run-up, degrees.
+        Its time constant, s; of `after` the run-up, of `along` the direction, degrees.
     column : ndarray, shape (n,) or (n, k)
     time_s, angle_rad : ndarray, shape (n,)
         Times rise within a sweep; polar angles with or without their turns.
     sweep : ndarray of int, shape (n,)
     """
     values = np.asarray(column, np.float64).reshape(len(column), -1)
+    if how == "along":
+        return values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))])
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
     sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
     if how == "after":

@@ -23,6 +23,7 @@ from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
+from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
 
@@ -64,7 +65,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, DEFLECTION, *DIRECTION_AND_TRAVEL)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, DEFLECTION, *DIRECTION_AND_TRAVEL)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -89,6 +90,9 @@ class Whole:
             self.columns |= derived_columns(self.machine, given, self.set_ups)
         elif name in LOADS:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
+        elif name == REACTION:
+            (acceleration,) = self._known(REACTION_FROM)
+            self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
         elif name in DIRECTION_AND_TRAVEL:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from hexdbb.learned import Learned
 from hexdbb.learned.further import FACTORS
-from hexdbb.learned.numbered import MEMORIES
+from hexdbb.learned.numbered import BY_NUMBER
 from hexdbb_truth.forms.labels import Label
 
 NAMED = ("right", "more")
@@ -54,6 +54,7 @@ VARIABLES = {
     "time_in_sweep": ("time_in_run",),
     "time_period": ("time",),
     "position_period": ("position",),
+    "acceleration_along": ("acceleration",),
 }
 """The truth's words for the variables of learned hypotheses, where they differ."""
 
@@ -173,7 +174,7 @@ def _place_of(name: str, label: Label) -> str:
 def _truths_words(variable: str) -> list[set[str]]:
     """Return the truth's words for a variable; of a product those of either part, of which the truth must have both."""
     whole = name = variable.partition("@")[0].removeprefix("neighbour_")
-    for how in MEMORIES:
+    for how in BY_NUMBER:
         name = name.removesuffix(f"_{how}")
     factor = "" if name in VARIABLES else next((each for each in FACTORS if name.startswith(f"{each}_")), "")
     parts = (factor, name.removeprefix(f"{factor}_")) if factor else (name,)
