@@ -1,0 +1,30 @@
+"""What rocks a base that stands softly: the accelerations of all carriages, added as vectors.
+
+A platform that is not turned accelerates nearly as they do together, the other way round or not as its legs stand.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb import _core
+
+Floats = NDArray[np.float64]
+
+REACTION = "carriages_acceleration_mm_s2"
+REACTION_FROM = "acceleration_mm_s2"
+"""Column that it follows from."""
+
+
+def carriages_acceleration_mm_s2(machine: _core.Machine, acceleration_mm_s2: Floats) -> Floats:
+    """Return the sum of the carriages' accelerations in the base's frame, shape (n, 3).
+
+    Parameters
+    ----------
+    machine : Machine
+    acceleration_mm_s2 : ndarray, shape (n, 6)
+        Of the sliders, each along its guideway.
+    """
+    along = np.array([_core.guideway_direction(machine, slider // 2) for slider in range(acceleration_mm_s2.shape[1])])
+    return acceleration_mm_s2 @ along
