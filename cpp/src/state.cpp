@@ -76,7 +76,8 @@ void fill_joint_motion(const NominalGeometry& nominal, Samples& samples) {
   state.slider_joint_direction = std::move(all[0].travel_direction);
   state.slider_joint_since_reversal_rad = (turned_mm < kLongAgo).select(turned_mm / length_mm.array(), kLongAgo);
   state.platform_joint_rate_rad_s = all[1].velocity_mm_s.cwiseQuotient(length_mm);
-  state.speed_mm_s = all[2].velocity_mm_s.rowwise().norm();
+  state.platform_velocity_mm_s = all[2].velocity_mm_s.leftCols<3>();
+  state.speed_mm_s = state.platform_velocity_mm_s.rowwise().norm();
 }
 
 double wrapped(double angle_rad) {
@@ -101,7 +102,7 @@ const std::vector<Derivation>& derivations() {
       {{"acceleration_mm_s2", "jerk_mm_s3", "snap_mm_s4"},
        [](const NominalGeometry&, Samples& samples) { fill_motion(samples, kMostDerivatives); }},
       {{"slider_joint_rate_rad_s", "slider_joint_direction", "slider_joint_since_reversal_rad",
-        "platform_joint_rate_rad_s", "speed_mm_s"},
+        "platform_joint_rate_rad_s", "speed_mm_s", "platform_velocity_mm_s"},
        &fill_joint_motion},
       {{"leg_force"},
        [](const NominalGeometry& nominal, Samples& samples) {

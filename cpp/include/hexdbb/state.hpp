@@ -51,6 +51,7 @@ struct State {
   AxisTable position_mm;
   AxisTable platform_rpy_rad;
   Eigen::VectorXd speed_mm_s;
+  AxisTable platform_velocity_mm_s;
   SliderTable velocity_mm_s;
   SliderTable acceleration_mm_s2;
   SliderTable jerk_mm_s3;
@@ -107,6 +108,8 @@ void for_each_column(StateType& state, Visit visit) {
   visit(ColumnInfo{"platform_rpy_rad", "rad", "roll, pitch and yaw of the nominal platform", Of::kAxis},
         state.platform_rpy_rad);
   visit(ColumnInfo{"speed_mm_s", "mm/s", "speed of the nominal platform's reference point"}, state.speed_mm_s);
+  visit(ColumnInfo{"platform_velocity_mm_s", "mm/s", "velocity of the same, base frame", Of::kAxis},
+        state.platform_velocity_mm_s);
   visit(ColumnInfo{"velocity_mm_s", "mm/s", "velocity of the slider", Of::kSlider}, state.velocity_mm_s);
   visit(ColumnInfo{"acceleration_mm_s2", "mm/s^2", "acceleration of the slider", Of::kSlider},
         state.acceleration_mm_s2);

@@ -10,24 +10,49 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hexdbb.diagnosis import JudgingNoise, Noise, Sufficiency, explains_changes
 from hexdbb.diagnosis.lack_of_fit import FitTest
+from hexdbb.diagnosis.noise import residual_repeats_to
 from hexdbb.diagnosis.sufficiency import default_matters_um, explained_um
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.trial import Trial, Trials
-from hexdbb.samples import predict
+from hexdbb.samples import Samples, predict
+
+Floats = NDArray[np.float64]
+FORM_STEPS = 4
+"""Sizes of what changes from reading to reading that are tried, up to the largest that forms have: a quarter of that
+variance apart, an eighth of the noise."""
 
 
 def repeats_but_for_forms(trial: Trial, trials: Trials, judging: JudgingNoise) -> bool:
     """Check that what differs from lap to lap is explained where the forms of the effects in the model are.
 
-    A drift off its formula leaves a part of itself that no lap shares with the next, and is known all the same.
+    A drift off its formula leaves a part of itself that no lap shares with the next, and is known all the same; so is
+    an effect whose size differs from reading to reading, as of a gauge that is read late when the bus is free.
     """
-    engine = trials.engine
+    engine, linear = trials.engine, trials.linear(trial)
     noise_mm = float(np.mean(engine.row_noise_mm))
-    residual_mm = trials.linear(trial).residual * engine.row_noise_mm
-    return explains_changes(engine.part, residual_mm, replace(judging, noise=replace(judging.noise, sigma_mm=noise_mm)))
+    of_rows = replace(judging, noise=replace(judging.noise, sigma_mm=noise_mm))
+    residual_mm = linear.residual * engine.row_noise_mm
+    if explains_changes(engine.part, residual_mm, of_rows):
+        return True
+    push = trials.pushed(trial)
+    parts = np.linspace(0.0, trials.criteria.form_variance, FORM_STEPS + 1)[1:]
+    return any(_changes_with(push, part, engine.part, residual_mm, of_rows) for part in parts)
+
+
+def _changes_with(push: Floats, part: float, samples: Samples, residual_mm: Floats, judging: JudgingNoise) -> bool:
+    """Check that laps repeat as well as is stated, but for a part of what an effect pushes.
+
+    The variance that grows with the push must describe the differences better than one for all readings does.
+    """
+    larger = np.sqrt(1.0 + part * push**2)
+    if not explains_changes(samples, residual_mm / larger, judging):
+        return False
+    alike, scaled = (residual_repeats_to(samples, each) for each in (residual_mm, residual_mm / larger))
+    return bool(np.log(scaled) + np.mean(np.log(larger)) < np.log(alike))
 
 
 def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: float | None = None) -> Sufficiency:

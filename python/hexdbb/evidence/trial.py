@@ -110,7 +110,7 @@ class Trials:
         self.forms = Forms(engine, homes, criteria)
         self._known: dict[frozenset[str], Trial] = {}
         self._ahead: dict[frozenset[str], Future[Fitted]] = {}
-        self._present = [Known(*each) for each in engine.present()]
+        self.present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
         self._base: dict[tuple[str, ...], Sums] = {}
 
@@ -174,14 +174,23 @@ class Trials:
         With the functions of their forms: where geometry takes most of an effect, its form is what the readings show.
         """
         root = self.of(())
-        linear, parameters = self.linear(root), root.model.parameters()
-        names = {(each.effect, each.elements[0]) for each in self._present}
-        free = np.flatnonzero(root.model.free)
-        own = np.zeros(linear.own.shape[1], bool)
-        own[: len(free)] = [(parameters[place].effect, parameters[place].element) in names for place in free]
+        linear, own = self.linear(root), self._columns_of_present(root)
         for _, columns in root.columns_of_forms():
             own[columns] = True
         return _beyond(linear.own, linear.standing, own, ~own)
+
+    def pushed(self, trial: Trial) -> Floats:
+        """Return what the effects that the model had before push on each row, in noise standard deviations."""
+        linear, own = self.linear(trial), self._columns_of_present(trial)
+        return linear.own[:, own] @ linear.standing[own]
+
+    def _columns_of_present(self, trial: Trial) -> NDArray[np.bool_]:
+        """Return which columns of a trial's linearisation are those of effects that the model had before."""
+        parameters, free = trial.model.parameters(), np.flatnonzero(trial.model.free)
+        names = {(each.effect, each.elements[0]) for each in self.present}
+        own = np.zeros(self.linear(trial).own.shape[1], bool)
+        own[: len(free)] = [(parameters[place].effect, parameters[place].element) in names for place in free]
+        return own
 
     def size(self, trial: Trial, known: Known) -> float:
         """Mean square of what a known effect of a trial pushes that geometry does not, in noise variances.
@@ -200,8 +209,8 @@ class Trials:
         """Weigh members about their fit, and keep its linearisation."""
         linear = fitted.linear
         known = [each.hypothesis for each in members if isinstance(each.hypothesis, Known)]
-        linear, found = self._with_forms(linear, fitted, [*self._present, *known])
-        present = [(each.name, found[each]) for each in self._present]
+        linear, found = self._with_forms(linear, fitted, [*self.present, *known])
+        present = [(each.name, found[each]) for each in self.present]
         forms = [found[each.hypothesis] if isinstance(each.hypothesis, Known) else None for each in members]
         refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
         every = [*forms, *(form for _, form in present)]

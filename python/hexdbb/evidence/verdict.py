@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
+from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
@@ -102,7 +103,10 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
     node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
-    node = in_simple_words(search, with_tuned_numbers(search, node))
+    node = with_tuned_numbers(search, node)
+    if (forms := as_forms(search, node)) is not None:
+        return Verdict("none", (), search.root, None, before, forms)
+    node = in_simple_words(search, node)
     causes, refinements = _grouped(search, node)
     wider = refined(search, node)
     known = {each.name for each in node.hypotheses}

@@ -111,6 +111,22 @@ OF_PAIR_OF_LEGS = (
 )
 ROCKING = tuple(map(rocking, DIRECTIONS_DEG))
 """A base that stands softly rocks one way, by the inertia of what moves on it."""
+
+
+def _by_speed(course: Variable) -> Variable:
+    return replace(
+        v.SPEED,
+        name="course_speed",
+        words=f"{v.SPEED.words}, along the {course.words}",
+        count=SPLINES,
+        times=course.times,
+        parts=("course",),
+        is_vector=True,
+    )
+
+
+COURSES, COURSES_IN_PLATFORM = ((each, _by_speed(each)) for each in (v.COURSE, v.COURSE_IN_PLATFORM))
+"""Drag and play of what the platform takes along: the same at every speed, or not."""
 OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
     *ROCKING,
@@ -124,9 +140,9 @@ OF_GUIDEWAY = (
 OF_SLIDER_JOINT = (v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD)
 """Variables of one carriage that is pushed across its guideway: it tilts, floats or yields. What depends on the
 position alone is a fault of the rail, which both carriages of a guideway have."""
-OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE)
+OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM)
 """Variables of a platform's joint that is loose, or soft, in whatever direction."""
-OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED)
+OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED, *COURSES_IN_PLATFORM)
 """Variables of the platform's joint that two legs share: those that both have. No function of time is among those of
 several axes here: such follow any drift, and claim nothing of a time that was left out."""
 GROWS = (v.TIME, v.WARMING)
@@ -147,8 +163,8 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "guideway": OF_GUIDEWAY,
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,
-    "ball": OF_BALL,
-    "cup": OF_BALL,
+    "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
+    "cup": (*OF_BALL, *COURSES),
     "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION), *SINCE_START),
 }
 """Further variables of single elements by place."""

@@ -30,6 +30,8 @@ FINER = (2, 4)
 """Multiples of a variable's splines that readings may ask for: four times twelve knots follow what is a fiftieth of the
 range wide, as far as a reading every millimetre or two determines it."""
 
+AXES_OF_VECTOR = 3
+
 
 class _Base(Protocol):
     @property
@@ -162,7 +164,7 @@ class Learned:
     @property
     def components(self) -> int:
         """Number of functions: one for each axis where the direction is not known."""
-        return COMPONENTS.get(self.place, 1)
+        return 1 if self.variable.is_vector else COMPONENTS.get(self.place, 1)
 
     def axis_name(self, component: int) -> str:
         """Name of the axis along which one of its functions pushes; empty where it has one function only."""
@@ -170,8 +172,8 @@ class Learned:
 
     @property
     def elements(self) -> tuple[int, ...]:
-        """Elements, from 0, by whose variable the functions go."""
-        return tuple(self._by(each) for each in self._pushed)
+        """Elements, from 0, by whose variable the functions go; axes of a vector."""
+        return tuple(range(AXES_OF_VECTOR)) if self.variable.is_vector else tuple(self._by(each) for each in self._pushed)
 
     @property
     def _pushed(self) -> tuple[int, ...]:
@@ -196,6 +198,9 @@ class Learned:
         machine : Directed
         """
         first = _core.PORTS[self.port][0]
+        if self.variable.is_vector:
+            axes = range(AXES_OF_VECTOR)
+            return tuple((axis, tuple((first + 3 * each + axis, 1.0) for each in self._pushed)) for axis in axes)
         if self.place in SHARED:
             return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
         pushed = ((each, self._axis(component, each, machine)) for each in self._pushed)

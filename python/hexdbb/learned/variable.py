@@ -60,6 +60,8 @@ class Variable:
         Values of the column from which a step each holds; then there are no splines.
     parts : tuple of str
         Of a product of two states, the names of the variables of either, whether the place has them or not.
+    is_vector : bool
+        Whether what multiplies is a vector, along whose axes one function pushes.
     """
 
     name: str
@@ -79,6 +81,7 @@ class Variable:
     of_forms: bool = False
     instants: tuple[float, ...] = ()
     parts: tuple[str, ...] = ()
+    is_vector: bool = False
 
     @property
     def columns(self) -> int:

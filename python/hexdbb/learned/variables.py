@@ -143,6 +143,12 @@ CIRCLE_DIRECTION = Variable("circle_direction", "", "", "direction of the circle
 SPEED = Variable("speed", "speed_mm_s", "mm/s", "speed of the platform", 8)
 FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 
+COURSE, COURSE_IN_PLATFORM = (
+    Variable("course", "", "", "direction in which the platform moves", times=column, is_vector=True)
+    for column in ("course", "course_in_platform")
+)
+"""What rubs or has play hangs back along it, in the frame in which a place is pushed."""
+
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),

@@ -32,6 +32,8 @@ TIMES = {
     "slider_joint_rate_rad_s": ", for each rad/s of the joint's turning",
     "warming_k": ", for each K of warming",
     "speed_mm_s": ", for each mm/s of the platform's speed",
+    "course": ", along the direction in which the platform moves",
+    "course_in_platform": ", along the direction in which the platform moves",
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
 }

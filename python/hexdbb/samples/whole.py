@@ -18,6 +18,7 @@ from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
+from hexdbb.samples.course import COURSES, COURSES_FROM, courses
 from hexdbb.samples.deflection import DEFLECTION, DIRECTION_AND_TRAVEL, deflection_mm, direction_and_travel
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
@@ -65,7 +66,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, DEFLECTION, *DIRECTION_AND_TRAVEL)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, DEFLECTION, *DIRECTION_AND_TRAVEL)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -90,6 +91,8 @@ class Whole:
             self.columns |= derived_columns(self.machine, given, self.set_ups)
         elif name in LOADS:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
+        elif name in COURSES:
+            self.columns |= courses(*self._known(*COURSES_FROM))
         elif name == REACTION:
             (acceleration,) = self._known(REACTION_FROM)
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)

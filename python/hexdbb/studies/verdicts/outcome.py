@@ -55,6 +55,7 @@ VARIABLES = {
     "time_period": ("time",),
     "position_period": ("position",),
     "acceleration_along": ("acceleration",),
+    "course": ("direction",),
 }
 """The truth's words for the variables of learned hypotheses, where they differ."""
 

@@ -1,0 +1,30 @@
+"""The direction in which the platform moves, as a vector: what rubs or has play at a joint hangs back along it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.kinematics import rotation_from_rpy
+
+Floats = NDArray[np.float64]
+
+COURSE, COURSE_IN_PLATFORM = "course", "course_in_platform"
+COURSES = (COURSE, COURSE_IN_PLATFORM)
+COURSES_FROM = ("platform_velocity_mm_s", "platform_rpy_rad")
+"""Columns that these follow from."""
+LEAST_SPEED_MM_S = 0.01
+"""Below, the platform stands: encoders' steps set the direction. A hundredth of the slowest feed of a test."""
+
+
+def courses(platform_velocity_mm_s: Floats, platform_rpy_rad: Floats) -> dict[str, Floats]:
+    """Return the columns `COURSES`, unit vectors, in the base's frame and in the platform's; zero where it stands.
+
+    Parameters
+    ----------
+    platform_velocity_mm_s, platform_rpy_rad : ndarray, shape (n, 3)
+    """
+    speed = np.linalg.norm(platform_velocity_mm_s, axis=1, keepdims=True)
+    moves = speed > LEAST_SPEED_MM_S
+    course = np.where(moves, platform_velocity_mm_s / np.where(moves, speed, 1.0), 0.0)
+    return {COURSE: course, COURSE_IN_PLATFORM: np.einsum("nij,ni->nj", rotation_from_rpy(platform_rpy_rad), course)}
