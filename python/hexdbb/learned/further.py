@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, following, rocking
+from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, along, following
 from hexdbb.learned.variable import ELAPSED, Variable
 
 SPLINES = 6
@@ -25,7 +25,7 @@ RUN_UPS_DEG = (15.0, 45.0, 135.0)
 smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
 step changes nearly two (`evidence/number.py`): any run-up between 8 and 260 degrees is reached."""
 DIRECTIONS_DEG = (45.0, 90.0, 135.0, 180.0)
-"""Directions in which a base may rock that are tried first; the readings then move them. Of a motion along another one
+"""Directions in the base's x-y plane that are tried first; the readings then move them. Of what goes along another one
 the nearest contains 85 % at least."""
 FACTORS = {
     "velocity": ("velocity_mm_s", "velocity"),
@@ -109,8 +109,10 @@ OF_PAIR_OF_LEGS = (
     *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE)),
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
-ROCKING = tuple(map(rocking, DIRECTIONS_DEG))
-"""A base that stands softly rocks one way, by the inertia of what moves on it."""
+ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
+"""A base that stands softly rocks by the inertia of what moves on it: any way alike, or along one direction."""
+PULLED = (v.HEIGHT, *(along("position", each) for each in DIRECTIONS_DEG))
+"""What holds the platform from outside, a cable or a hose, pulls by where the platform is."""
 
 
 def _by_speed(course: Variable) -> Variable:
@@ -130,6 +132,7 @@ COURSES, COURSES_IN_PLATFORM = ((each, _by_speed(each)) for each in (v.COURSE, v
 OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
     *ROCKING,
+    *PULLED,
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (

@@ -173,7 +173,9 @@ class Learned:
     @property
     def elements(self) -> tuple[int, ...]:
         """Elements, from 0, by whose variable the functions go; axes of a vector."""
-        return tuple(range(AXES_OF_VECTOR)) if self.variable.is_vector else tuple(self._by(each) for each in self._pushed)
+        return (
+            tuple(range(AXES_OF_VECTOR)) if self.variable.is_vector else tuple(self._by(each) for each in self._pushed)
+        )
 
     @property
     def _pushed(self) -> tuple[int, ...]:

@@ -3,7 +3,7 @@
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
 less the same lag), the time since a circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), and a
-vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane).
+vector's part along a direction (`position_along@45`, degrees in the base's x-y plane).
 """
 
 from __future__ import annotations
@@ -31,7 +31,11 @@ BY_NUMBER = {
 run-up to it."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
-ROCKING = f"acceleration_{ALONG}"
+VECTORS = {
+    "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages"),
+    "position": ("position_mm", "mm", "position of the platform"),
+}
+"""What may go by its part along a direction: column, unit and words."""
 HALF_TURN_DEG = 180.0
 """A direction and its opposite are one: splines have either sign."""
 
@@ -64,14 +68,15 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     )
 
 
-def rocking(direction_deg: float) -> Variable:
-    """Return the variable of what rocks a base along a direction: the inertia of all carriages."""
+def along(vector: str, direction_deg: float) -> Variable:
+    """Return the variable of the part of one of `VECTORS` along a direction in the base's x-y plane."""
     number = f"{direction_deg % HALF_TURN_DEG or HALF_TURN_DEG:.{NUMBER_DIGITS}g}"
+    column, unit, words = VECTORS[vector]
     return Variable(
-        f"{ROCKING}@{number}",
-        f"carriages_acceleration_mm_s2{OF_MEMORY}{ALONG}@{number}",
-        "mm/s²",
-        f"acceleration of all carriages along {float(number):.3g}° in the x-y plane",
+        f"{vector}_{ALONG}@{number}",
+        f"{column}{OF_MEMORY}{ALONG}@{number}",
+        unit,
+        f"{words} along {float(number):.3g}° in the x-y plane",
         FOLLOWING_SPLINES,
     )
 
@@ -121,8 +126,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in ("time_period", "position_period"):
         return periodic(kind.removesuffix("_period"), values[0])
-    if kind == ROCKING and any(each.name.startswith(ROCKING) for each in variables):
-        return rocking(values[0])
     of, _, how = kind.rpartition("_")
+    if how == ALONG:
+        return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None
     known = {each.name: each for each in variables}
     return following(known[of], how, values[0]) if how in BY_NUMBER and of in known else None

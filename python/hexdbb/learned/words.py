@@ -32,6 +32,7 @@ TIMES = {
     "slider_joint_rate_rad_s": ", for each rad/s of the joint's turning",
     "warming_k": ", for each K of warming",
     "speed_mm_s": ", for each mm/s of the platform's speed",
+    "carriages_acceleration_mm_s2": ", for each mm/s² of the carriages' acceleration",
     "course": ", along the direction in which the platform moves",
     "course_in_platform": ", along the direction in which the platform moves",
     "deflection_mm": ", for each mm of deflection",

@@ -11,8 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from hexdbb.learned import Learned
-from hexdbb.learned.further import FACTORS
+from hexdbb.learned import Learned, Variable
 from hexdbb.learned.numbered import BY_NUMBER
 from hexdbb_truth.forms.labels import Label
 
@@ -55,7 +54,10 @@ VARIABLES = {
     "time_period": ("time",),
     "position_period": ("position",),
     "acceleration_along": ("acceleration",),
+    "position_along": ("position",),
+    "height": ("position",),
     "course": ("direction",),
+    "course_speed": ("direction", "velocity"),
 }
 """The truth's words for the variables of learned hypotheses, where they differ."""
 
@@ -166,19 +168,18 @@ def _place_of(name: str, label: Label) -> str:
         for port, variables, elements in truths
         if PLACES.get(learned.place, learned.place) == port and (not elements or named <= {*elements})
     ]
-    asked = _truths_words(learned.variable.name)
+    asked = _truths_words(learned.variable)
     if any(all(words & variables for words in asked) for variables in there):
         return "right"
     return "variable" if there else "port"
 
 
-def _truths_words(variable: str) -> list[set[str]]:
+def _truths_words(variable: Variable) -> list[set[str]]:
     """Return the truth's words for a variable; of a product those of either part, of which the truth must have both."""
-    whole = name = variable.partition("@")[0].removeprefix("neighbour_")
+    whole = name = variable.name.partition("@")[0].removeprefix("neighbour_")
     for how in BY_NUMBER:
         name = name.removesuffix(f"_{how}")
-    factor = "" if name in VARIABLES else next((each for each in FACTORS if name.startswith(f"{each}_")), "")
-    parts = (factor, name.removeprefix(f"{factor}_")) if factor else (name,)
+    parts = (name,) if name in VARIABLES or not variable.parts else variable.parts
     # The truth may ask for the memory itself.
     return [{whole, *VARIABLES.get(each, (each,))} for each in parts]
 
