@@ -6,6 +6,7 @@ else a table of its values. The name is the learned one's place and variable; ev
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -56,7 +57,7 @@ def draft(model: Model, name: str) -> str:
 def drafted_name(space: Space, component: int) -> str:
     """Return the name of the drafted effect: ``learned_leg_5_turning_rate``."""
     axis = space.hypothesis.axis_name(component)
-    return "_".join(filter(None, (space.hypothesis.name.replace(":", "_"), axis)))
+    return "_".join(filter(None, (re.sub(r"\W", "_", space.hypothesis.name), axis)))
 
 
 def _effect(space: Space, curve: Curve, form: Form, component: int, machine: MachineFile) -> str:
@@ -98,7 +99,8 @@ def _value(space: Space) -> list[str]:
     variable = space.hypothesis.variable
     lines = ["value = np.ones(len(samples))"]
     if variable.column:
-        lines = [f'x = samples["{variable.column}"]', "x = x[:, element] if x.ndim == 2 else x"]
+        of_two = f"x[:, element if x.shape[1] == 6 else {variable.axis}]"
+        lines = [f'x = samples["{variable.column}"]', f"x = {of_two} if x.ndim == 2 else x"]
         if variable.period:
             lines.append(f"x = np.mod(x, {_number(space.period)})")
         lines.append("value = function(x)")

@@ -88,6 +88,24 @@ def test_structures_that_grow_push_all_joints_outward(name: str) -> None:
         )
 
 
+def test_a_vector_pushes_along_its_axes_by_one_function() -> None:
+    learned = Learned.parse("learned:platform_joint:5-6:course")
+    first = _core.PORTS["platform_joint"][0]
+    assert learned.components == 1
+    assert learned.pushes(0, MACHINE) == tuple(
+        (axis, ((first + 12 + axis, 1.0), (first + 15 + axis, 1.0))) for axis in range(3)
+    )
+    assert learned.variable.needs == {"course_in_platform"}
+    assert Learned.parse("learned:cup:course").variable.needs == {"course"}
+
+
+def test_a_direction_and_its_opposite_are_one() -> None:
+    learned = Learned.parse("learned:ball:position_along@170")
+    assert learned.with_number(190.0).name == "learned:ball:position_along@10"
+    assert learned.with_number(360.0).name == "learned:ball:position_along@180"
+    assert learned.variable.column == "position_mm.along@170"
+
+
 def test_what_a_function_needs_of_memory_is_the_column_and_the_time() -> None:
     assert Learned.parse("learned:leg:2:joint_angle_relaxing@7.5").variable.needs == {
         "slider_joint_angle_rad",
@@ -124,6 +142,7 @@ def test_what_acts_within_what(one: str, place: str, element: int, expected: boo
     [
         ("learned:leg:1-3:time", "element '1-3' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all)"),
         ("learned:leg:1:leg_force_lagged@-2", "variable 'leg_force_lagged@-2' (expected one of position"),
+        ("learned:slider:1:position_along@30", "variable 'position_along@30' (expected one of position"),
         ("learned:platform:position", "variable 'position' (expected one of time, warming)"),
         ("learned:lateral:all:position", "variable 'position' (expected one of time, warming)"),
     ],

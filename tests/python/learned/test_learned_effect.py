@@ -233,6 +233,9 @@ def made(planned: Samples, name: str, function: Callable[[np.ndarray], np.ndarra
         ("learned:leg:all:leg_force", lambda x: 0.03 * x, set()),
         ("learned:vertical:2:position", lambda x: 1e-7 * (x - x.mean()) ** 2 * np.sin(x / 40.0), set()),
         ("learned:leg:3:direction_position", lambda x: 0.01 + 1e-5 * x, set()),
+        ("learned:leg:2:leg_force_lagged@7.5", lambda x: 0.03 * x, set()),
+        ("learned:platform_joint:5-6:course", lambda x: 0.01 + 0.0 * x, set()),
+        ("learned:platform_joint:1:course_speed", lambda x: 0.01 + 1e-4 * x, set()),
     ],
 )
 def test_a_draft_pushes_what_was_learned(
