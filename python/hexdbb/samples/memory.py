@@ -56,7 +56,7 @@ def remembered_column(
     """
     values = np.asarray(column, np.float64).reshape(len(column), -1)
     if how == "along":
-        return values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))])
+        return np.asarray(values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))]))
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
     sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
     if how == "after":

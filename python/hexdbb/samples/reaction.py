@@ -27,4 +27,4 @@ def carriages_acceleration_mm_s2(machine: _core.Machine, acceleration_mm_s2: Flo
         Of the sliders, each along its guideway.
     """
     along = np.array([_core.guideway_direction(machine, slider // 2) for slider in range(acceleration_mm_s2.shape[1])])
-    return acceleration_mm_s2 @ along
+    return np.asarray(acceleration_mm_s2 @ along)

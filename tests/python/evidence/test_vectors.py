@@ -1,4 +1,4 @@
-"""What goes by a vector: a joint that hangs back along the platform's course, a base that the carriages' inertia rocks."""
+"""What goes by a vector: a joint that hangs back along the platform's course, a base rocked by the carriages."""
 
 from __future__ import annotations
 
