@@ -230,7 +230,7 @@ TEST(State, EveryColumnIsDescribed) {
     const int expected = info.of == ColumnOf::kSample ? 1 : info.of == ColumnOf::kAxis ? 3 : 6;
     EXPECT_EQ(width, expected) << info.name;
   });
-  EXPECT_EQ(names.size(), 29U);
+  EXPECT_EQ(names.size(), 30U);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   const std::vector<std::string> given_by_a_record = {"row",      "lap", "direction", "angle_rad", "angle_wrapped_rad",
                                                       "feed_mm_s"};
@@ -271,6 +271,16 @@ TEST(State, SpeedIsThatOfTheCircle) {
   const Samples samples = moving_samples(Machine(), {CircleSpec()}, 400, kLap_s);
   const double fed_mm_s = 2.0 * M_PI * kRadius_mm / kLap_s;
   EXPECT_LT((samples.state.speed_mm_s.array() - fed_mm_s).abs().maxCoeff(), 2e-3 * fed_mm_s);
+}
+
+TEST(State, VelocityOfThePlatformIsThatOfItsPlace) {
+  const Samples samples = moving_samples(Machine(), {CircleSpec()}, 400, 20.0);
+  const State& state = samples.state;
+  for (Eigen::Index at = 1; at + 1 < samples.size(); ++at) {
+    const double between_s = state.time_s[at + 1] - state.time_s[at - 1];
+    const Eigen::RowVector3d moved_mm_s = (state.position_mm.row(at + 1) - state.position_mm.row(at - 1)) / between_s;
+    EXPECT_LT((state.platform_velocity_mm_s.row(at) - moved_mm_s).norm(), 0.01 * state.speed_mm_s[at]) << at;
+  }
 }
 
 TEST(State, ColumnOfAnotherLengthIsNamed) {

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.heldout import HeldOut, heldout
+from hexdbb.evidence.heldout import HeldOut, contradiction, heldout
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.trial import Trial, Trials
 
@@ -69,9 +69,38 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
     ):
         reasons.append("predicts nothing that was left out")
-    missed = max((missed_of(held, held.as_fitted, trial, base, criteria) for held in claimed), default=0.0)
-    at_least = max((missed_of(held, held.after, trial, base, criteria) for held in claimed), default=0.0)
+    missed = at_least = 0.0
+    for grouping, held in predicted.items():
+        if grouping != ARC:
+            errors = _missed(grouping, held, trial, base, trials, criteria)
+            missed, at_least = max(missed, errors[0]), max(at_least, errors[1])
     return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least)
+
+
+def _missed(
+    grouping: str, held: HeldOut, trial: Trial, base: Trial, trials: Trials, criteria: Criteria
+) -> tuple[float, float]:
+    """Return what a grouping is missed by, as fitted and at least.
+
+    Where what was left out contradicts the others, no error is put down to how badly they determine it. Where it does
+    not, one effect that is nearly its formula is missed by chance alone; several, and functions of forms, can be made
+    to agree.
+    """
+    errors = (held.as_fitted, held.after)
+    missed = [missed_of(held, error, trial, base, criteria) for error in errors]
+    beyond = [_over_explained(error**2 - max(trial.left, 1.0), trial, base) for error in errors]
+    if beyond[0] <= criteria.missed_sure:
+        return missed[0], missed[1]
+    if contradiction(trial, trials, grouping) >= criteria.by_chance:
+        return beyond[0], beyond[1]
+    return (0.0, 0.0) if _is_one_formula(trial, criteria) else (missed[0], missed[1])
+
+
+def _is_one_formula(trial: Trial, criteria: Criteria) -> bool:
+    """Check for one known effect at one element, hardly bent."""
+    form = trial.forms[0] if len(trial.members) == 1 else None
+    is_one = form is not None and len(trial.members[0].hypothesis.elements) == 1
+    return is_one and form.deviation <= criteria.form_exact
 
 
 def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: Criteria) -> float:
@@ -83,7 +112,10 @@ def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: 
     noise = min(held.expected, 1.0) ** 2
     larger = criteria.heldout_ratio**2 if leads_away(held, base, criteria) else 1.0
     expected = noise + larger * (held.expected**2 - noise)
-    beyond = error**2 - expected * max(trial.left, 1.0)
+    return _over_explained(error**2 - expected * max(trial.left, 1.0), trial, base)
+
+
+def _over_explained(beyond: float, trial: Trial, base: Trial) -> float:
     return float(np.sqrt(max(beyond, 0.0) / max(base.left - trial.left, 1e-9)))
 
 

@@ -80,6 +80,23 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
     return found
 
 
+def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
+    """Return how much the groups left out contradict the fits to the others, per value that they determine.
+
+    The squared distance between the values that either asks for, in standard deviations: about one by chance, however
+    badly the others determine what the readings left out show. Error alone cannot say that: where geometry leads away,
+    noise becomes a large one.
+    """
+    numbers, sums = trials.engine.readings.groups[grouping], trials.sums(trial, (grouping,))
+    groups = list(zip(np.unique(numbers), sums.groups(grouping), strict=True))
+    found = [
+        (*sums.without(cells).contradiction(sums, cells), float(sums.rows[cells].sum()))
+        for _, cells in _claimed(trial, trials.engine.readings, grouping, groups)
+    ]
+    squared, determined, rows = (sum(column) for column in zip(*found, strict=True))
+    return (squared - rows * trial.left) / max(determined, 1e-9)
+
+
 def _groupings(trial: Trial) -> tuple[str, ...]:
     return (*GROUPINGS, ARC) if trial.is_free_in_time else GROUPINGS
 

@@ -178,6 +178,24 @@ class Training:
         base = sums.base_of(cells)[:-1, :-1]
         return float(sums.rows[cells].sum() + np.sum(self._inverse * self._half(base)))
 
+    def contradiction(self, sums: Sums, cells: Ints) -> tuple[float, float]:
+        """Return how far the values that other cells ask for are from those of this set, and how many they determine.
+
+        Returns
+        -------
+        squared : float
+            Squared error of the prediction, in the metric of its own uncertainty: what a fit to both leaves of these
+            cells, and the squared distance of the values, in standard deviations.
+        determined : float
+            Effective number of values.
+        """
+        base, own = sums.base_of(cells), self.own_values()
+        spread = self._half(self._half(base[:-1, :-1]).T)
+        both = spread + np.eye(len(own))
+        gradient = self._half(base[:-1, -1] - base[:-1, :-1] @ own)
+        squared = squared_error(sums, cells, own, None, None) - gradient @ np.linalg.solve(both, gradient)
+        return float(squared), float(np.trace(np.linalg.solve(both, spread)))
+
     def _half(self, columns: Floats) -> Floats:
         found: Floats = self._inverse @ columns
         return found

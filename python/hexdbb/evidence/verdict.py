@@ -9,7 +9,7 @@ from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
+from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
@@ -173,7 +173,9 @@ def _in_order(search: Search, node: Node, learned: list[Learned]) -> list[Learne
     """Sort functions: what explains most first, but a product after the function whose form it describes."""
 
     def place(each: Learned) -> tuple[bool, float]:
-        return any(one in each.parts for one in learned), -left_without(search, node, each)
+        left = left_without(search, node, each)
+        is_form = any(one in each.parts for one in learned) and explains_nearly(search, left, node.trial.left)
+        return is_form, -left
 
     return sorted(learned, key=place)
 
