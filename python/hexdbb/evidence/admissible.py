@@ -99,8 +99,9 @@ def _missed(
 def _is_one_formula(trial: Trial, criteria: Criteria) -> bool:
     """Check for one known effect at one element, hardly bent."""
     form = trial.forms[0] if len(trial.members) == 1 else None
-    is_one = form is not None and len(trial.members[0].hypothesis.elements) == 1
-    return is_one and form.deviation <= criteria.form_exact
+    if form is None or len(trial.members[0].hypothesis.elements) > 1:
+        return False
+    return form.deviation <= criteria.form_exact
 
 
 def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: Criteria) -> float:

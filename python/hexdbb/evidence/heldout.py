@@ -94,7 +94,7 @@ def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
         for _, cells in _claimed(trial, trials.engine.readings, grouping, groups)
     ]
     squared, determined, rows = (sum(column) for column in zip(*found, strict=True))
-    return (squared - rows * trial.left) / max(determined, 1e-9)
+    return float((squared - rows * trial.left) / max(determined, 1e-9))
 
 
 def _groupings(trial: Trial) -> tuple[str, ...]:
