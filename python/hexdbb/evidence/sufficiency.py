@@ -22,8 +22,8 @@ from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
 FORM_STEPS = 4
-"""Sizes of what changes from reading to reading that are tried, up to the largest that forms have: a quarter of that
-variance apart, an eighth of the noise."""
+"""Sizes tried of what changes from reading to reading, evenly up to the largest that forms have: a variance that is
+off by a quarter is a standard deviation off by an eighth, half of what laps may be off (`UNSTEADY`)."""
 
 
 def repeats_but_for_forms(trial: Trial, trials: Trials, judging: JudgingNoise) -> bool:

@@ -24,13 +24,11 @@ from hexdbb.learned.places import (
     members,
     variables_of,
 )
-from hexdbb.learned.variable import Variable
+from hexdbb.learned.variable import AXES_OF_VECTOR, Variable
 
 FINER = (2, 4)
 """Multiples of a variable's splines that readings may ask for: four times twelve knots follow what is a fiftieth of the
 range wide, as far as a reading every millimetre or two determines it."""
-
-AXES_OF_VECTOR = 3
 
 
 class _Base(Protocol):

@@ -13,7 +13,7 @@ from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S
 from hexdbb.learned.tables import Table
-from hexdbb.learned.variable import ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable
+from hexdbb.learned.variable import AXES_OF_VECTOR, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable
 
 Floats = NDArray[np.float64]
 
@@ -36,8 +36,6 @@ SIGN_POINTS = (-3.0, -2.5, -2.0, -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.0)
 """Further points about a step, in its widths, on either side: lines between them miss tanh by 2 % at most."""
 SAMPLES_PER_SPLINE = 5
 """Fewest different samples per spline: fewer leave some splines to the prior alone."""
-AXES = 3
-"""Numbers of a column that belongs to axes, not to sliders or legs."""
 COUNTED = 4096
 """Samples of which different values are counted, evenly chosen: several times what any variable asks for."""
 SMALLEST_RANGE = 1e-9
@@ -245,7 +243,7 @@ def _of(samples: Columns, variable: Variable, element: int) -> Floats:
     values = np.asarray(samples[variable.column], np.float64)
     if values.ndim == 1:
         return values
-    found: Floats = values[:, variable.axis if values.shape[1] == AXES else element]
+    found: Floats = values[:, variable.axis if values.shape[1] == AXES_OF_VECTOR else element]
     return found
 
 

@@ -17,6 +17,8 @@ SPLINES_MIN = 3
 SCREW_LEAD = -1.0
 """Period of a variable that repeats with every turn of the machine's screws."""
 TURN = 2.0 * np.pi
+AXES_OF_VECTOR = 3
+"""Numbers of a column that belongs to axes, not to sliders or legs."""
 OF_MEMORY = "."
 """In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
 
