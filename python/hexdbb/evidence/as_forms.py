@@ -1,4 +1,4 @@
-"""What is missing, told as the forms of the effects that a model has.
+"""What is missing, explained as the forms of the effects that a model has.
 
 An effect a tenth off its formula leaves a hundredth of what it explains: of an effect a hundred times the noise, ten
 times the noise. Some function somewhere follows that too; the effect's own place is the simpler one.

@@ -110,7 +110,7 @@ OF_PAIR_OF_LEGS = (
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
 ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
-"""A base that stands softly rocks by the inertia of what moves on it: any way alike, or along one direction."""
+"""A base that stands softly rocks by the inertia of what moves on it: alike in every direction, or along one."""
 PULLED = (v.HEIGHT, *(along("position", each) for each in DIRECTIONS_DEG))
 """What holds the platform from outside, a cable or a hose, pulls by where the platform is."""
 

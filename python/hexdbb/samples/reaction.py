@@ -1,6 +1,6 @@
 """What rocks a base that stands softly: the accelerations of all carriages, added as vectors.
 
-A platform that is not turned accelerates nearly as they do together, the other way round or not as its legs stand.
+The acceleration of a platform that is not turned is nearly in proportion to it.
 """
 
 from __future__ import annotations
