@@ -111,8 +111,6 @@ OF_PAIR_OF_LEGS = (
 )
 ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
 """A base that stands softly rocks by the inertia of what moves on it: alike in every direction, or along one."""
-PULLED = (v.HEIGHT, *(along("position", each) for each in DIRECTIONS_DEG))
-"""What holds the platform from outside, a cable or a hose, pulls by where the platform is."""
 
 
 def _by_speed(course: Variable) -> Variable:
@@ -132,7 +130,6 @@ COURSES, COURSES_IN_PLATFORM = ((each, _by_speed(each)) for each in (v.COURSE, v
 OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
     *ROCKING,
-    *PULLED,
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (

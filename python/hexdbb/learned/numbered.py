@@ -3,7 +3,7 @@
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
 less the same lag), the time since a circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), and a
-vector's part along a direction (`position_along@45`, degrees in the base's x-y plane).
+vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane).
 """
 
 from __future__ import annotations
@@ -33,7 +33,6 @@ NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
 VECTORS = {
     "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages"),
-    "position": ("position_mm", "mm", "position of the platform"),
 }
 """What may go by its part along a direction: column, unit and words."""
 HALF_TURN_DEG = 180.0

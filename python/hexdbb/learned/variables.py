@@ -146,7 +146,6 @@ FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
 CARRIAGES_ACCELERATION = Variable(
     "acceleration", "", "", "acceleration of all carriages", times="carriages_acceleration_mm_s2", is_vector=True
 )
-HEIGHT = Variable("height", "position_mm", "mm", "height of the platform", 6, axis=2)
 COURSE, COURSE_IN_PLATFORM = (
     Variable("course", "", "", "direction in which the platform moves", times=column, is_vector=True)
     for column in ("course", "course_in_platform")

@@ -100,10 +100,10 @@ def test_a_vector_pushes_along_its_axes_by_one_function() -> None:
 
 
 def test_a_direction_and_its_opposite_are_one() -> None:
-    learned = Learned.parse("learned:ball:position_along@170")
-    assert learned.with_number(190.0).name == "learned:ball:position_along@10"
-    assert learned.with_number(360.0).name == "learned:ball:position_along@180"
-    assert learned.variable.column == "position_mm.along@170"
+    learned = Learned.parse("learned:ball:acceleration_along@170")
+    assert learned.with_number(190.0).name == "learned:ball:acceleration_along@10"
+    assert learned.with_number(360.0).name == "learned:ball:acceleration_along@180"
+    assert learned.variable.column == "carriages_acceleration_mm_s2.along@170"
 
 
 def test_what_a_function_needs_of_memory_is_the_column_and_the_time() -> None:
@@ -142,7 +142,7 @@ def test_what_acts_within_what(one: str, place: str, element: int, expected: boo
     [
         ("learned:leg:1-3:time", "element '1-3' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all)"),
         ("learned:leg:1:leg_force_lagged@-2", "variable 'leg_force_lagged@-2' (expected one of position"),
-        ("learned:slider:1:position_along@30", "variable 'position_along@30' (expected one of position"),
+        ("learned:slider:1:acceleration_along@30", "variable 'acceleration_along@30' (expected one of position"),
         ("learned:platform:position", "variable 'position' (expected one of time, warming)"),
         ("learned:lateral:all:position", "variable 'position' (expected one of time, warming)"),
     ],

@@ -54,8 +54,6 @@ VARIABLES = {
     "time_period": ("time",),
     "position_period": ("position",),
     "acceleration_along": ("acceleration",),
-    "position_along": ("position",),
-    "height": ("position",),
     "course": ("direction",),
     "course_speed": ("direction", "velocity"),
 }
