@@ -82,9 +82,9 @@ def _missed(
 ) -> tuple[float, float]:
     """Return what a grouping is missed by, as fitted and at least.
 
-    Where what was left out contradicts the others, no error of several is put down to how badly they determine it. Where
-    it does not, one effect that is nearly its formula is missed by chance alone; several, and functions of forms, can be
-    made to agree.
+    Where what was left out contradicts the others, no error of several is put down to how badly these determine it.
+    Where it does not, one effect that is nearly its formula is missed by chance alone; several, and functions of
+    forms, can be made to agree.
     """
     errors = (held.as_fitted, held.after)
     missed = [missed_of(held, error, trial, base, criteria) for error in errors]
