@@ -82,32 +82,16 @@ def _missed(
 ) -> tuple[float, float]:
     """Return what a grouping is missed by, as fitted and at least.
 
-    Where what was left out contradicts the others, no error of several is put down to how badly these determine it.
-    Where it does not, one effect that is nearly its formula is missed by chance alone; several, and functions of
-    forms, can be made to agree.
+    Where what was left out contradicts the others, no error of several causes is put down to how badly these determine
+    it. One effect off its formula asks for other values on other circles, and is the cause.
     """
     errors = (held.as_fitted, held.after)
-    missed = [missed_of(held, error, trial, base, criteria) for error in errors]
+    missed, at_least = (missed_of(held, error, trial, base, criteria) for error in errors)
     beyond = [_over_explained(error**2 - max(trial.left, 1.0), trial, base) for error in errors]
-    if beyond[0] <= criteria.missed_sure:
-        return missed[0], missed[1]
-    # One effect off its formula asks for other values on other circles, and is the cause.
-    is_several = len(trial.members) > 1
-    if is_several or _is_one_formula(trial, criteria):
-        is_contradicted = contradiction(trial, trials, grouping) >= criteria.by_chance
-        if is_several and is_contradicted:
-            return beyond[0], beyond[1]
-        if not (is_several or is_contradicted):
-            return 0.0, 0.0
-    return missed[0], missed[1]
-
-
-def _is_one_formula(trial: Trial, criteria: Criteria) -> bool:
-    """Check for one known effect at one element, hardly bent."""
-    form = trial.forms[0] if len(trial.members) == 1 else None
-    if form is None or len(trial.members[0].hypothesis.elements) > 1:
-        return False
-    return form.deviation <= criteria.form_exact
+    is_large = len(trial.members) > 1 and beyond[0] > criteria.missed_sure
+    if is_large and contradiction(trial, trials, grouping) >= criteria.by_chance:
+        return beyond[0], beyond[1]
+    return missed, at_least
 
 
 def missed_of(held: HeldOut, error: float, trial: Trial, base: Trial, criteria: Criteria) -> float:

@@ -84,8 +84,7 @@ def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
     """Return how much the groups left out contradict the fits to the others, per value that they determine.
 
     The squared distance between the values that either asks for, in standard deviations: about one by chance, however
-    badly the others determine what the readings left out show. Error alone cannot say that: where geometry leads away,
-    noise becomes a large one.
+    badly the others determine what the readings left out show.
     """
     numbers, sums = trials.engine.readings.groups[grouping], trials.sums(trial, (grouping,))
     groups = list(zip(np.unique(numbers), sums.groups(grouping), strict=True))

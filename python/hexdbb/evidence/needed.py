@@ -68,22 +68,7 @@ def of_forms(search: Search, trial: Trial) -> float:
 
 
 def _instead(search: Search, node: Node, fewer: Trial) -> bool:
-    return (
-        _predict_instead(search, node, fewer)
-        or by_formulas_instead(search, node, fewer)
-        or _agree_instead(search, node, fewer)
-    )
-
-
-def _agree_instead(search: Search, node: Node, fewer: Trial) -> bool:
-    """Check that what was left out agrees with known effects but for chance, where fewer miss much of it.
-
-    Their formulas must explain most of what those of the fewer leave: some effect or other mends any prediction.
-    """
-    if not node.is_known or search.checked_trial(fewer).missed <= search.criteria.missed_sure:
-        return False
-    left, least = search.left_by_formulas(node.trial), search.left_by_formulas(fewer)
-    return left - 1.0 < search.criteria.far_better * (least - 1.0) and search.agrees(node.trial)
+    return _predict_instead(search, node, fewer) or by_formulas_instead(search, node, fewer)
 
 
 def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:

@@ -20,14 +20,13 @@ from hexdbb.evidence.beside import with_known_beside
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.formula import left_by_formulas
-from hexdbb.evidence.heldout import contradiction, first_error
+from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
 from hexdbb.evidence.learnable import Learnable
 from hexdbb.evidence.needed import best_of, needs, rests_on_form
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
-from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import in_other_words, screened, screened_further
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, settles
@@ -76,7 +75,6 @@ class Search:
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
         self._expanded: dict[frozenset[str], list[Node]] = {}
-        self._agrees: dict[int, bool] = {}
         self._checked: dict[int, Checked] = {}
         self._first_errors: dict[int, float] = {}
         self._by_formulas: dict[int, float] = {}
@@ -171,14 +169,6 @@ class Search:
         if id(trial) not in self._checked:
             self._checked[id(trial)] = check(trial, self.root.trial, self.trials, self.criteria)
         return self._checked[id(trial)]
-
-    def agrees(self, trial: Trial) -> bool:
-        """Check that what is left out contradicts the fit to the others nowhere by more than chance."""
-        if id(trial) not in self._agrees:
-            claimed = [each for each in self.checked_trial(trial).heldout if each != ARC]
-            found = all(contradiction(trial, self.trials, each) < self.criteria.by_chance for each in claimed)
-            self._agrees[id(trial)] = found
-        return self._agrees[id(trial)]
 
     def first_error(self, trial: Trial) -> float:
         """Return how a trial predicts the first grouping that it claims; of many tried, few are checked further."""

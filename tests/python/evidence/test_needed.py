@@ -49,12 +49,10 @@ def searched(
     *fitted: tuple[Member, ...],
     excused: tuple[Member, ...] = (),
     by_formulas: dict[tuple[Member, ...], float] | None = None,
-    agrees: bool = False,
 ) -> Any:
     """Return a search whose empty set leaves 11 noise variances, and the node of the first set.
 
-    One set may predict only so far that its form excuses it; some may leave more without the functions of their forms;
-    what was left out may agree with the others but for chance.
+    One set may predict only so far that its form excuses it; some may leave more without the functions of their forms.
     """
     trials = Trialled({frozenset(each): value for each, value in left.items()}, {frozenset(each) for each in fitted})
     node = node_of(trials.of(next(iter(left))))
@@ -69,7 +67,6 @@ def searched(
         checked=lambda node: SimpleNamespace(
             reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0
         ),
-        agrees=lambda trial: agrees,
         expand=lambda node: [],
         node=lambda members, near: node_of(trials.of(members)),
     )
@@ -98,20 +95,6 @@ def test_two_effects_that_predict_are_better_than_one_that_its_form_excuses(
     alone = node_of(search.trials.of((DRIFT,)))
     assert is_better(search, both, alone) is expected
     assert needs_all(search, both) is expected
-
-
-@pytest.mark.parametrize(
-    ("agrees", "formulas", "expected"),
-    [(True, 2.0, True), (False, 2.0, False), (True, 3.5, False)],
-    ids=["agree", "contradict the others", "leave much to forms"],
-)
-def test_two_effects_that_agree_are_better_than_one_that_misses_much(
-    agrees: bool, formulas: float, expected: bool
-) -> None:
-    """The formula of the one leaves 5 noise variances, its form a hundredth of what the two explain."""
-    by_formulas = {(DRIFT, GAIN): formulas, (DRIFT,): 5.0}
-    search, both = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}, by_formulas=by_formulas, agrees=agrees)
-    assert is_better(search, both, node_of(search.trials.of((DRIFT,)))) is expected
 
 
 FORM = DEFAULT.secondary * DEFAULT.form_sigma**2 * 10.0
