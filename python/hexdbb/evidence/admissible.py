@@ -80,10 +80,10 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
 def _missed(
     grouping: str, held: HeldOut, trial: Trial, base: Trial, trials: Trials, criteria: Criteria
 ) -> tuple[float, float]:
-    """Return what a grouping is missed by, as fitted and at least.
+    """Return `missed_of` for the error as fitted and for the least error.
 
-    Where what was left out contradicts the others, no error of several causes is put down to how badly these determine
-    it. One effect off its formula asks for other values on other circles, and is the cause.
+    Where several causes contradict the readings that were kept, their expected error is no excuse: only the noise is
+    subtracted. A single effect is exempt, since a form 20 % off its formula contradicts other circles as well.
     """
     errors = (held.as_fitted, held.after)
     missed, at_least = (missed_of(held, error, trial, base, criteria) for error in errors)

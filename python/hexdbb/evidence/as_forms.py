@@ -1,7 +1,7 @@
 """What is missing, explained as the forms of the effects that a model has.
 
-An effect a tenth off its formula leaves a hundredth of what it explains: of an effect a hundred times the noise, ten
-times the noise. Some function somewhere follows that too; the effect's own place is the simpler one.
+An effect 10 % off its formula leaves 1 % of what it explains: if it is 100 times the noise, it leaves 10 times the
+noise. A learned function at some other place may follow that remainder; the effect's own place is the simpler answer.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ def _explained(search: Search) -> float:
     Geometry that is made linear about a fit imitates most of a large effect (`Trials.explained_before`); fitted, it
     cannot bend so far.
     """
-    base, gone = search.engine.base, {(each.effect, each.elements[0]) for each in search.trials.present}
-    without = np.array([(each.effect, each.element) in gone for each in base.parameters()])
+    base = search.engine.base
+    without = np.array([(each.effect, each.element) in search.trials.present_elements for each in base.parameters()])
     model = base.with_values(np.where(without, base.start, base.values)).with_free(base.free & ~without)
     try:
         fitted = search.engine.fit(model)

@@ -148,8 +148,8 @@ class Criteria:
         drags, tips or tautens 0.30 to 0.72.
     missed_most : float
         Error of what was left out, beyond what the fit expects of itself, over the RMS explained where fitted, above
-        which causes that predict are looked at further; beyond the noise where it contradicts the others (`by_chance`):
-        effects 20 % off their formula, the largest that the
+        which causes that predict are looked at further (for several causes that contradict the others, `by_chance`:
+        beyond the noise): effects 20 % off their formula, the largest that the
         calibration has, reach 0.76, those that stood in for faults outside the catalogue 0.8 to 1.2.
     missed_sure : float
         The same above which they are not named for sure: of forty effects up to 20 % off, ten times the noise, all
@@ -165,10 +165,9 @@ class Criteria:
         one effect whose formula explains nearly all (`form_explains`), nor for several whose formulas do not: circles
         that hold geometry leave it at 3 to 7, others at 16 to 150.
     by_chance : float
-        Squared distance, in standard deviations and per value that they determine, of what readings left out ask for
-        from what the others do, up to which they agree but for chance, however large an error geometry makes of it. Of
-        thirty sets that were the truth, three times the noise, it was 6 and less but for one with 17; of twenty that
-        stood in for something else, or lacked a cause, 17 to several hundred.
+        Largest contradiction between the readings left out and the others that counts as chance: the squared distance
+        of the fitted values, in standard deviations, per value; 1 is expected. Thirty true sets, three times the noise,
+        had 6 or less, one had 17; twenty wrong or incomplete sets had 17 to several hundred.
     far_better : float
         Known effects together stand before one that its form excuses where they err by less than this part of its
         error: a true pair erred by 0.28 of it, the same with a wrong element by 0.49 and more.

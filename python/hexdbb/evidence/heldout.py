@@ -81,10 +81,10 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
 
 
 def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
-    """Return how much the groups left out contradict the fits to the others, per value that they determine.
+    """Return how much each group contradicts the fit to the other groups, per fitted value that the group determines.
 
-    The squared distance between the values that either asks for, in standard deviations: about one by chance, however
-    badly the others determine what the readings left out show.
+    This is the squared distance between the two sets of values in standard deviations. It is about 1 by chance, even
+    where the other groups determine the values badly.
     """
     numbers, sums = trials.engine.readings.groups[grouping], trials.sums(trial, (grouping,))
     groups = list(zip(np.unique(numbers), sums.groups(grouping), strict=True))

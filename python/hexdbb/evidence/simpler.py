@@ -1,8 +1,7 @@
-"""Products of two states called by one of them, where that alone explains nearly as much.
+"""Names for products of two states: the product is named by one state where that state alone explains nearly as much.
 
-A lag is of the velocity, though it may not be the same along the guideway; warmth grows with time, though not alike in
-all directions. The product then describes the form of the simple function, as functions at the place of a known effect
-describe its own (`refine.py`).
+A lag depends on the velocity even if it varies along the guideway. The product is then kept as the form of the simple
+function, as `refine.py` does for known effects.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from hexdbb.learned import Learned
 
 
 def in_simple_words(search: Search, node: Node) -> Node:
-    """Put functions of one state beside products that they explain nearly all of; the product becomes their form."""
+    """Add the function of one state to each product that it nearly explains; the product becomes its form."""
     for member in node.members:
         simple = max(_instead(search, node, member), key=lambda each: each.score, default=None)
         if simple is None:
@@ -34,7 +33,7 @@ def in_simple_words(search: Search, node: Node) -> Node:
 
 
 def _instead(search: Search, node: Node, member: Member) -> Iterator[Node]:
-    """Yield the sets with a function of one state in a product's stead that explain nearly as much and predict."""
+    """Yield sets in which a function of one state replaces a product, if they explain nearly as much and predict."""
     product = member.hypothesis
     if not isinstance(product, Learned):
         return

@@ -168,6 +168,11 @@ class Trials:
         return self._base[groupings]
 
     @cached_property
+    def present_elements(self) -> set[tuple[str, str]]:
+        """Effects that the model had before, each with its element."""
+        return {(each.effect, each.elements[0]) for each in self.present}
+
+    @cached_property
     def explained_before(self) -> float:
         """Mean square of what the effects in the model explain that its other values do not, in noise variances.
 
@@ -187,9 +192,10 @@ class Trials:
     def _columns_of_present(self, trial: Trial) -> NDArray[np.bool_]:
         """Return which columns of a trial's linearisation are those of effects that the model had before."""
         parameters, free = trial.model.parameters(), np.flatnonzero(trial.model.free)
-        names = {(each.effect, each.elements[0]) for each in self.present}
         own = np.zeros(self.linear(trial).own.shape[1], bool)
-        own[: len(free)] = [(parameters[place].effect, parameters[place].element) in names for place in free]
+        own[: len(free)] = [
+            (parameters[place].effect, parameters[place].element) in self.present_elements for place in free
+        ]
         return own
 
     def size(self, trial: Trial, known: Known) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, along, following
+from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, following, rocking
 from hexdbb.learned.variable import ELAPSED, Variable
 
 SPLINES = 6
@@ -25,8 +25,8 @@ RUN_UPS_DEG = (15.0, 45.0, 135.0)
 smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
 step changes nearly two (`evidence/number.py`): any run-up between 8 and 260 degrees is reached."""
 DIRECTIONS_DEG = (45.0, 90.0, 135.0, 180.0)
-"""Directions in the base's x-y plane that are tried first; the readings then move them. Of what goes along another one
-the nearest contains 85 % at least."""
+"""Directions in the base's x-y plane that are tried first; the fit then refines them. Of a motion in another direction
+the nearest of the four explains at least 85 % (the square of the cosine of 22.5 degrees)."""
 FACTORS = {
     "velocity": ("velocity_mm_s", "velocity"),
     "acceleration": ("acceleration_mm_s2", "acceleration"),
@@ -109,7 +109,7 @@ OF_PAIR_OF_LEGS = (
     *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE)),
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
-ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
+ROCKING = (v.CARRIAGES_ACCELERATION, *map(rocking, DIRECTIONS_DEG))
 """A base that stands softly rocks by the inertia of what moves on it: alike in every direction, or along one."""
 
 
@@ -126,7 +126,7 @@ def _by_speed(course: Variable) -> Variable:
 
 
 COURSES, COURSES_IN_PLATFORM = ((each, _by_speed(each)) for each in (v.COURSE, v.COURSE_IN_PLATFORM))
-"""Drag and play of what the platform takes along: the same at every speed, or not."""
+"""Friction and play along the direction of motion: constant, or a function of the speed."""
 OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
     *ROCKING,

@@ -128,7 +128,7 @@ class Learned:
 
     @property
     def parts(self) -> tuple[Learned, ...]:
-        """Of a product of two states, the functions of one of them alone that there are at the place."""
+        """Where the variable is a product of two states: the hypotheses of either state alone at this place."""
         variables = {each.name: each for each in variables_of(self.place, self.element)}
         return tuple(replace(self, variable=variables[name]) for name in self.variable.parts if name in variables)
 
@@ -170,7 +170,7 @@ class Learned:
 
     @property
     def elements(self) -> tuple[int, ...]:
-        """Elements, from 0, by whose variable the functions go; axes of a vector."""
+        """Elements, from 0, whose variable the functions depend on; for a vector, its axes."""
         return (
             tuple(range(AXES_OF_VECTOR)) if self.variable.is_vector else tuple(self._by(each) for each in self._pushed)
         )

@@ -27,16 +27,13 @@ BY_NUMBER = {
     RELAXING: "change of the {} within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
 }
-"""How a variable may follow another one, and how people say it: remembered, a time since a capture began with the
-run-up to it."""
+"""How a variable may be derived from another one by a number, in words: delayed, high-passed, or counted from the start
+of the run-up."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
-VECTORS = {
-    "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages"),
-}
-"""What may go by its part along a direction: column, unit and words."""
+ROCKING = f"acceleration_{ALONG}"
 HALF_TURN_DEG = 180.0
-"""A direction and its opposite are one: splines have either sign."""
+"""A direction and its opposite are the same: the spline takes either sign."""
 
 
 def step(instants_s: Sequence[float]) -> Variable:
@@ -67,15 +64,14 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     )
 
 
-def along(vector: str, direction_deg: float) -> Variable:
-    """Return the variable of the part of one of `VECTORS` along a direction in the base's x-y plane."""
+def rocking(direction_deg: float) -> Variable:
+    """Return the variable of the carriages' acceleration along a direction in the base's x-y plane."""
     number = f"{direction_deg % HALF_TURN_DEG or HALF_TURN_DEG:.{NUMBER_DIGITS}g}"
-    column, unit, words = VECTORS[vector]
     return Variable(
-        f"{vector}_{ALONG}@{number}",
-        f"{column}{OF_MEMORY}{ALONG}@{number}",
-        unit,
-        f"{words} along {float(number):.3g}° in the x-y plane",
+        f"{ROCKING}@{number}",
+        f"carriages_acceleration_mm_s2{OF_MEMORY}{ALONG}@{number}",
+        "mm/s²",
+        f"acceleration of all carriages along {float(number):.3g}° in the x-y plane",
         FOLLOWING_SPLINES,
     )
 
@@ -125,8 +121,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in ("time_period", "position_period"):
         return periodic(kind.removesuffix("_period"), values[0])
+    if kind == ROCKING:
+        return rocking(values[0]) if any(each.name.startswith(ROCKING) for each in variables) else None
     of, _, how = kind.rpartition("_")
-    if how == ALONG:
-        return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None
     known = {each.name: each for each in variables}
     return following(known[of], how, values[0]) if how in BY_NUMBER and of in known else None

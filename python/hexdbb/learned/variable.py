@@ -61,9 +61,9 @@ class Variable:
     instants : tuple of float
         Values of the column from which a step each holds; then there are no splines.
     parts : tuple of str
-        Of a product of two states, the names of the variables of either, whether the place has them or not.
+        For a product of two states, the names of their variables; a place need not have them.
     is_vector : bool
-        Whether what multiplies is a vector, along whose axes one function pushes.
+        Whether `times` is a vector; one function then pushes along each of its three axes.
     """
 
     name: str

@@ -150,7 +150,7 @@ COURSE, COURSE_IN_PLATFORM = (
     Variable("course", "", "", "direction in which the platform moves", times=column, is_vector=True)
     for column in ("course", "course_in_platform")
 )
-"""What rubs or has play hangs back along it, in the frame in which a place is pushed."""
+"""Friction and play act against it; one for places pushed in the base frame, one for those in the platform frame."""
 
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),

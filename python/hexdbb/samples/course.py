@@ -1,4 +1,4 @@
-"""The direction in which the platform moves, as a vector: what rubs or has play at a joint hangs back along it."""
+"""The direction in which the platform moves, as a unit vector: friction and play at a joint act against it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ COURSES = (COURSE, COURSE_IN_PLATFORM)
 COURSES_FROM = ("platform_velocity_mm_s", "platform_rpy_rad")
 """Columns that these follow from."""
 LEAST_SPEED_MM_S = 0.01
-"""Below, the platform stands: encoders' steps set the direction. A hundredth of the slowest feed of a test."""
+"""Below this speed the steps of the encoders (0.1 um) set the direction; feeds are a thousand times faster."""
 
 
 def courses(platform_velocity_mm_s: Floats, platform_rpy_rad: Floats) -> dict[str, Floats]:
