@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from itertools import product
+
 from hexdbb.errors import RunError
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
@@ -69,34 +72,41 @@ def _all_needed(search: Search, node: Node) -> Node:
 def in_known_words(search: Search, node: Node) -> Node:
     """Put known effects in the place of the learned functions that contain them, where they explain nearly as much."""
     for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
-        if learned not in node.hypotheses:
-            continue
-        if learned.variable.period:
-            add_kin(search, [learned])  # it may have moved since it was proposed
-        at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
-        kept = tuple(each for each in node.members if each not in at_place)
-        others = []
-        for known in _known_for(search, [each.hypothesis.name for each in at_place]):
-            if known in node.hypotheses:
-                continue
-            try:
-                trial = search.trials.of((*kept, Member(known)))
-            except RunError:
-                continue
-            near = explains_nearly(search, trial.left, node.trial.left)
-            if near and not trial.refused:
-                others.append(Node(trial, node.score + trial.log_evidence - node.trial.log_evidence))
-        if search.learnable.is_further(learned):
-            # What is more than any simple function is no known effect that errs by all that it explains.
-            others = [each for each in others if misses_most(search, each) <= misses_most(search, node)]
-        others.sort(key=lambda each: -each.score)
-        search.nodes += others
-        node = next((each for each in others if _predicts_no_worse(search, each, node)), node)
+        if learned in node.hypotheses:
+            others = sorted(_with_known_instead(search, node, learned), key=lambda each: -each.score)
+            search.nodes += others
+            node = next((each for each in others if _predicts_no_worse(search, each, node)), node)
     return node
 
 
+def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterator[Node]:
+    """Yield sets in which known effects replace all at a learned function's place, and explain nearly as much."""
+    if learned.variable.period:
+        add_kin(search, [learned])  # it may have moved since it was proposed
+    at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
+    kept = tuple(each for each in node.members if each not in at_place)
+    for known in _in_their_place(search, [each.hypothesis for each in at_place]):
+        if not {*known}.isdisjoint(node.hypotheses):
+            continue
+        try:
+            trial = search.trials.of((*kept, *map(Member, known)))
+        except RunError:
+            continue
+        other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
+        if trial.refused or not explains_nearly(search, trial.left, node.trial.left):
+            continue
+        # What is more than any simple function is no known effect that errs by all that it explains.
+        if not search.learnable.is_further(learned) or misses_most(search, other) <= misses_most(search, node):
+            yield other
+
+
 def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
-    """Check that a set predicts, and is not excused from it where another is not."""
+    """Check that a set predicts, and is not excused from it where another is not.
+
+    A free function of time claims nothing of what was left out: any formula that is hardly bent says more.
+    """
+    if than.trial.is_of_time:
+        return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
     one, other = search.checked(node), search.checked(than)
     return not one.reasons and one.excused <= other.excused
 
@@ -146,6 +156,15 @@ def _is_admissible(search: Search, node: Node) -> bool:
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:
     return isinstance(one, Learned) and (one.place, one.element) == (learned.place, learned.element)
+
+
+def _in_their_place(search: Search, hypotheses: Sequence[Hypothesis]) -> Iterator[tuple[Known, ...]]:
+    """Yield known effects that live in some hypotheses; for a function that two elements share, one effect at both."""
+    yield from ((known,) for known in _known_for(search, [each.name for each in hypotheses]))
+    for each in hypotheses:
+        if isinstance(each, Learned) and each.of_each:
+            one, other = (_known_for(search, [alone.name]) for alone in each.of_each)
+            yield from (both for both in product(one, other) if both[0].effect == both[1].effect and both[0] != both[1])
 
 
 def _known_for(search: Search, names: list[str]) -> list[Known]:

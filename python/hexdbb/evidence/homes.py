@@ -23,7 +23,8 @@ from hexdbb.learned import ALL, Learned
 Floats = NDArray[np.float64]
 
 MOST_COLUMNS = 24
-"""Splines of a discrepancy, at most, where the effect lives in such: a finer function would be another cause."""
+"""Splines of a discrepancy, at most, where the effect lives in such: a finer function would be another cause. A
+function of time may be finer: a room's heating swings within minutes, and a drift with it is a drift."""
 
 
 @dataclass(frozen=True)
@@ -134,7 +135,7 @@ def discrepancy(
     there = {(each.place, each.element) for each in ranked[:1]}
     near = [each for each in ranked if each.variable.columns > 1 and (each.place, each.element) in there]
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
-    useful = [each for each in near if each.variable.columns <= MOST_COLUMNS] or near[:1]
+    useful = [each for each in near if each.variable.columns <= MOST_COLUMNS or each.is_of_time] or near[:1]
     own = {each.hypothesis for each in homes if each.explained >= criteria.form_own}
     both_ways = [other for each in useful if (other := each.alike_both_ways) is not None]
     return [_by_element(each) if each in own and not is_set_up else (each,) for each in (*useful, *both_ways)]

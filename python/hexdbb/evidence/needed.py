@@ -72,10 +72,12 @@ def _instead(search: Search, node: Node, fewer: Trial) -> bool:
 
 
 def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
-    """Check that known effects predict, far better, what fewer hypotheses are only excused from by their forms."""
-    if not (node.is_known and search.checked_trial(fewer).excused) or is_doubtful(search, node):
+    """Check that known effects predict, far better, what one misses, or fewer are only excused from by their forms."""
+    missing = search.checked_trial(fewer)
+    in_doubt = missing.excused or (len(fewer.members) == 1 and missing.missed > search.criteria.missed_most)
+    if not (node.is_known and in_doubt) or is_doubtful(search, node):
         return False
-    return search.checked(node).missed < search.criteria.far_better * search.checked_trial(fewer).missed
+    return search.checked(node).missed < search.criteria.far_better * missing.missed
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:

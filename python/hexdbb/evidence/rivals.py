@@ -13,7 +13,7 @@ from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_complete, must_explain
-from hexdbb.evidence.sure import is_for_sure
+from hexdbb.evidence.sure import is_for_sure, misses_only_geometry
 from hexdbb.learned import Learned
 
 
@@ -102,7 +102,10 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
     if reasons or _is_bent(search, other):
         return False
     # What stands in for something else makes nothing less sure that is for sure.
-    return is_for_sure(search, other, search.criteria.missed_most) or not is_for_sure(search, node)
+    if is_for_sure(search, other, search.criteria.missed_most) or not is_for_sure(search, node):
+        return True
+    # But where geometry leads away, what fewer faults miss there does not refute them, if they fit better.
+    return is_ahead and other.is_known and other.faults < node.faults and misses_only_geometry(search, other)
 
 
 def _describe(search: Search, other: Node, cause: Hypothesis) -> bool:

@@ -58,7 +58,7 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     if checked.share < search.criteria.explained_min or _is_put_together(search, node):
         return False
     if not _errs_little(search, node, missed_most):
-        return is_one and _explains_by_formulas(search, node) and _geometry_misses(search, node)
+        return is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
     if is_one and not checked.excused:
         return True
     return explained_by_formulas(search, node) >= _least_by_formulas(search, node)
@@ -108,10 +108,10 @@ def _held(search: Search, node: Node) -> list[HeldOut]:
     return [held for grouping, held in search.checked(node).heldout.items() if grouping != ARC]
 
 
-def _geometry_misses(search: Search, node: Node) -> bool:
-    """Check that geometry leads away wherever one known effect misses much: nothing could predict that.
+def misses_only_geometry(search: Search, node: Node) -> bool:
+    """Check that geometry leads away wherever known effects miss much: nothing could predict that.
 
-    What else explains enough and errs no more is named beside it (`rivals.py`).
+    What else explains enough and errs no more is named beside one effect (`rivals.py`).
     """
     missing = [
         each

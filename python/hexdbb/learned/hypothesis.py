@@ -120,6 +120,12 @@ class Learned:
         return replace(self, element=left.pop())
 
     @property
+    def of_each(self) -> tuple[Learned, ...]:
+        """The same function of each element that a pair has, alone; none where it is no pair."""
+        elements = members(self.element)
+        return tuple(replace(self, element=each) for each in elements) if len(elements) > 1 else ()
+
+    @property
     def alike_both_ways(self) -> Learned | None:
         """The same function without the sign of the direction of travel; None where there is none such at the place."""
         variables = {each.name: each for each in variables_of(self.place, self.element)}

@@ -14,7 +14,7 @@ COURSES = (COURSE, COURSE_IN_PLATFORM)
 COURSES_FROM = ("platform_velocity_mm_s", "platform_rpy_rad")
 """Columns that these follow from."""
 LEAST_SPEED_MM_S = 0.01
-"""Below this speed the steps of the encoders (0.1 um) set the direction; feeds are a thousand times faster."""
+"""Below this speed the steps of the encoders (0.1 µm) set the direction; feeds are a thousand times faster."""
 
 
 def courses(platform_velocity_mm_s: Floats, platform_rpy_rad: Floats) -> dict[str, Floats]:

@@ -130,8 +130,23 @@ def test_a_gauge_that_sticks_is_found_by_its_way_since_it_turned() -> None:
     assert [each.choice for each in found.causes] == ["learned:reading:deflection_since_turn"]
 
 
-def test_screws_that_all_warm_are_not_for_sure_something_else() -> None:
+def test_screws_that_all_warm_are_one_cause() -> None:
     """A gauge that drifts and legs that grow fit three times the noise as well, each with a form of its own."""
     found = found_in("screws-alike")
-    assert found.verdict == "ambiguous"
-    assert all("screw_thermal" in each.rivals or each.choice == "screw_thermal" for each in found.causes)
+    assert found.verdict == "effect"
+    assert [each.choice for each in found.causes] == ["screw_thermal"]
+    assert found.causes[0].elements == ("1", "2", "3", "4", "5", "6")
+
+
+def test_screws_that_all_warm_are_not_for_sure_where_a_drift_fits_better() -> None:
+    """A gauge that drifts, and a joint off its place by which geometry leads away: other circles refute little."""
+    found = found_in("drift-and-joint")
+    assert found.causes[0].choice == "joint_offset:4"
+    for each in found.causes[1:]:
+        assert each.choice == "bar_drift" or any("bar_drift" in rival for rival in each.rivals)
+
+
+def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
+    found = found_in("two-leads")
+    assert found.verdict == "effect"
+    assert {each.choice for each in found.causes} == {"lead_error:1", "lead_error:2"}

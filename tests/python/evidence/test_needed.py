@@ -48,11 +48,13 @@ def searched(
     left: dict[tuple[Member, ...], float],
     *fitted: tuple[Member, ...],
     excused: tuple[Member, ...] = (),
+    missing: tuple[Member, ...] = (),
     by_formulas: dict[tuple[Member, ...], float] | None = None,
 ) -> Any:
     """Return a search whose empty set leaves 11 noise variances, and the node of the first set.
 
-    One set may predict only so far that its form excuses it; some may leave more without the functions of their forms.
+    One set may predict only so far that its form excuses it, one may miss what was left out; some may leave more
+    without the functions of their forms.
     """
     trials = Trialled({frozenset(each): value for each, value in left.items()}, {frozenset(each) for each in fitted})
     node = node_of(trials.of(next(iter(left))))
@@ -63,7 +65,9 @@ def searched(
         nodes=[node],
         log_prior=lambda hypothesis: 0.0,
         left_by_formulas=lambda trial: (by_formulas or {}).get(trial.members, trial.left),
-        checked_trial=lambda trial: SimpleNamespace(reasons=(), excused=trial.members == excused, missed=1.0),
+        checked_trial=lambda trial: SimpleNamespace(
+            reasons=(), excused=trial.members == excused, missed=1.0 if trial.members in (excused, missing) else 0.3
+        ),
         checked=lambda node: SimpleNamespace(
             reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0
         ),
@@ -86,12 +90,16 @@ def test_more_effects_are_better_where_they_explain_more(left: float, expected: 
     assert not is_better(search, than, wider)
 
 
-@pytest.mark.parametrize(("excused", "expected"), [((DRIFT,), True), ((), False)], ids=["excused", "predicts"])
-def test_two_effects_that_predict_are_better_than_one_that_its_form_excuses(
-    excused: tuple[Member, ...], expected: bool
+@pytest.mark.parametrize(
+    ("excused", "missing", "expected"),
+    [((DRIFT,), (), True), ((), (DRIFT,), True), ((), (), False)],
+    ids=["excused", "misses most", "predicts"],
+)
+def test_two_effects_that_predict_are_better_than_one_that_does_not(
+    excused: tuple[Member, ...], missing: tuple[Member, ...], expected: bool
 ) -> None:
     """The functions of the one effect's form explain all but a hundredth of what the two do."""
-    search, both = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}, excused=excused)
+    search, both = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}, excused=excused, missing=missing)
     alone = node_of(search.trials.of((DRIFT,)))
     assert is_better(search, both, alone) is expected
     assert needs_all(search, both) is expected

@@ -1,0 +1,51 @@
+"""One hypothesis that predicts everything better than a set which only fits better: the one is the cause."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from hexdbb.evidence import one_predicts
+from hexdbb.evidence.criteria import DEFAULT
+
+ONE = {"circle": 0.12, "feed": 0.2, "direction": 0.3}
+SEVERAL = {"circle": 0.24, "feed": 0.32, "direction": 0.72, "arc": 0.04}
+
+
+def node_of(count: int, left: float, errors: dict[str, float], reasons: tuple[str, ...] = ()) -> Any:
+    """Return a set of so many hypotheses, and its errors over those without it by what was left out."""
+    heldout = {grouping: SimpleNamespace(as_fitted=30.0 * error, before=30.0) for grouping, error in errors.items()}
+    trial = SimpleNamespace(left=left, refused=())
+    checked = SimpleNamespace(heldout=heldout, reasons=reasons)
+    return SimpleNamespace(members=range(count), trial=trial, score=-left, checked=checked)
+
+
+def answered(monkeypatch: pytest.MonkeyPatch, one: Any, several: Any, *, for_sure: bool = False) -> Any:
+    """Return which of two sets is the answer where 901 noise variances are unexplained."""
+    monkeypatch.setattr(one_predicts, "is_for_sure", lambda search, node: for_sure)
+    root = SimpleNamespace(trial=SimpleNamespace(left=901.0))
+    search: Any = SimpleNamespace(criteria=DEFAULT, root=root, nodes=[several, one], checked=lambda each: each.checked)
+    return one_predicts.or_one_that_predicts(search, several)
+
+
+def test_what_predicts_better_is_the_cause_though_it_leaves_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    one, several = node_of(1, 9.0, ONE), node_of(2, 1.1, SEVERAL)
+    assert answered(monkeypatch, one, several) is one
+
+
+@pytest.mark.parametrize(
+    ("one", "for_sure"),
+    [
+        (node_of(1, 9.0, ONE), True),
+        (node_of(1, 200.0, ONE), False),
+        (node_of(1, 9.0, ONE | {"feed": 0.4}), False),
+        (node_of(1, 9.0, {"feed": 0.1, "direction": 0.1, "arc": 0.1}), False),
+        (node_of(1, 9.0, ONE, ("does not predict the other feed",)), False),
+    ],
+    ids=["the set is sure", "explains too little", "errs more on a feed", "claims no other circle", "refuted"],
+)
+def test_else_the_set_stays(monkeypatch: pytest.MonkeyPatch, one: Any, for_sure: bool) -> None:
+    several = node_of(2, 1.1, SEVERAL)
+    assert answered(monkeypatch, one, several, for_sure=for_sure) is several
