@@ -29,6 +29,8 @@ def my_effect(samples):
     return np.cos(2.0 * samples["angle_rad"])
 '''
 NAME = "my_effects.py"
+ROWS = 14
+"""Lines of the editor at first: those of `FIRST`, and some to write."""
 
 
 class EditorPanel:
@@ -43,7 +45,9 @@ class EditorPanel:
                 ui.label("An effect of your own")
             with ui.expansion("Write it, and let it compete").props("dense").props(mark("editor")):
                 self._file = ui.input("File", value=str(path or NAME)).props("dense outlined").classes("wb-wide")
-                self._text = ui.textarea(value=text).props('outlined autogrow input-class="wb-source" spellcheck=false')
+                # Of one height, which the user changes: a page that shifts while one types moves what one presses next.
+                self._text = ui.textarea(value=text).props(f'outlined rows={ROWS} input-class="wb-source"')
+                self._text.props("spellcheck=false")
                 self._text.props('aria-label="Source of the effects"').classes("wb-editor").props(mark("source"))
                 columns = {key: f"{key}: {each.label}" for key, each in variables(session.samples).items()}
                 ui.select(
