@@ -127,7 +127,7 @@ LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& o
   out.steps += straight.steps;
   if (out.is_at_rest) return out;
   const auto of_all_sums = [&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); };
-  const Descent down = descend(of_all_sums, few, best, bound, kDescended, kMost);
+  const Descent down = descend(of_all_sums, few, best, bound, {kDescended, kMost});
   if (!down.is_reachable) return out;
   const int before = out.steps + down.steps;
   out = settle_kinks(of_all, few, down.z, bound, limits);
@@ -179,7 +179,8 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
                                FitResult& out) {
   constexpr int kMostCoarse = 60, kMost = 20;  // iteration limits
   constexpr double kCoarseFall = 1.0;          // of chi-square: the remaining readings move the minimum by more
-  constexpr double kFall = 0.02;               // of chi-square: verdicts depend on differences of several units
+  constexpr double kFall = 0.1;                // of chi-square: verdicts depend on differences of several units
+  constexpr double kLastFall = 0.02;           // the same from a minimum: its steps are few, and straight
   const double noise_mm = options.noise_mm;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
@@ -191,7 +192,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
   const bool thin = is_thin(few, unknowns.size());
   if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
-    const LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall});
+    const LastSteps end = take_last_steps(of_all, few, start, bound, {kLastFall, kLastFall});
     out.usable = end.is_at_rest;
     out.iterations = end.steps;
     if (out.usable) {
@@ -200,7 +201,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
     }
   }
   const auto down_from = [&](const Eigen::VectorXd& z) {
-    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, kCoarseFall, kMostCoarse);
+    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, {kCoarseFall, kMostCoarse});
   };
   Descent coarse = down_from(start);
   const Eigen::VectorXd expected = unknowns.scaled_expected();
@@ -208,8 +209,9 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
     Descent other = down_from(expected);
     if (other.is_reachable && other.cost < coarse.cost) coarse = std::move(other);
   }
-  const Descent fine =
-      descend([&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); }, few, coarse.z, bound, kFall, kMost);
+  const auto of_all_sums = [&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); };
+  // The valley is as narrow and as curved for all readings as for some of them.
+  const Descent fine = descend(of_all_sums, few, coarse.z, bound, {kFall, kMost}, coarse.damping);
   // Of several minima the coarse descent may choose one that all readings like less than the start: Ceres begins anew.
   Model first = model;
   first.set_values(unknowns.values(start.data()));

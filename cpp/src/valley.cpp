@@ -11,7 +11,7 @@ namespace {
 
 // Damping after Nielsen (1999): it grows ever faster while steps fail, and falls the more the closer the last step came
 // to its predicted fall; constants as there.
-constexpr double kDamping = 1e-3, kMoreDamping = 3.0, kFaster = 2.0, kLeastPart = 0.1, kMostDamping = 1e9;
+constexpr double kMoreDamping = 3.0, kFaster = 2.0, kLeastPart = 0.1, kMostDamping = 1e9;
 constexpr double kProbe = 0.1;          // fraction of a step at which its acceleration is measured (Transtrum, Sethna)
 constexpr double kMostCurvature = 1.0;  // acceleration over velocity beyond which the expansion of a step is not valid
 
@@ -52,12 +52,13 @@ Eigen::VectorXd FewReadings::curvature(const Eigen::VectorXd& z, const Eigen::Ve
 }
 
 Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewReadings& few, Eigen::VectorXd z,
-                const Eigen::VectorXd& bound, double least_fall, int most_steps) {
+                const Eigen::VectorXd& bound, const EndOfDescent& end, double damping) {
   Descent out;
   Posterior now = at(z);
   out.is_reachable = now.is_reachable;
-  double damping = kDamping, more = kMoreDamping;
-  for (; now.is_reachable && out.steps < most_steps && damping < kMostDamping; ++out.steps) {
+  double more = kMoreDamping;
+  for (; now.is_reachable && out.steps < end.most_steps && damping < kMostDamping; ++out.steps) {
+    const double least_fall = end.fall * std::max(1.0, 2.0 * now.cost / few.weight());
     Eigen::MatrixXd damped = now.information;
     damped.diagonal().array() += damping;
     const BoundedStep straight(damped, now.downhill, z, -bound, bound);
@@ -81,6 +82,7 @@ Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewR
     if (out.is_at_rest) break;
   }
   out.z = z;
+  out.damping = damping;
   if (out.is_reachable) out.cost = now.cost;
   return out;
 }

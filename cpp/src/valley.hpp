@@ -37,6 +37,8 @@ class FewReadings {
 
   Eigen::Index stride() const { return stride_; }
   double noise_mm() const { return noise_mm_; }
+  /// How many readings of the noise given they count as: all of which they are a part.
+  double weight() const { return static_cast<double>(stride_ * samples_.size()); }
   const Eigen::VectorXd& measured_mm() const { return measured_mm_; }
   const Model& model() const { return model_; }  // for these readings: tables have their rows alone
   Accumulator& accumulator() { return accumulator_; }
@@ -56,16 +58,28 @@ class FewReadings {
   Accumulator accumulator_;
 };
 
+/// Damping of a first step, where nothing is known of the valley (Nielsen 1999).
+constexpr double kFirstDamping = 1e-3;
+
 struct Descent {
   Eigen::VectorXd z;
+  double damping = kFirstDamping;  // of the next step
   double cost = std::numeric_limits<double>::infinity();
   int steps = 0;
   bool is_reachable = false;  // false where a sample has no solution at the start
   bool is_at_rest = false;    // no further step lowers chi-square by the least fall
 };
 
-/// Minimize from `z` until a step is predicted, or found, to lower chi-square by less than `least_fall`.
+/// Where a descent ends: where a step lowers chi-square by less, times the mean square of what is left in units of the
+/// noise where that is more than one. Where a model leaves many times the noise, its own error decides, not the noise, and
+/// the last units of a chi-square of hundreds of thousands take most of the way.
+struct EndOfDescent {
+  double fall;
+  int most_steps;
+};
+
+/// Minimize from `z` until a step is predicted, or found, to fall short. `damping` is that of the first step.
 Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewReadings& few, Eigen::VectorXd z,
-                const Eigen::VectorXd& bound, double least_fall, int most_steps);
+                const Eigen::VectorXd& bound, const EndOfDescent& end, double damping = kFirstDamping);
 
 }  // namespace hexdbb

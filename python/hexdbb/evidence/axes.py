@@ -47,6 +47,12 @@ class LearnedAxes:
         """Name in the model."""
         return self.space.hypothesis.name
 
+    def is_like(self, other: object) -> bool:
+        """Check whether another effect's coefficients mean the same."""
+        if not isinstance(other, LearnedAxes) or (other.name, other.size_mm) != (self.name, self.size_mm):
+            return False
+        return np.array_equal(other.factor, self.factor)
+
     def info(self) -> _core.EffectInfo:
         """Describe it as the engine's own are described."""
         size = self.size_mm

@@ -121,10 +121,16 @@ class Engine:
                 model = replace(model.knowing_effects([fewer]), terms=terms)
         return model
 
-    def fit(self, model: Model) -> Fitted:
+    def fit(self, model: Model, from_minimum: bool = False) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.
 
         What the other rows add is first order (`Trials` takes that step); they cost most of a fit's time.
+
+        Parameters
+        ----------
+        model : Model
+        from_minimum : bool
+            The minimum is near the model's values.
 
         Raises
         ------
@@ -135,14 +141,14 @@ class Engine:
         rounds = self.criteria.shape_rounds if (shaped & model.free).any() else 1
         used = np.ones(len(shaped))
         for _ in range(rounds):
-            model = self._fitted_once(model, shaped, used)
+            model = self._fitted_once(model, shaped, used, from_minimum)
         found = self.linearised(model)
         # An effect that turns out larger than expected is fitted again, where its prior no longer pulls at it.
         for _ in range(SCALE_ROUNDS):
             scale = self._scale_of(model, found.linear.residual)
             if np.max(np.abs(np.log(scale / used)), initial=0.0) < np.log(LEAST_SCALE):
                 break
-            model, used = self._fitted_once(model, shaped, scale), scale
+            model, used = self._fitted_once(model, shaped, scale, from_minimum=True), scale
             found = self.linearised(model)
         return found
 
@@ -176,7 +182,7 @@ class Engine:
         prediction = _core.predict(*self.plain(self.start))
         return float(np.mean(((self.reading_mm - prediction.reading_mm) / self.row_noise_mm) ** 2))
 
-    def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats) -> Model:
+    def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats, from_minimum: bool) -> Model:
         """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""
         fewer = self._fitted_rows
         part = self._fitted_part
@@ -187,6 +193,7 @@ class Engine:
             noise_mm=float(np.mean(self.row_noise_mm)) * float(np.sqrt(len(fewer) / len(self.reading_mm))),
             free=[bool(each) for each in model.free],
             hypothesis=True,
+            from_minimum=from_minimum,
             prior_scale=prior_scale,
         )
         if not result.usable:

@@ -58,7 +58,7 @@ class Homes:
         # Values that the readings do not see within their priors cannot imitate anything.
         seen = values * len(linear.residual) > len(self.rows)
         self._absorbed = thin.own @ (vectors[:, seen] / np.sqrt(values[seen]))
-        self._spaces = []
+        self._spaces, bases = [], []
         for each in hypotheses:
             space = thinned.signature(each)
             visible = self._visible(space.table.astype(np.float64))
@@ -67,10 +67,13 @@ class Homes:
             if not kept.any():  # the model's own values imitate it whole: it contains nothing
                 continue
             half = vectors[:, kept] / np.sqrt(values[kept])
-            self._spaces.append((space, visible @ half, half))
-        widths = [basis.shape[1] for _, basis, _ in self._spaces]
+            self._spaces.append((space, half))
+            bases.append((visible @ half).astype(np.float32))
+        self._bases = np.hstack(bases) if bases else np.empty((len(self.rows), 0), np.float32)
+        """Axes of all hypotheses side by side; shares of a signature are asked to a thousandth."""
+        widths = [half.shape[1] for _, half in self._spaces]
         self._first = np.cumsum([0, *widths[:-1]])
-        """First of each hypothesis' parts among those of all."""
+        """First of each hypothesis' axes among those of all."""
 
     def of(self, signature: Floats) -> list[Home]:
         """Return the hypotheses that contain a signature, shape (n,), the simplest first."""
@@ -89,14 +92,15 @@ class Homes:
         return [self._nearest(*each, least) for each in zip(explained.T, along.T, strict=True)]
 
     def _explained(self, signatures: Floats) -> tuple[Floats, Floats]:
-        """Return how much of each signature every hypothesis contains, (hypotheses, m), and the parts of all in it."""
+        """Return how much of each signature every hypothesis contains, (hypotheses, m), and its part along all axes."""
         if not self._spaces:
             return np.zeros((0, signatures.shape[1])), np.zeros((0, signatures.shape[1]))
         whole = signatures[self.rows]
         own = self._visible(whole)
         total = np.sum(own**2, axis=0)
         shown = total > 1e-9 * np.sum(whole**2, axis=0)
-        along: Floats = np.vstack([basis.T @ own for _, basis, _ in self._spaces])
+        unit = np.sqrt(np.where(total > 0.0, total, 1.0))
+        along: Floats = (self._bases.T @ (own / unit).astype(np.float32)).astype(np.float64) * unit
         squares = np.add.reduceat(along**2, self._first, axis=0)
         return np.divide(squares, total, out=np.zeros_like(squares), where=shown), along
 
@@ -113,9 +117,9 @@ class Homes:
         return sorted(near, key=lambda each: (each.hypothesis.variable.columns, -each.explained))
 
     def _home(self, place: np.intp, explained: float, along: Floats) -> Home:
-        space, basis, half = self._spaces[place]
+        space, half = self._spaces[place]
         first = self._first[place]
-        return Home(space.hypothesis, explained, space.rms_mm(half @ along[first : first + basis.shape[1]]))
+        return Home(space.hypothesis, explained, space.rms_mm(half @ along[first : first + half.shape[1]]))
 
 
 def discrepancy(

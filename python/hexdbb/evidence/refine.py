@@ -132,7 +132,7 @@ def _with(search: Search, node: Node, linear: Linear, scored: Scored) -> Node | 
 def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float, enough: float = 0.0) -> Node | None:
     """Return the node of a set that gains as much as it must, and predicts better than another or well enough."""
     try:
-        trial = search.trials.of(members)
+        trial = search.trials.of(members, near=node.trial)
     except RunError:
         return None
     gain = trial.log_evidence - node.trial.log_evidence

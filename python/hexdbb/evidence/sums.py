@@ -62,6 +62,7 @@ class Sums:
         """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
         self.rows = self._cells.counts.astype(np.float64)
         self._without: dict[bytes, Training] = {}
+        self._some: dict[bytes, Floats] = {}
 
     def block(self, signature: Floats) -> Block:
         """Return the sums of a signature, shape (n, k)."""
@@ -82,11 +83,15 @@ class Sums:
         return [np.flatnonzero(numbers == each) for each in np.unique(numbers)]
 
     def base_of(self, cells: Ints) -> Floats:
-        """Return [J y]'[J y] of some cells together, shape (p + 1, p + 1)."""
-        if 2 * len(cells) <= len(self.keys):
-            return np.asarray(self.base[cells].sum(axis=0))
-        # The few that are left out are sooner taken from what all are together.
-        return np.asarray(self._total - self.base[np.setdiff1d(np.arange(len(self.keys)), cells)].sum(axis=0))
+        """Return [J y]'[J y] of some cells together, shape (p + 1, p + 1), summed once."""
+        key = cells.tobytes()
+        if key not in self._some:
+            if 2 * len(cells) <= len(self.keys):
+                self._some[key] = np.asarray(self.base[cells].sum(axis=0))
+            else:  # the few that are left out are sooner taken from what all are together
+                left_out = np.setdiff1d(np.arange(len(self.keys)), cells)
+                self._some[key] = np.asarray(self._total - self.base_of(left_out))
+        return self._some[key]
 
     @cached_property
     def _total(self) -> Floats:

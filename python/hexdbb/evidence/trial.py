@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.alike import gained_alike
+from hexdbb.evidence.axes import LearnedAxes
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
 from hexdbb.evidence.form import Form, Forms
@@ -29,7 +30,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.sums import Sums
 from hexdbb.learned import Learned
-from hexdbb.model import Model
+from hexdbb.model import Model, Term
 from hexdbb.threads import fits_at_once
 
 Floats = NDArray[np.float64]
@@ -114,8 +115,14 @@ class Trials:
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
         self._base: dict[tuple[str, ...], Sums] = {}
 
-    def of(self, members: Sequence[Member]) -> Trial:
+    def of(self, members: Sequence[Member], near: Trial | None = None) -> Trial:
         """Fit a model with hypotheses.
+
+        Parameters
+        ----------
+        members : sequence of Member
+        near : Trial, optional
+            Of nearly the same members: from where it was fitted the way is short.
 
         Raises
         ------
@@ -125,7 +132,9 @@ class Trials:
         key = _key(members)
         if key not in self._known:
             ahead = self._ahead.pop(key, None)
-            self._known[key] = self._about(tuple(members), self._fitted(members) if ahead is None else ahead.result())
+            self._known[key] = self._about(
+                tuple(members), self._fitted(members, near) if ahead is None else ahead.result()
+            )
         return self._known[key]
 
     def each_of(self, every: Iterable[Sequence[Member]]) -> Iterator[Callable[[], Trial]]:
@@ -251,8 +260,8 @@ class Trials:
                 linear, found[each] = self.forms.beside(linear, fitted, each)
         return linear, found
 
-    def _fitted(self, members: Sequence[Member]) -> Fitted:
-        """Fit the model of some members, from where it was fitted with all but the last if it was."""
+    def _fitted(self, members: Sequence[Member], near: Trial | None = None) -> Fitted:
+        """Fit the model of some members, from where it was fitted with all but the last if it was, or near others."""
         before = self._known.get(_key(members[:-1])) if len(members) > 1 else None
         model, added = (self.engine.start, members) if before is None else (before.model, members[-1:])
         for member in added:
@@ -262,6 +271,8 @@ class Trials:
                 assert member.factor is not None
                 model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
         known = [each.hypothesis for each in added if isinstance(each.hypothesis, Known)]
+        if near is not None and {each.name for each in known} <= {*near.names}:
+            return self.engine.fit(_from(near.model, model), from_minimum=True)
         shapes, one_for_all = (
             _free_shapes(model, {each.effect for each in some})
             for some in (known, [each for each in known if len(each.elements) > 1])
@@ -279,6 +290,20 @@ class Trials:
         if not found:
             raise RunError("no start of the fit succeeded")
         return max(found, key=lambda each: each.linear.log_evidence)
+
+
+def _from(found: Model, model: Model) -> Model:
+    """Return a model that begins where another ended, with the effects and functions that both have."""
+    known = {term.effect: term for term in found.terms}
+
+    def begun(term: Term) -> Term:
+        other, own, before = known.get(term.effect), model.own(term.effect), found.own(term.effect)
+        if other is None or len(other.values) != len(term.values):
+            return term
+        is_same = own.is_like(before) if isinstance(own, LearnedAxes) else own is before
+        return replace(term, values=other.values) if is_same else term
+
+    return replace(model, terms=tuple(begun(term) for term in model.terms))
 
 
 def _free_shapes(model: Model, effects: set[str]) -> NDArray[np.bool_]:
