@@ -132,7 +132,7 @@ def expect_rms(page: Page, record: hx.Record, model: hx.Model, label: str, slide
 
 
 def compete(page: Page) -> None:
-    """Press the editor's button by the keyboard: while the editor still opens, the button moves from under a pointer."""
+    """Press the editor's button by the keyboard: under a pointer it moves while the editor opens."""
     marked(page, "compete").press("Enter")
 
 
