@@ -148,6 +148,9 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   // deviations away over all values together.
   constexpr double kLastFall = 1e-6;
   constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
+  // Of chi-square, where it has kinks: 0.03 standard deviations over all values together. It has one for each reading near
+  // the end of a play, each as large as that, and the bottom of the lowest of them takes ten passes and more.
+  constexpr double kKinkedFall = 1e-3;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
   if (!is_thin(few, unknowns.size())) {
@@ -162,7 +165,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   };
   const double chi_squared =
       std::max(2.0 * of_all(near, Sums::kGradient).cost, static_cast<double>(accumulator.residual_mm().size()));
-  const LastSteps end = finish(of_all, few, near, bound, {kLastFall, kFall * chi_squared});
+  const LastSteps end = finish(of_all, few, near, bound, {kLastFall, kFall * chi_squared, kKinkedFall});
   out.iterations = end.steps;
   out.usable = end.is_at_rest && end.cost <= at_start;
   out.termination = "Converged: no further step improves the fit.";
@@ -192,7 +195,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
   const bool thin = is_thin(few, unknowns.size());
   if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
-    const LastSteps end = take_last_steps(of_all, few, start, bound, {kLastFall, kLastFall});
+    const LastSteps end = take_last_steps(of_all, few, start, bound, {kLastFall, kLastFall, kLastFall});
     out.usable = end.is_at_rest;
     out.iterations = end.steps;
     if (out.usable) {

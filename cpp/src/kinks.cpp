@@ -14,9 +14,6 @@ namespace {
 constexpr double kNarrow = 1e-3;
 // Part of a bracket that a step leaves on its far side; its square after the second step to the same side, and so on.
 constexpr double kFewer = 0.5;
-// Of the cost: where brackets begun anew lower it by less, all rest. What a bracket was learned from is out of date as far
-// as other values have moved since.
-constexpr double kSame = 5e-7;
 constexpr double kAstray = 1.0;  // of the cost above the lowest: where steps lead there, the minimum is not near
 constexpr int kMost = 80;        // steps: brackets begin some hundredths of a standard deviation wide, and begin anew
 
@@ -62,10 +59,11 @@ LastSteps settle_kinks(const std::function<Posterior(const Eigen::VectorXd&, Sum
   const Eigen::VectorXd sigma = part.information.llt().solve(identity).diagonal().cwiseSqrt();
   const std::vector<Bracket> none(static_cast<std::size_t>(size));
   std::vector<Bracket> brackets = none;
-  double rested = std::numeric_limits<double>::infinity();  // cost where brackets came to rest last
+  double rested = std::numeric_limits<double>::infinity();  // cost where brackets began anew last
   for (; out.steps < kMost; ++out.steps) {
     const Posterior all = all_at(z, Sums::kGradient);
     if (!all.is_reachable || all.cost > out.cost + kAstray) return out;
+    if (out.steps == 0) rested = all.cost;
     if (all.cost < out.cost) {
       out.cost = all.cost;
       out.z = z;
@@ -82,11 +80,13 @@ LastSteps settle_kinks(const std::function<Posterior(const Eigen::VectorXd&, Sum
       upper[j] = rests ? z[j] : std::min(upper[j], own.upper(z[j] + wish[j]));
     }
     const BoundedStep step(part.information, all.downhill, z, lower, upper);
-    if (step.predicted_fall() >= end.fall) {
+    if (step.predicted_fall() >= end.kinked_fall) {
       z += step.step();
       continue;
     }
-    out.is_at_rest = !any_rests || rested - out.cost < kSame;
+    // What a bracket was learned from is out of date as far as other values have moved since: it begins anew, until that
+    // lowers the cost no more.
+    out.is_at_rest = !any_rests || rested - out.cost < 0.5 * end.kinked_fall;
     if (out.is_at_rest) break;
     rested = out.cost;
     z = out.z;

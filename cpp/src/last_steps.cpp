@@ -84,7 +84,10 @@ LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, 
     out.z = z;
     out.is_at_rest = is_at_rest(last, now, end);
     if (out.is_at_rest) break;
-    if (last.fall < kLinearFall && now.fall > kStalled * last.fall) break;  // back and forth across a kink
+    if (last.fall < kLinearFall && now.fall > kStalled * last.fall) {  // back and forth across a kink
+      out.is_at_rest = now.fall < end.kinked_fall;
+      break;
+    }
     is_near_end = is_end_near(last, now, end);
     z += std::isinf(last.fall) ? bent(step, few, z, bound) : mixed(step, last, now, bound);
     last = std::move(now);

@@ -32,11 +32,12 @@ struct LastSteps {
   bool is_at_rest = false;  // false also where a step made all readings' cost worse, or steps do not get shorter
 };
 
-/// Where the way ends: where a step is predicted to lower chi-square by less, and where convergence is slow, by less than
-/// the second.
+/// Where the way ends: where a step is predicted to lower chi-square by less; where convergence is slow, by less than the
+/// second; where steps go back and forth across a kink of the cost, by less than the third.
 struct EndOfSteps {
   double fall;
   double slow_fall;
+  double kinked_fall;
 };
 
 /// Return whether a part of the readings is too small for its J'J to lead to the minimum of all.
