@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from hexdbb_truth.cases import case
-from hexdbb_truth.plans import PACE
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.diagnosis.fit import evaluate_fit
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
+from hexdbb_truth.cases import case
+from hexdbb_truth.plans import PACE
 
 
 @pytest.mark.parametrize("name", ["backlash-x30-s1", "backlash-x100-s2", "servo_lag-x100-s1"])
