@@ -149,7 +149,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   constexpr double kLastFall = 1e-6;
   constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
   // Of chi-square, where it has kinks: 0.03 standard deviations over all values together. It has one for each reading near
-  // the end of a play, each as large as that, and the bottom of the lowest of them takes ten passes and more.
+  // the end of a play, each as large as that, and finding the lowest of them takes ten passes and more.
   constexpr double kKinkedFall = 1e-3;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;

@@ -72,7 +72,7 @@ struct Descent {
 
 /// Where a descent ends: where a step lowers chi-square by less, times the mean square of what is left in units of the
 /// noise where that is more than one. Where a model leaves many times the noise, its own error decides, not the noise, and
-/// the last units of a chi-square of hundreds of thousands take most of the way.
+/// the last units of a chi-square of hundreds of thousands take most of the steps.
 struct EndOfDescent {
   double fall;
   int most_steps;

@@ -70,7 +70,7 @@ class Homes:
             self._spaces.append((space, half))
             bases.append((visible @ half).astype(np.float32))
         self._bases = np.hstack(bases) if bases else np.empty((len(self.rows), 0), np.float32)
-        """Axes of all hypotheses side by side; shares of a signature are asked to a thousandth."""
+        """Axes of all hypotheses side by side; shares of a signature are compared to a thousandth."""
         widths = [half.shape[1] for _, half in self._spaces]
         self._first = np.cumsum([0, *widths[:-1]])
         """First of each hypothesis' axes among those of all."""

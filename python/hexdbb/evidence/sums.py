@@ -88,7 +88,7 @@ class Sums:
         if key not in self._some:
             if 2 * len(cells) <= len(self.keys):
                 self._some[key] = np.asarray(self.base[cells].sum(axis=0))
-            else:  # the few that are left out are sooner taken from what all are together
+            else:  # subtracting the few that are left out takes less time
                 left_out = np.setdiff1d(np.arange(len(self.keys)), cells)
                 self._some[key] = np.asarray(self._total - self.base_of(left_out))
         return self._some[key]

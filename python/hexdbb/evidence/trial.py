@@ -122,7 +122,7 @@ class Trials:
         ----------
         members : sequence of Member
         near : Trial, optional
-            Of nearly the same members: from where it was fitted the way is short.
+            Of nearly the same members: the fit starts from its values.
 
         Raises
         ------
@@ -261,7 +261,7 @@ class Trials:
         return linear, found
 
     def _fitted(self, members: Sequence[Member], near: Trial | None = None) -> Fitted:
-        """Fit the model of some members, from where it was fitted with all but the last if it was, or near others."""
+        """Fit the model of some members: from `near`, or from where it was fitted with all but the last if it was."""
         before = self._known.get(_key(members[:-1])) if len(members) > 1 else None
         model, added = (self.engine.start, members) if before is None else (before.model, members[-1:])
         for member in added:

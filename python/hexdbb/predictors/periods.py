@@ -13,8 +13,8 @@ from hexdbb.predictors.variable import FloatArray
 MOST_CELLS = 2**16
 """Cells of equal width into which the values are summed, at most: more than samples, so that hardly any are merged."""
 CELLS_A_TURN = 16
-"""Cells in a turn of the highest frequency sought: a cell lowers a sine by 0.6 % then, and fewer cells are transformed
-sooner."""
+"""Cells in a turn of the highest frequency sought: a cell lowers a sine by 0.6 % then, and the
+transform of fewer cells takes less time."""
 OVERSAMPLED = 4
 """Zero padding of the transform: between two of its frequencies a sine then loses 3 % at most."""
 REFINED = 17
