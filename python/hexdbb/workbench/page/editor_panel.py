@@ -29,8 +29,8 @@ def my_effect(samples):
     return np.cos(2.0 * samples["angle_rad"])
 '''
 NAME = "my_effects.py"
-ROWS = 14
-"""Lines of the editor at first: those of `FIRST`, and some to write."""
+ROWS = 24
+"""Lines of the editor at first: those of `FIRST`, wrapped in its column, and some to write."""
 
 
 class EditorPanel:
