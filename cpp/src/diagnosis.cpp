@@ -182,8 +182,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
                                FitResult& out) {
   constexpr int kMostCoarse = 60, kMost = 20;  // iteration limits
   constexpr double kCoarseFall = 1.0;          // of chi-square: the remaining readings move the minimum by more
-  constexpr double kFall = 0.1;                // of chi-square: verdicts depend on differences of several units
-  constexpr double kLastFall = 0.02;           // the same from a minimum: its steps are few, and straight
+  constexpr double kFall = 0.02;               // of chi-square: verdicts depend on differences of several units
   const double noise_mm = options.noise_mm;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
@@ -195,7 +194,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
   const bool thin = is_thin(few, unknowns.size());
   if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
-    const LastSteps end = take_last_steps(of_all, few, start, bound, {kLastFall, kLastFall, kLastFall});
+    const LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall, kFall});
     out.usable = end.is_at_rest;
     out.iterations = end.steps;
     if (out.usable) {
