@@ -62,7 +62,7 @@ class Sums:
         """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
         self.rows = self._cells.counts.astype(np.float64)
         self._without: dict[bytes, Training] = {}
-        self._some: dict[bytes, Floats] = {}
+        self._bases: dict[bytes, Floats] = {}
 
     def block(self, signature: Floats) -> Block:
         """Return the sums of a signature, shape (n, k)."""
@@ -85,13 +85,15 @@ class Sums:
     def base_of(self, cells: Ints) -> Floats:
         """Return [J y]'[J y] of some cells together, shape (p + 1, p + 1), summed once."""
         key = cells.tobytes()
-        if key not in self._some:
+        if key not in self._bases:
             if 2 * len(cells) <= len(self.keys):
-                self._some[key] = np.asarray(self.base[cells].sum(axis=0))
+                self._bases[key] = np.asarray(self.base[cells].sum(axis=0))
             else:  # subtracting the few that are left out takes less time
-                left_out = np.setdiff1d(np.arange(len(self.keys)), cells)
-                self._some[key] = np.asarray(self._total - self.base_of(left_out))
-        return self._some[key]
+                self._bases[key] = np.asarray(self._total - self.base_of(self._all_but(cells)))
+        return self._bases[key]
+
+    def _all_but(self, cells: Ints) -> Ints:
+        return np.setdiff1d(np.arange(len(self.keys)), cells)
 
     @cached_property
     def _total(self) -> Floats:
@@ -106,7 +108,7 @@ class Sums:
         """Return the training set that lacks some cells, made once."""
         key = cells.tobytes()
         if key not in self._without:
-            self._without[key] = Training(self, np.setdiff1d(np.arange(len(self.keys)), cells))
+            self._without[key] = Training(self, self._all_but(cells))
         return self._without[key]
 
     def _of_cells(self, columns: Floats) -> ByCell:

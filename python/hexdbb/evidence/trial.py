@@ -271,6 +271,7 @@ class Trials:
                 assert member.factor is not None
                 model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
         known = [each.hypothesis for each in added if isinstance(each.hypothesis, Known)]
+        # Shapes of known effects that `near` has are known from there: one start serves.
         if near is not None and {each.name for each in known} <= {*near.names}:
             return self.engine.fit(_from(near.model, model), from_minimum=True)
         shapes, one_for_all = (
