@@ -3,6 +3,7 @@
 
 PYTHON ?= python3
 HEXDBB_WERROR ?= OFF
+HEXDBB_LONG ?= OFF
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -62,7 +63,7 @@ build: setup  ## the engine and its C++ tests
 	@$(STEP) "Compile the C++ tests ($(PRESET))" cmake --build --preset $(PRESET)
 
 .PHONY: test
-test: test-cpp test-python  ## every test: C++, Python, across processes, examples
+test: test-cpp test-python  ## C++, Python, across processes, examples; without test-long
 
 .PHONY: test-cpp
 test-cpp: build  ## C++ tests
@@ -72,7 +73,12 @@ test-cpp: build  ## C++ tests
 .PHONY: test-python
 test-python: setup  ## Python tests
 	@echo "==> Python tests"
-	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile
+	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m "$(if $(filter ON,$(HEXDBB_LONG)),,not long)"
+
+.PHONY: test-long
+test-long: setup  ## whole searches of causes, one for each rule of them
+	@echo "==> Long Python tests"
+	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m long
 
 .PHONY: foreign
 foreign: setup  ## the controller against a CANopen stack that is not ours (needs node and npm)

@@ -14,7 +14,7 @@ from math import cos, radians, sin
 
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Plan
-from hexdbb.planning.clearances import RequiredClearances, circle_clearances
+from hexdbb.planning.clearances import CirclePath, RequiredClearances
 
 Triple = tuple[float, float, float]
 
@@ -122,8 +122,7 @@ def within_reach(
 ) -> Iterator[CandidateCircle]:
     """Yield the candidates that the machine can follow with the required clearances."""
     for each in candidates:
-        found = circle_clearances(machine, each.circle(template), each.cup_mm)
-        if found is not None and required.met_by(found):
+        if required.met_by(CirclePath(machine, each.circle(template), each.cup_mm)):
             yield each
 
 

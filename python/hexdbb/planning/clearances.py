@@ -9,7 +9,8 @@ Singular poses: the condition of `hexdbb.kinematics.legs`. Joints: the limits of
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,10 +24,12 @@ from hexdbb.plan import Circle
 from hexdbb.trajectory.extent import FEED_IN_MM
 
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
 
 ANGLES = 72
 """Angles of a circle at which clearances are computed: every 5 deg. Between two of them the path bulges by
 R (1 - cos 2.5 deg), 0.1 mm for a circle of 100 mm, far less than the clearances required."""
+ANGLES_RAD: Floats = np.arange(ANGLES) * (2.0 * np.pi / ANGLES)
 CONDITION_EVERY = 6
 """Every sixth of these angles, 30 deg apart, is used for the condition, which changes slowly along a circle."""
 
@@ -63,19 +66,20 @@ class RequiredClearances:
     condition: float = 16.5
     """Just above the worst circle of the shipped plan `standard` on the shipped machine, 16.3."""
 
-    def met_by(self, found: Clearances) -> bool:
-        """Return whether a circle keeps all of them."""
+    def met_by(self, found: Clearances | CirclePath) -> bool:
+        """Return whether a circle keeps all of them; those that take least time are asked first."""
         return (
-            found.to_end_of_travel_mm >= self.to_end_of_travel_mm
+            found.bar_angle_deg <= self.bar_angle_deg
+            and found.to_end_of_travel_mm >= self.to_end_of_travel_mm
             and found.to_min_gap_mm >= self.to_min_gap_mm
-            and found.bar_angle_deg <= self.bar_angle_deg
-            and found.condition <= self.condition
             and found.to_joint_limit_deg >= 0.0
+            and found.condition <= self.condition
         )
 
 
-def circle_clearances(machine: MachineFile, circle: Circle, cup_mm: tuple[float, float, float]) -> Clearances | None:
-    """Compute the clearances of a circle.
+@dataclass(frozen=True)
+class CirclePath:
+    """Poses of the nominal machine along a circle, each clearance computed when it is first asked for.
 
     The feed-in counts at every angle, because it may start at any: near the end of the legs' reach half a millimetre
     outwards brings two sliders together.
@@ -86,33 +90,78 @@ def circle_clearances(machine: MachineFile, circle: Circle, cup_mm: tuple[float,
     circle : Circle
     cup_mm : tuple of float
         Nominal cup centre, base frame, mm.
-
-    Returns
-    -------
-    Clearances or None
-        None where the machine cannot follow the circle.
     """
-    angle_rad = np.arange(ANGLES) * (2.0 * np.pi / ANGLES)
-    outside = circle.model_copy(update={"radius_mm": circle.radius_mm + FEED_IN_MM})
-    position_mm = np.vstack([each.poses(angle_rad, cup_mm) for each in (circle, outside)])
-    sliders_mm, status = inverse(machine, position_mm, circle.platform_rpy_rad)
-    if status.any():
-        return None
-    rotation = rotation_from_rpy(circle.platform_rpy_rad)
-    bar = (circle.ball_mm(angle_rad, cup_mm) - np.asarray(cup_mm)) / circle.radius_mm
-    out_of_plane = max(float(np.abs(bar[:, 2]).max()), float(np.abs(bar @ rotation[:, 2]).max()))
-    few = slice(None, None, CONDITION_EVERY)
-    end, sliders = nearest_end(machine, sliders_mm), nearest_sliders(sliders_mm)
-    legs = Legs.at(machine, position_mm, rotation, sliders_mm)
-    return Clearances(
-        to_end_of_travel_mm=end.left_mm,
-        to_min_gap_mm=sliders.distance_mm - machine.sliders.min_gap_mm,
-        bar_angle_deg=float(np.degrees(np.arcsin(min(out_of_plane, 1.0)))),
-        condition=pose_condition(machine, position_mm[few], rotation, sliders_mm[few]),
-        to_joint_limit_deg=float(np.degrees(legs.to_joint_limit_rad(machine).min())),
-        nearest=sliders,
-        nearest_end=end,
-    )
+
+    machine: MachineFile
+    circle: Circle
+    cup_mm: tuple[float, float, float]
+
+    @cached_property
+    def is_reached(self) -> bool:
+        """Whether the machine can follow the circle."""
+        return not self._inverse[1].any()
+
+    @cached_property
+    def bar_angle_deg(self) -> float:
+        """As in `Clearances`, as the next ones are."""
+        bar = (self.circle.ball_mm(ANGLES_RAD, self.cup_mm) - np.asarray(self.cup_mm)) / self.circle.radius_mm
+        out_of_plane = max(float(np.abs(bar[:, 2]).max()), float(np.abs(bar @ self._rotation[:, 2]).max()))
+        return float(np.degrees(np.arcsin(min(out_of_plane, 1.0))))
+
+    @cached_property
+    def to_end_of_travel_mm(self) -> float:  # noqa: D102
+        return self.nearest_end.left_mm if self.is_reached else -np.inf
+
+    @cached_property
+    def to_min_gap_mm(self) -> float:  # noqa: D102
+        return self.nearest.distance_mm - self.machine.sliders.min_gap_mm
+
+    @cached_property
+    def nearest_end(self) -> NearestEnd:  # noqa: D102
+        return nearest_end(self.machine, self._inverse[0])
+
+    @cached_property
+    def nearest(self) -> NearestSliders:  # noqa: D102
+        return nearest_sliders(self._inverse[0])
+
+    @cached_property
+    def to_joint_limit_deg(self) -> float:  # noqa: D102
+        if self.machine.joints is None:
+            return np.inf
+        legs = Legs.at(self.machine, self._position_mm, self._rotation, self._inverse[0])
+        return float(np.degrees(legs.to_joint_limit_rad(self.machine).min()))
+
+    @cached_property
+    def condition(self) -> float:  # noqa: D102
+        few = slice(None, None, CONDITION_EVERY)
+        return pose_condition(self.machine, self._position_mm[few], self._rotation, self._inverse[0][few])
+
+    @cached_property
+    def _rotation(self) -> Floats:
+        return rotation_from_rpy(self.circle.platform_rpy_rad)
+
+    @cached_property
+    def _position_mm(self) -> Floats:
+        outside = self.circle.model_copy(update={"radius_mm": self.circle.radius_mm + FEED_IN_MM})
+        return np.vstack([each.poses(ANGLES_RAD, self.cup_mm) for each in (self.circle, outside)])
+
+    @cached_property
+    def _inverse(self) -> tuple[Floats, Ints]:
+        return inverse(self.machine, self._position_mm, self.circle.platform_rpy_rad)
+
+
+def circle_clearances(machine: MachineFile, circle: Circle, cup_mm: tuple[float, float, float]) -> Clearances | None:
+    """Compute the clearances of a circle; None where the machine cannot follow it.
+
+    Parameters
+    ----------
+    machine : MachineFile
+    circle : Circle
+    cup_mm : tuple of float
+        Nominal cup centre, base frame, mm.
+    """
+    path = CirclePath(machine, circle, cup_mm)
+    return Clearances(**{each.name: getattr(path, each.name) for each in fields(Clearances)}) if path.is_reached else None
 
 
 def angle_of_row(row: int) -> float:

@@ -9,14 +9,14 @@ mount's unknowns are eliminated by the Schur complement, with the prior of the d
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.identifiability import plan_sensitivity, with_every_effect
-from hexdbb.model import Model, Parameter
+from hexdbb.identifiability import plan_sensitivity
+from hexdbb.model import Model, Parameter, new_term
 from hexdbb.plan import Mount, Plan
 from hexdbb.planning.candidates import CandidateCircle
 from hexdbb.planning.schur import schur_complement
@@ -66,7 +66,7 @@ class PlannedUnknowns:
     """The values that a plan is to determine, and the nuisance values fitted with them."""
 
     model: Model
-    """With every effect of the catalogue."""
+    """With the effect that is aimed at: what others need of the state is not derived for thousands of circles."""
     columns: NDArray[np.intp]
     """Values of the model (with one mount) that all circles share, shape (m,)."""
     own: NDArray[np.intp]
@@ -97,9 +97,7 @@ def planned_unknowns(model: Model, aim: str | None, noise_mm: float, cycle_rate_
     InputError
         No effect has the name `aim`, it belongs to each mount, or the model has no free error of the machine.
     """
-    whole = with_every_effect(model)
-    if aim is not None:
-        whole.info(aim)
+    whole = model if aim is None else _with(model, aim)
     parameters = whole.parameters()
     mine = np.array([each.effect == aim for each in parameters])
     used = whole.free | mine
@@ -133,6 +131,13 @@ def information_of(candidates: Sequence[CandidateCircle], template: Plan, unknow
     shared, own = rows[:, :, unknowns.columns], rows[:, :, unknowns.own]
     transposed = np.swapaxes(shared, 1, 2)
     return Information(transposed @ shared, transposed @ own, np.swapaxes(own, 1, 2) @ own)
+
+
+def _with(model: Model, aim: str) -> Model:
+    """Return a model that has an effect, with that effect's values not free where it is added."""
+    size = model.info(aim).size
+    has = any(term.effect == aim for term in model.terms)
+    return model if has else replace(model, terms=(*model.terms, new_term(aim, size, free=False)))
 
 
 def _is_of_interest(parameter: Parameter, aim: str | None) -> bool:

@@ -1,7 +1,6 @@
 """Proposing a plan: candidates, choice, refinement off the grid, and a plan that can be driven.
 
-The choice on the grid is refined by coordinate exchange (Meyer, Nachtsheim, Technometrics 37(1), 1995): every circle in
-turn is replaced by its best neighbour, with decreasing steps. The motion of the whole plan, paths between circles
+The choice on the grid is refined (`hexdbb.planning.refinement`). The motion of the whole plan, paths between circles
 included, is then computed; circles that cannot follow one another in one order are tried in others. No random number is
 drawn: the same request gives the same plan.
 """
@@ -16,19 +15,15 @@ import numpy as np
 from hexdbb.errors import InputError, RunError
 from hexdbb.machine import MachineFile
 from hexdbb.plan import Circle, Mount, Plan
-from hexdbb.planning.candidates import CandidateCircle, Grid, grid_candidates, neighbours, other_radii, within_reach
+from hexdbb.planning.candidates import CandidateCircle, Grid, grid_candidates
 from hexdbb.planning.clearances import RequiredClearances
-from hexdbb.planning.criteria import Criterion, make_criterion
-from hexdbb.planning.exchange import CircleExchange, CircleIndex, ReportStep, is_better
-from hexdbb.planning.information import Information, PlannedUnknowns, information_of
+from hexdbb.planning.criteria import make_criterion
+from hexdbb.planning.exchange import CircleExchange, ReportStep
+from hexdbb.planning.information import PlannedUnknowns
+from hexdbb.planning.known_circles import KnownCircles
+from hexdbb.planning.refinement import Refinement
 from hexdbb.trajectory import plan_programme, require_extent
 
-STEPS_DEG = (6.0, 3.0, 1.0)
-"""Steps of the refinement: the finest spacing of the grid's tilts, half of it, and 1 deg,
-which moves the end of a bar of 100 mm by less than 2 mm."""
-MAX_PASSES = 10
-"""Limit of passes over all circles with one step, against endless refinement; it ends earlier, when no neighbour is
-better."""
 MAX_REFINED = 6
 """Choices refined for each number of cup positions: limits the time, which is proportional to it; more than one,
 because the best on the grid need not be the best off it."""
@@ -93,7 +88,8 @@ def propose(request: PlanRequest, report_step: ReportStep = lambda _: None) -> P
             f"{_name(request.template)}: no circle of the grid is within reach with the required clearances"
         )
     report_step(f"information of {sum(map(len, pools))} circles")
-    information = [information_of(pool, request.template, request.unknowns) for pool in pools]
+    known = KnownCircles(request.template, request.machine, request.required, request.unknowns)
+    information = [known.information(pool) for pool in pools]
     whole = sum((each.total(range(len(each))).marginal()[0] for each in information), np.zeros(()))
     criterion, start = (
         make_criterion(name, request.unknowns.of_interest, whole) for name in (request.criterion, START)
@@ -103,69 +99,12 @@ def propose(request: PlanRequest, report_step: ReportStep = lambda _: None) -> P
     )
     # Fewest cups first: a plan with more cups must be better to replace one with fewer.
     promising = list(dict.fromkeys(chosen for ranked in rounds for chosen in ranked[:MAX_REFINED]))
+    refinement = Refinement(known, criterion, off_nominal=request.off_nominal)
     refined = []
     for number, chosen in enumerate(promising):
         report_step(f"refining choice {number + 1} of {len(promising)}")
-        refined.append(_refined([pools[mount][place] for mount, place in chosen.circles], criterion, request))
-    return _driven(_best(refined, criterion, request), request, report_step)
-
-
-def _best(
-    choices: Sequence[list[CandidateCircle]], criterion: Criterion, request: PlanRequest
-) -> list[CandidateCircle]:
-    """Return the best choice, the first among equals."""
-    best, score = choices[0], -np.inf
-    for each in choices:
-        exchange, others = _exchange_about(each[:1], each[1:], criterion, request)
-        reached = exchange.score([*others, (0, 0)])
-        if is_better(reached, score):
-            best, score = each, reached
-    return best
-
-
-def _refined(chosen: Sequence[CandidateCircle], criterion: Criterion, request: PlanRequest) -> list[CandidateCircle]:
-    """Return a choice with every circle replaced by its best neighbour until none is better, with decreasing steps."""
-    best = list(chosen)
-    for step_deg in STEPS_DEG:
-        for _ in range(MAX_PASSES):
-            moved = [_moved(best, place, step_deg, criterion, request) for place in range(len(best))]
-            if not any(moved):
-                break
-    return best
-
-
-def _moved(
-    best: list[CandidateCircle], place: int, step_deg: float, criterion: Criterion, request: PlanRequest
-) -> bool:
-    """Replace one circle by its best neighbour; return whether there was a better one."""
-    own = best[place]
-    near = [*neighbours(own, step_deg), *(other_radii(own, request.template) if request.off_nominal else ())]
-    new = (each for each in near if each not in best)
-    options = [own, *within_reach(new, request.template, request.machine, request.required)]
-    exchange, others = _exchange_about(options, [*best[:place], *best[place + 1 :]], criterion, request)
-    scores = [exchange.score([*others, (0, option)]) for option in range(len(options))]
-    if not is_better(max(scores), scores[0]):
-        return False
-    best[place] = options[int(np.argmax(scores))]
-    return True
-
-
-def _exchange_about(
-    options: Sequence[CandidateCircle], others: Sequence[CandidateCircle], criterion: Criterion, request: PlanRequest
-) -> tuple[CircleExchange, list[CircleIndex]]:
-    """Return the exchange over the options for one circle, and the indices of the other circles in it."""
-    cups = list(dict.fromkeys([options[0].cup_mm, *(each.cup_mm for each in others)]))
-    groups = [[each for each in others if each.cup_mm == cup] for cup in cups]
-    groups[0] = [*options, *groups[0]]
-    information: list[Information] = [
-        information_of(group, request.template, request.unknowns) for group in groups if group
-    ]
-    fixed = [
-        (mount, place)
-        for mount, group in enumerate(groups)
-        for place in range(len(options) if mount == 0 else 0, len(group))
-    ]
-    return CircleExchange(information, criterion), fixed
+        refined.append(refinement.refined([pools[mount][place] for mount, place in chosen.circles]))
+    return _driven(refinement.best(refined), request, report_step)
 
 
 def _driven(chosen: Sequence[CandidateCircle], request: PlanRequest, report_step: ReportStep) -> Plan:

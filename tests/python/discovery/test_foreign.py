@@ -78,6 +78,7 @@ def test_with_the_true_effect_withheld_nothing_false_is_named() -> None:
     assert found.structure or found.causes
 
 
+@pytest.mark.long
 def test_a_pitch_error_sampled_twice_a_turn_is_found_whole() -> None:
     """12,800 readings on a screw of 5 mm, which turns by half between them: thirty times the noise."""
     found = found_in("sparse-pitch")
@@ -91,6 +92,7 @@ def test_noise_that_lasts_for_some_readings_is_nothing_missing() -> None:
     assert found_in("lasting-noise").verdict == "none"
 
 
+@pytest.mark.long
 def test_what_circles_that_hardly_hold_geometry_predict_makes_nothing_sure() -> None:
     """A joint's ball with five lobes; centres off their places and a bow bend together to fit it."""
     found = found_in("joint-lobes")
@@ -98,6 +100,7 @@ def test_what_circles_that_hardly_hold_geometry_predict_makes_nothing_sure() -> 
     assert not [each for each in found.causes if each.verdict == "effect"]
 
 
+@pytest.mark.long
 def test_a_fault_that_all_six_drives_share_is_one_cause() -> None:
     """All lag, alike but not the same; beside it play of one slider, of the same size."""
     found = found_in("lags-alike")
@@ -108,6 +111,7 @@ def test_a_fault_that_all_six_drives_share_is_one_cause() -> None:
     assert lag.clause.startswith("all 6 sliders: slider ") and "behind its drive's encoder, down to " in lag.clause
 
 
+@pytest.mark.long
 def test_what_is_small_beside_another_fault_is_no_form_of_it() -> None:
     """A pitch error of thirty times the noise that grows along the screw, and another screw that warms, of five."""
     found = found_in("unequal-pair")
@@ -115,6 +119,7 @@ def test_what_is_small_beside_another_fault_is_no_form_of_it() -> None:
     assert {each.choice for each in found.causes} == {"pitch_cyclic:3", "screw_thermal:4"}
 
 
+@pytest.mark.long
 def test_a_carriage_that_cocks_is_found_at_the_joint_of_its_slider() -> None:
     """Loose in its rail, it leans over a few millimetres after each reversal, and its joint goes sideways and up."""
     found = found_in("carriage-cocks")
@@ -124,12 +129,14 @@ def test_a_carriage_that_cocks_is_found_at_the_joint_of_its_slider() -> None:
     assert all(each.after_um < 0.6 * each.before_um for each in found.heldout.values())
 
 
+@pytest.mark.long
 def test_a_gauge_that_sticks_is_found_by_its_way_since_it_turned() -> None:
     found = found_in("gauge-sticks")
     assert found.verdict == "unknown"
     assert [each.choice for each in found.causes] == ["learned:reading:deflection_since_turn"]
 
 
+@pytest.mark.long
 def test_screws_that_all_warm_are_one_cause() -> None:
     """A gauge that drifts and legs that grow fit three times the noise as well, each with a form of its own."""
     found = found_in("screws-alike")
@@ -138,6 +145,7 @@ def test_screws_that_all_warm_are_one_cause() -> None:
     assert found.causes[0].elements == ("1", "2", "3", "4", "5", "6")
 
 
+@pytest.mark.long
 def test_screws_that_all_warm_are_not_for_sure_where_a_drift_fits_better() -> None:
     """A gauge that drifts, and a joint off its place by which geometry leads away: other circles refute little."""
     found = found_in("drift-and-joint")
@@ -146,6 +154,7 @@ def test_screws_that_all_warm_are_not_for_sure_where_a_drift_fits_better() -> No
         assert each.choice == "bar_drift" or any("bar_drift" in rival for rival in each.rivals)
 
 
+@pytest.mark.long
 def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
     found = found_in("two-leads")
     assert found.verdict == "effect"

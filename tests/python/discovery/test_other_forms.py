@@ -12,6 +12,8 @@ from hexdbb.samples import Samples
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case
 
+pytestmark = pytest.mark.long
+
 
 @pytest.mark.parametrize(
     ("name", "learned"),

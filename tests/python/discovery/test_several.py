@@ -31,6 +31,7 @@ def test_a_fault_a_tenth_as_large_is_found_and_a_form_of_the_large_one_is_none(n
     assert found == causes
 
 
+@pytest.mark.long
 def test_a_third_cause_is_sought_where_two_explain_all_and_do_not_predict_it() -> None:
     """A bow of another guideway and the pitch error leave 1 % of the unexplained, and miss circles left out by 10."""
     verdict = _judged("pitch_cyclic+lead_error+straightness-d10-x3-calibrate-s3")

@@ -79,6 +79,7 @@ def test_a_gauge_noisier_than_stated_is_no_fault_of_the_machine() -> None:
     assert discover(Samples.of([record]), found.model).verdict == "none"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "truth"),
     [("loose_cup-x3-s0", "learned:cup:"), ("guideway_bend-x3-s2", "learned:vertical:2:time_position")],
@@ -92,6 +93,7 @@ def test_what_fits_but_does_not_predict_is_not_named(measured: Callable[[str], R
     assert not [each for each in found.causes if each.verdict == "effect" and each is found.causes[0]]
 
 
+@pytest.mark.long
 def test_what_errs_elsewhere_by_more_than_it_explains_is_a_lead_alone(measured: Callable[[str], Record]) -> None:
     """A guideway bends with time and place; legs that grow by laws of their own fit as well, on these circles."""
     record = measured("guideway_bend-x3-s2")

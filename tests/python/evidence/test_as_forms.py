@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from hexdbb.discovery import Discovery, discover
 from hexdbb.ledger import add_effect
@@ -25,6 +26,7 @@ def after_adding(record: Record, effect: str) -> Discovery:
     return discover(samples, model, candidates=("backlash",), with_tables=False)
 
 
+@pytest.mark.long
 def test_what_a_large_lag_leaves_is_its_form() -> None:
     found = after_adding(case("servo_lag-d10-x100-calibrate-s1165").record(), "servo_lag:6")
     assert found.verdict == "none"

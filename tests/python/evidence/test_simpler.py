@@ -26,12 +26,14 @@ def found_in(name: str) -> Found:
     return found
 
 
+@pytest.mark.long
 def test_a_lag_that_differs_along_the_guideway_is_one_of_the_velocity() -> None:
     found = found_in("servo_lag-d10-x10-calibrate-s61")
     assert found.hypothesis.name == "learned:slider:5:velocity"
     assert "learned:slider:5:velocity_position" in found.refinements
 
 
+@pytest.mark.long
 def test_a_lag_that_the_load_makes_is_one_of_both() -> None:
     assert found_in("droops_when_pushed-d0-x10-calibrate-s61").hypothesis.name == "learned:slider:1:velocity_drive_load"
 

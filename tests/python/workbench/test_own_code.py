@@ -28,7 +28,7 @@ STARTS_A_CHILD = "import subprocess, sys\nsubprocess.run([sys.executable, '-c', 
 def test_what_does_not_end_is_stopped(folder: Path, source: str) -> None:
     (folder / "mine.py").write_text(source, encoding="utf-8")
     with pytest.raises(hx.InputError, match=r"mine\.py: did not end and was stopped"):
-        require_ending(Path("mine.py"), [Path("today.parquet")], computing_s=4, waiting_s=12.0)
+        require_ending(Path("mine.py"), [Path("today.parquet")], computing_s=4, waiting_s=6.0)
 
 
 @pytest.mark.parametrize(
