@@ -161,7 +161,9 @@ def circle_clearances(machine: MachineFile, circle: Circle, cup_mm: tuple[float,
         Nominal cup centre, base frame, mm.
     """
     path = CirclePath(machine, circle, cup_mm)
-    return Clearances(**{each.name: getattr(path, each.name) for each in fields(Clearances)}) if path.is_reached else None
+    if not path.is_reached:
+        return None
+    return Clearances(**{each.name: getattr(path, each.name) for each in fields(Clearances)})
 
 
 def angle_of_row(row: int) -> float:
