@@ -26,7 +26,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 
 /// Return why a function of a column of the state cannot be compensated.
 Reason why_not(const std::string& column, double reference_temperature_c) {
-  if (column == "time_s" || column == "elapsed") return "depends on time";
+  if (column == "time_s" || column.starts_with("elapsed")) return "depends on time";
   if (find_table_variable(column) == nullptr) return "depends on " + column + ", which is not known to a controller";
   if (column == "warming_k" && std::isnan(reference_temperature_c)) return kNoReference;
   return {};

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import Curve, Form, Space, describe
 from hexdbb.learned.shown import place_words
-from hexdbb.learned.variable import ELAPSED
+from hexdbb.learned.variable import ELAPSED, GROWING
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model
 from hexdbb.samples import PUSH_SHAPES
@@ -104,8 +104,9 @@ def _value(space: Space) -> list[str]:
         if variable.period:
             lines.append(f"x = np.mod(x, {_number(space.period)})")
         lines.append("value = function(x)")
-    if variable.times == ELAPSED:
-        lines.append(f'value = value * (samples["time_s"] - {_number(space.middle_s)}) / {_number(space.span_s)}')
+    if variable.times in GROWING:
+        lines.append(f'grown = (samples["time_s"] - {_number(space.since_s)}) / {_number(space.span_s)}')
+        lines.append("value = value * " + ("grown" if variable.times == ELAPSED else "4.0 * grown * (1.0 - grown)"))
     elif variable.times:
         lines.append(f'times = samples["{variable.times}"]')
         lines.append("value = value * (times[:, element] if times.ndim == 2 else times)")

@@ -42,6 +42,13 @@ def settled(search: Search, node: Node) -> Node:
     return node
 
 
+def with_found_beside(search: Search, node: Node) -> Node:
+    """Return the best set that was tried with all of a set and more, where it is better, needs all and predicts."""
+    wider = (each for each in search.nodes if {*node.hypotheses} < {*each.hypotheses} and is_better(search, each, node))
+    best_first = sorted(wider, key=lambda each: -each.score)
+    return next((each for each in best_first if _is_admissible(search, each)), node)
+
+
 def _may_replace(search: Search, one: Node, other: Node) -> bool:
     """Check that a set neither says the same in fewer known words, nor misses most where the other predicts."""
     if _names_fewer(search, one, other):

@@ -84,7 +84,7 @@ class State:
 
     def design(self, space: Space, element: int) -> NDArray[np.float32]:
         """Return a space's functions in every row, shape (n, columns), kept: places share their variables."""
-        limits = (space.low, space.high, space.sign_width, space.middle_s, space.span_s, space.warp_width)
+        limits = (space.low, space.high, space.sign_width, space.since_s, space.span_s, space.warp_width)
         key = (space.hypothesis.variable, element, *limits)
         if key not in self._designs:
             self._designs[key] = space.design(self, element).astype(np.float32)

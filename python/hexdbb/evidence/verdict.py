@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
-from hexdbb.evidence.exchange import in_known_words, of_better_form, settled
+from hexdbb.evidence.exchange import in_known_words, of_better_form, settled, with_found_beside
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.one_predicts import or_one_that_predicts
@@ -18,6 +18,7 @@ from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.simpler import in_simple_words
+from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.sure import Grade, graded
 from hexdbb.evidence.tuned import with_tuned_numbers
@@ -98,7 +99,11 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
-    node = in_known_words(search, _predicting(search, search.run()))
+    first = search.run()
+    other = _predicting(search, first)
+    node = in_known_words(search, other)
+    if other is not first:
+        node = with_found_beside(search, node)
     if node is search.root:
         if not _is_form(search):
             return Verdict("unknown", (), node, None, before)
@@ -108,8 +113,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)
+    node, wider = without_stand_ins(search, node, refined(search, node))
     causes, refinements = _grouped(search, node)
-    wider = refined(search, node)
     known = {each.name for each in node.hypotheses}
     for each in wider.hypotheses:
         there = (one for one in causes if isinstance(each, Learned) and at_its_place(search, one, each))

@@ -13,7 +13,7 @@ from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S
 from hexdbb.learned.tables import Table
-from hexdbb.learned.variable import AXES_OF_VECTOR, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable
+from hexdbb.learned.variable import AXES_OF_VECTOR, ELAPSED, GROWING, SCREW_LEAD, SPLINES_MIN, Variable
 
 Floats = NDArray[np.float64]
 
@@ -67,8 +67,8 @@ class Space:
         Width of the step with the column's sign; 0 where none.
     warp_width : float
         Value below which the argument is nearly in proportion to the column, and its logarithm beyond; 0: the column.
-    middle_s, span_s : float
-        Of the time that a growing function grows over.
+    since_s, span_s : float
+        Beginning and length of the time that a growing function grows over.
     """
 
     hypothesis: Learned
@@ -76,7 +76,7 @@ class Space:
     high: float = 1.0
     period: float = 0.0
     sign_width: float = 0.0
-    middle_s: float = 0.0
+    since_s: float = 0.0
     span_s: float = 1.0
     warp_width: float = 0.0
 
@@ -113,12 +113,12 @@ class Space:
                 low, high = float(argument.min()), float(argument.max())
                 if variable.is_log:
                     low = float(np.quantile(argument, FIRST_PART))
-        if variable.times and variable.times != ELAPSED and not np.any(np.nan_to_num(samples[variable.times])):
+        if variable.times and variable.times not in GROWING and not np.any(np.nan_to_num(samples[variable.times])):
             raise InputError(f"{name}: {variable.times} is zero or unknown in all samples (expected it to vary)")
         time_s = samples["time_s"]
         first, last = float(np.min(time_s)), float(np.max(time_s))
-        middle_s, span_s = 0.5 * (first + last), max(last - first, SMALLEST_RANGE)
-        return cls(hypothesis, low, high, period, sign_width, middle_s, span_s, warp_width)
+        span_s = max(last - first, SMALLEST_RANGE)
+        return cls(hypothesis, low, high, period, sign_width, first, span_s, warp_width)
 
     @property
     def size(self) -> int:
@@ -145,8 +145,9 @@ class Space:
     def design(self, samples: Columns, element: int) -> Floats:
         """Return the functions in every sample for the variable of one element, shape (n, columns)."""
         variable = self.hypothesis.variable
-        if variable.times == ELAPSED:
-            weight = (samples["time_s"] - self.middle_s) / self.span_s
+        if variable.times in GROWING:
+            grown = (samples["time_s"] - self.since_s) / self.span_s
+            weight = grown if variable.times == ELAPSED else 4.0 * grown * (1.0 - grown)
         else:
             weight = _times(samples, variable, element) if variable.times else np.ones(len(samples))
         if not variable.column:

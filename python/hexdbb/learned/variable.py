@@ -11,7 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 ELAPSED = "elapsed"
-"""Time, centred and divided by its span: no column of the samples, since a function's own limits scale it."""
+"""Time since the beginning, divided by its span: no column of the samples, since a function's own limits scale it."""
+BENT = "elapsed_bent"
+"""Zero at both ends of that time and 1 in its middle: what warms grows fast at first, and then hardly more."""
+GROWING = (ELAPSED, BENT)
 SPLINES_MIN = 3
 """A cubic spline has one more function at least."""
 SCREW_LEAD = -1.0
@@ -93,7 +96,7 @@ class Variable:
     @property
     def needs(self) -> frozenset[str]:
         """Columns of the samples that its functions follow from."""
-        named = {"time_s" if each == ELAPSED else each for each in (self.times, self.column)} - {""}
+        named = {"time_s" if each in GROWING else each for each in (self.times, self.column)} - {""}
         remembered = {"time_s" for each in named if OF_MEMORY in each}
         return frozenset({each.partition(OF_MEMORY)[0] for each in named} | remembered)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from hexdbb.learned.variable import ELAPSED, SCREW_LEAD, TURN, Variable
+from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, TURN, Variable
 
 LEAST_TILT = 1e-3
 """rad: drives that follow a command of constant orientation leave a hundredth of it; a commanded change is more."""
@@ -66,6 +66,8 @@ ROLL, PITCH, YAW = (
 TIME_POSITION = Variable(
     "time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED, parts=("time", "position")
 )
+TIME_POSITION_BENT = replace(TIME_POSITION, name="time_position_bent", times=BENT, of_forms=True)
+"""Beside what grows in proportion to time: what warms does so by less and less."""
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
 TURNING = Variable(
@@ -155,7 +157,7 @@ COURSE, COURSE_IN_PLATFORM = (
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
-    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE),
+    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE, TIME_POSITION_BENT),
 )
 OF_LEG = (
     *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY)),
@@ -178,7 +180,7 @@ OF_LEG = (
 OF_GUIDEWAY = (
     Variable("position", "sliders_mm", "mm", "position of the slider", 24),
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
-    *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION),
+    *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION, TIME_POSITION_BENT),
 )
 OF_BALL = (TIME, FINE_TIME, ROLL, PITCH, YAW)
 OF_PLATFORM_JOINT = (

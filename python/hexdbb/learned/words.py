@@ -8,7 +8,7 @@ import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
 from hexdbb.learned.tables import Curve
-from hexdbb.learned.variable import ELAPSED
+from hexdbb.learned.variable import BENT, ELAPSED
 
 ENOUGH = 0.9
 """Part of a function's variation that a form must explain to be named: what is left is then below a third of it."""
@@ -26,6 +26,7 @@ TIMES = {
     "slider_joint_direction": ", its sign turning over with the sense in which the joint turns",
     "direction": ", its sign turning over with the direction of the circle",
     ELAPSED: ", growing with time",
+    BENT: ", more and then less again with time",
     "velocity_mm_s": ", for each mm/s of velocity",
     "acceleration_mm_s2": ", for each mm/s² of acceleration",
     "leg_force": ", for each unit of the leg's force",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AliasChoices, Field
 
 from hexdbb.files.validation import FileModel, NotNegative, Number, Positive, StrictModel
 from hexdbb.machine import MachineFile
@@ -39,7 +39,8 @@ class LearnedEntry(StrictModel):
     splines: Annotated[int, Field(ge=1)]
     period: NotNegative = 0.0
     sign_width: NotNegative = 0.0
-    middle_s: Number
+    since_s: Number = Field(validation_alias=AliasChoices("since_s", "middle_s"))
+    """Time at which what grows is zero; `middle_s` in files of hexdbb 0.1, in which that was the middle."""
     span_s: Positive
     warp_width: NotNegative = 0.0
     roughness: Positive

@@ -20,7 +20,7 @@ def learned_entry(effect: LearnedEffect) -> LearnedEntry:
         splines=space.hypothesis.variable.count,
         period=space.period,
         sign_width=space.sign_width,
-        middle_s=space.middle_s,
+        since_s=space.since_s,
         span_s=space.span_s,
         warp_width=space.warp_width,
         roughness=effect.roughness,
@@ -60,7 +60,7 @@ def learned_effect(name: str, entry: LearnedEntry) -> LearnedEffect:
         entry.high,
         entry.period,
         entry.sign_width,
-        entry.middle_s,
+        entry.since_s,
         entry.span_s,
         entry.warp_width,
     )

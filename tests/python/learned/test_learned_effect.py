@@ -136,6 +136,12 @@ def test_the_file_holds_it_to_the_last_digit(found: Diagnosis, tmp_path: Path) -
     assert learned(back).sigma_mm == pytest.approx(learned(found.model).sigma_mm)
 
 
+def test_a_file_of_the_first_version_means_what_it_meant(found: Diagnosis, tmp_path: Path) -> None:
+    text = text_of(found.model, tmp_path)
+    (tmp_path / "old.toml").write_text(text.replace("since_s = ", "middle_s = "))
+    assert text_of(load_model(tmp_path / "old.toml"), tmp_path) == text
+
+
 def test_a_step_is_undone_to_the_file_there_was(before: Model, found: Diagnosis, tmp_path: Path) -> None:
     text_of(found.model, tmp_path)
     assert text_of(undo(load_model(tmp_path / "written.toml")), tmp_path) == text_of(before, tmp_path)
@@ -234,6 +240,8 @@ def made(planned: Samples, name: str, function: Callable[[np.ndarray], np.ndarra
         ("learned:vertical:2:position", lambda x: 1e-7 * (x - x.mean()) ** 2 * np.sin(x / 40.0), set()),
         ("learned:leg:3:direction_position", lambda x: 0.01 + 1e-5 * x, set()),
         ("learned:leg:2:leg_force_lagged@7.5", lambda x: 0.03 * x, set()),
+        ("learned:slider:4:time_position", lambda x: 1e-4 * (x - x.mean()), set()),
+        ("learned:vertical:2:time_position_bent", lambda x: 1e-4 * (x - x.mean()), set()),
         ("learned:platform_joint:5-6:course", lambda x: 0.01 + 0.0 * x, set()),
         ("learned:platform_joint:1:course_speed", lambda x: 0.01 + 1e-4 * x, set()),
     ],

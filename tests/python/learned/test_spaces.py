@@ -50,6 +50,22 @@ def test_smooth_functions_of_large_values_can_still_be_said(columns: Rows) -> No
     assert left_of(space, columns, values**3, 1) < 0.01
 
 
+def test_what_warms_is_said_by_what_grows_and_bends() -> None:
+    """A bow that has come to 86 % of its height at the end, zero at the beginning, as both functions are there."""
+    time_s = np.linspace(500.0, 2300.0, 4000)
+    position_mm = 400.0 + 300.0 * np.sin(0.05 * time_s[:, None] * (1.0 + 0.1 * np.arange(6)))
+    columns = Rows({"time_s": time_s, "sliders_mm": position_mm})
+    bow = (1.0 - np.exp(-(time_s - time_s[0]) / 900.0)) * (1.0 - ((position_mm[:, 1] - 400.0) / 300.0) ** 2)
+    names = [f"learned:vertical:1:{each}" for each in ("time_position", "time_position_bent")]
+    growing, bending = (Space.of(Learned.parse(name), columns, LEAD_MM).design(columns, 1) for name in names)
+    assert not growing[0].any() and not bending[[0, -1]].any()
+
+    def left(design: np.ndarray) -> float:
+        return float(np.std(bow - design @ np.linalg.lstsq(design, bow, rcond=None)[0]) / np.std(bow))
+
+    assert left(np.hstack([growing, bending])) < 0.05 < 0.15 < left(growing)
+
+
 @pytest.mark.parametrize("power", [1, 2, 3])
 def test_even_splines_say_powers_exactly(columns: Rows, power: int) -> None:
     every = {each.variable.is_even: each for each in Learned.parse("learned:slider:2:velocity").variants()}
