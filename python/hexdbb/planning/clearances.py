@@ -29,7 +29,7 @@ Ints = NDArray[np.int32]
 ANGLES = 72
 """Angles of a circle at which clearances are computed: every 5 deg. Between two of them the path bulges by
 R (1 - cos 2.5 deg), 0.1 mm for a circle of 100 mm, far less than the clearances required."""
-ANGLES_RAD: Floats = np.arange(ANGLES) * (2.0 * np.pi / ANGLES)
+ANGLES_RAD: Floats = np.arange(ANGLES, dtype=np.float64) * (2.0 * np.pi / ANGLES)
 CONDITION_EVERY = 6
 """Every sixth of these angles, 30 deg apart, is used for the condition, which changes slowly along a circle."""
 
