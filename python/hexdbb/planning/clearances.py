@@ -103,36 +103,42 @@ class CirclePath:
 
     @cached_property
     def bar_angle_deg(self) -> float:
-        """As in `Clearances`, as the next ones are."""
+        """Largest angle of the bar, at the cup or at the platform's ball."""
         bar = (self.circle.ball_mm(ANGLES_RAD, self.cup_mm) - np.asarray(self.cup_mm)) / self.circle.radius_mm
         out_of_plane = max(float(np.abs(bar[:, 2]).max()), float(np.abs(bar @ self._rotation[:, 2]).max()))
         return float(np.degrees(np.arcsin(min(out_of_plane, 1.0))))
 
     @cached_property
-    def to_end_of_travel_mm(self) -> float:  # noqa: D102
+    def to_end_of_travel_mm(self) -> float:
+        """Least distance to an end of travel; negative and infinite where the circle cannot be followed."""
         return self.nearest_end.left_mm if self.is_reached else -np.inf
 
     @cached_property
-    def to_min_gap_mm(self) -> float:  # noqa: D102
+    def to_min_gap_mm(self) -> float:
+        """Least distance beyond the smallest gap between two sliders."""
         return self.nearest.distance_mm - self.machine.sliders.min_gap_mm
 
     @cached_property
-    def nearest_end(self) -> NearestEnd:  # noqa: D102
+    def nearest_end(self) -> NearestEnd:
+        """Which slider comes nearest to an end of its travel."""
         return nearest_end(self.machine, self._inverse[0])
 
     @cached_property
-    def nearest(self) -> NearestSliders:  # noqa: D102
+    def nearest(self) -> NearestSliders:
+        """Which two sliders come nearest."""
         return nearest_sliders(self._inverse[0])
 
     @cached_property
-    def to_joint_limit_deg(self) -> float:  # noqa: D102
+    def to_joint_limit_deg(self) -> float:
+        """Least angle left to a limit of the joints; infinite where there is none."""
         if self.machine.joints is None:
             return np.inf
         legs = Legs.at(self.machine, self._position_mm, self._rotation, self._inverse[0])
         return float(np.degrees(legs.to_joint_limit_rad(self.machine).min()))
 
     @cached_property
-    def condition(self) -> float:  # noqa: D102
+    def condition(self) -> float:
+        """Largest condition of the machine's own Jacobian."""
         few = slice(None, None, CONDITION_EVERY)
         return pose_condition(self.machine, self._position_mm[few], self._rotation, self._inverse[0][few])
 
