@@ -9,8 +9,8 @@ harmonics of the angle
            takes and the rest; were the residual white, both would have the same variance: an F-test that needs no
            stated noise. A gauge noisier or quieter than stated does not deceive it. Noise that changes slowly is smooth
            as well, but differs from lap to lap: where laps are repeated, what they share must exceed what they do not.
-           Where none are, noise of which a reading keeps a part from the one before is told by that part: the harmonics
-           must exceed what such noise has there.
+           Where none are, noise that lasts for some readings is told by its spectrum (`lasting_noise.py`): the
+           harmonics must exceed what it has there.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.diagnosis.harmonics import orthonormal_harmonics
+from hexdbb.diagnosis.lasting_noise import LastingNoise, LowestPower
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.samples import Samples
 
@@ -38,11 +39,6 @@ NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 MAX_PREPARED = 400_000
 """Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
 test, sweep by sweep, so that memory does not grow by them."""
-FREQUENCIES = 64
-"""Frequencies of a sweep at which the power of lasting noise is summed: it has one bend, which some ten describe."""
-MOST_KEPT = 0.95
-"""Part of the one before that a reading keeps, at most: noise that lasts for twenty readings and more is as smooth as a
-fault, and no single lap tells them apart."""
 LEVEL_SIGMAS = 4.0
 SHAPE_P = 1e-4
 
@@ -111,7 +107,7 @@ class FitTest:
 
     def __init__(self, samples: Samples, noise: Noise) -> None:
         self._noise = noise
-        self._angle_rad = samples["angle_rad"]
+        self._angle_rad, self._time_s = samples["angle_rad"], samples["time_s"]
         self._sweeps = [rows for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
         self._laps = list(_repeated_laps(samples["lap"], self._sweeps))
         self._prepared = list(self._bases()) if len(samples) <= MAX_PREPARED else None
@@ -137,22 +133,23 @@ class FitTest:
         return (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in self._sweeps)
 
     def _shape(self, residual_mm: Floats, fitted_values: int) -> tuple[float, float]:
-        smooth, rest, neighbours = Part(freedom=-fitted_values), Part(), 0.0
+        smooth, rest, lasting = Part(freedom=-fitted_values), Part(), LastingNoise(HARMONICS)
         for rows, basis in zip(self._sweeps, self._prepared or self._bases(), strict=True):
             taken = residual_mm[rows] @ basis
             left = residual_mm[rows] - basis @ taken
             smooth.add(float(taken @ taken), basis.shape[1])
             rest.add(float(left @ left), len(rows) - basis.shape[1])
-            neighbours += float(left[1:] @ left[:-1])
+            if not self._laps:
+                lasting.add(left, _step_s(self._time_s[rows]))
         if smooth.freedom <= 0 or rest.freedom <= 0:
             return 1.0, 0.0
-        variance = rest.variance
+        noise = LowestPower(rest.variance, rest.freedom, 1.0)
         if not self._laps and rest.square > 0.0:
-            variance *= _lowest_over_rest(list(map(len, self._sweeps)), neighbours / rest.square)
-        chance = _core.f_tail(smooth.freedom, rest.freedom, smooth.variance / variance)
+            noise = lasting.lowest_power()
+        chance = _core.f_tail(smooth.freedom * noise.alike, noise.freedom, smooth.variance / noise.variance)
         if chance < SHAPE_P:
             chance = max(chance, self._shared_by_laps(residual_mm, fitted_values))
-        beyond = max(smooth.square - smooth.freedom * variance, 0.0) / len(residual_mm)
+        beyond = max(smooth.square - smooth.freedom * noise.variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
 
     def _shared_by_laps(self, residual_mm: Floats, fitted_values: int) -> float:
@@ -174,36 +171,10 @@ class FitTest:
         return _core.f_tail(shared_freedom, scatter_freedom, shared / shared_freedom * scatter_freedom / scatter)
 
 
-def _lowest_over_rest(rows: Sequence[int], correlation: float) -> float:
-    """Return how much more variance lasting noise has in a lowest harmonic than in any other, on average.
-
-    First order: each reading keeps a part of the one before it, the part that neighbours tell.
-
-    Parameters
-    ----------
-    rows : sequence of int
-        Readings of each sweep.
-    correlation : float
-        Of neighbours, the lowest harmonics taken away.
-    """
-    lowest = np.concatenate([np.arange(HARMONICS + 1) / each for each in rows])
-    # Power changes slowly over the rest: some frequencies of it, of a weight each, tell its mean.
-    rest = np.concatenate([np.linspace(HARMONICS + 1, each / 2, FREQUENCIES) / each for each in rows])
-    weight = np.repeat([each / 2 - HARMONICS for each in rows], FREQUENCIES)
-    weight = weight / weight.sum()
-    neighbouring = weight * np.cos(2.0 * np.pi * rest)
-    low, high = 0.0, MOST_KEPT
-    for _ in range(20):
-        middle = 0.5 * (low + high)
-        power = _power(rest, middle)
-        low, high = (middle, high) if power @ neighbouring < correlation * (power @ weight) else (low, middle)
-    return float(_power(lowest, low).mean() / (_power(rest, low) @ weight))
-
-
-def _power(frequency: Floats, kept: float) -> Floats:
-    """Return the power of noise of which a reading keeps a part; frequency in periods a reading."""
-    found: Floats = 1.0 / (1.0 - 2.0 * kept * np.cos(2.0 * np.pi * frequency) + kept**2)
-    return found
+def _step_s(time_s: Floats) -> float:
+    """Return the mean time between a sweep's readings; one second where times were not measured."""
+    span_s = float(time_s[-1] - time_s[0])
+    return span_s / (len(time_s) - 1) if span_s > 0.0 else 1.0
 
 
 def _repeated_laps(lap: NDArray[np.int64], sweeps: Sequence[NDArray[np.intp]]) -> Iterator[list[NDArray[np.intp]]]:

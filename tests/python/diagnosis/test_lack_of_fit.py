@@ -78,10 +78,10 @@ def lasting(record: Record, kept: float, draw: np.random.Generator) -> np.ndarra
     return noise
 
 
-def slow_noise(record: Record, seed: int) -> np.ndarray:
-    """White noise, and as much that keeps its value for some twenty readings."""
+def slow_noise(record: Record, seed: int, kept: float = 0.95) -> np.ndarray:
+    """White noise, and as much that keeps its value for some readings, twenty where not given."""
     draw = np.random.default_rng(seed)
-    slow = lasting(record, 0.95, draw)
+    slow = lasting(record, kept, draw)
     return draw.normal(0.0, NOISE.sigma_mm, len(record)) + slow
 
 
@@ -102,6 +102,18 @@ def test_noise_that_changes_slowly_is_seen_where_no_lap_is_repeated(test_of_fit:
     _, record = test_of_fit
     first = first_laps(record)
     assert FitTest(Samples.of([first]), NOISE).of(slow_noise(first, 2), 0).shape_p < 1e-4
+
+
+def test_white_noise_and_noise_that_lasts_are_told_from_a_fault_by_their_spectrum(
+    test_of_fit: tuple[FitTest, Record],
+) -> None:
+    first = first_laps(test_of_fit[1])
+    test = FitTest(Samples.of([first]), NOISE)
+    found = [test.of(slow_noise(first, seed, kept), 0).shape_p for seed in range(20) for kept in (0.6, 0.8)]
+    assert min(found) > 1e-3
+    assert 0.2 < np.median(found) < 0.8
+    fault = 4.0 * NOISE.sigma_mm * np.cos(2.0 * np.radians(first.columns["angle_deg"]))
+    assert test.of(slow_noise(first, 1, 0.8) + fault, 0).shape_p < 1e-4
 
 
 def test_noise_that_lasts_for_a_few_readings_is_noise_on_single_laps_too(test_of_fit: tuple[FitTest, Record]) -> None:
