@@ -125,5 +125,5 @@ def test_noise_that_lasts_for_a_few_readings_is_noise_on_single_laps_too(test_of
     assert np.median([each.shape_p for each in found]) > 0.3
     fault = NOISE.sigma_mm * np.cos(2.0 * np.radians(first.columns["angle_deg"]))
     seen = test.of(lasting(first, 0.6, np.random.default_rng(1)) + fault, 0)
-    assert seen.shape_p < 1e-6
+    assert seen.shape_p < 1e-4  # how uncertain the noise is counts
     assert seen.smooth_um == pytest.approx(0.5 / np.sqrt(2.0), rel=0.2)
