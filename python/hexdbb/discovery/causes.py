@@ -79,7 +79,7 @@ def told(search: Search, judged: Judged, judge: Judge, matters_um: float, with_t
     refining = tuple(each.hypothesis for each in judged.found if search.refined(each.hypothesis))
     found = [each for each in judged.found if each.hypothesis not in refining]
     found.sort(key=lambda each: -shares[each.hypothesis])
-    found = [each for each in found if _size_um(search, shares[each.hypothesis]) >= matters_um] or found[:1]
+    found = [each for each in found if _own_size_um(search, judged.node, each, shares) >= matters_um] or found[:1]
     if refining and all(_size_um(search, shares[each.hypothesis]) < matters_um for each in found):
         return _told_forms(search, refining)
     grade = graded(search, judged.node, found[0].grade)
@@ -140,6 +140,19 @@ def left_um(search: Search, trial: Trial) -> float:
 def _size_um(search: Search, share: float) -> float:
     """Return the RMS of a part of what is unexplained."""
     return left_um(search, search.root.trial) * float(np.sqrt(max(share, 0.0)))
+
+
+def _own_size_um(search: Search, node: Node, found: Found, shares: dict[Hypothesis, float]) -> float:
+    """Return the RMS of what is left without a cause, or of what a known effect pushes where that is more.
+
+    Beyond geometry: other causes and their forms may stand in for most of an effect that is there.
+    """
+    own = found.hypothesis
+    share_um = _size_um(search, shares[own])
+    if not isinstance(own, Known):
+        return share_um
+    noise_um = float(np.mean(search.engine.row_noise_mm)) * 1e3
+    return max(share_um, noise_um * float(np.sqrt(search.trials.size(node.trial, own))))
 
 
 def _remarks(

@@ -11,7 +11,7 @@ from hexdbb.evidence.exchange import in_known_words, of_better_form, settled, wi
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.one_predicts import or_one_that_predicts
-from hexdbb.evidence.place import at_its_place
+from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -42,6 +42,8 @@ class Found:
         Learned hypotheses beside it at the same place: how its form differs.
     deviation : float
         Of its form, as a part of its size.
+    is_lead : bool
+        Whether a learned function at its own place is a cause too: the effect describes a part of what that is.
     """
 
     hypothesis: Hypothesis
@@ -50,11 +52,12 @@ class Found:
     alike: tuple[str, ...] = ()
     refinements: tuple[str, ...] = ()
     deviation: float = 0.0
+    is_lead: bool = False
 
     @property
     def grade(self) -> Grade:
         """Verdict on this cause alone."""
-        if isinstance(self.hypothesis, Known):
+        if isinstance(self.hypothesis, Known) and not self.is_lead:
             return "ambiguous" if self.rivals else "effect"
         return "ambiguous" if any(not name.startswith("learned:") for name in self.rivals) else "unknown"
 
@@ -121,7 +124,10 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         cause = next(there, None)
         if cause is not None and each.name not in known:
             refinements[cause.name] = (*refinements.get(cause.name, ()), each.name)
-    found = tuple(_found(search, node, cause, refinements.get(cause.name, ())) for cause in causes)
+    found = tuple(
+        _found(search, node, cause, refinements.get(cause.name, ()), is_lead=_is_lead(search, causes, cause))
+        for cause in causes
+    )
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
     return Verdict(graded(search, node, grade), found, node, search.checked(node), before, wider)
@@ -186,8 +192,13 @@ def _in_order(search: Search, node: Node, learned: list[Learned]) -> list[Learne
     return sorted(learned, key=place)
 
 
-def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...]) -> Found:
+def _is_lead(search: Search, causes: list[Hypothesis], cause: Hypothesis) -> bool:
+    others = (each for each in causes if isinstance(each, Learned))
+    return isinstance(cause, Known) and any(at_a_place_of_its_kin(search, cause, each) for each in others)
+
+
+def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...], *, is_lead: bool) -> Found:
     rivals = rivals_of(search, node, cause)
     form = node.trial.forms[node.hypotheses.index(cause)]
     deviation = 0.0 if form is None else form.deviation
-    return Found(cause, rivals.others, rivals.margin, rivals.alike, refinements, deviation)
+    return Found(cause, rivals.others, rivals.margin, rivals.alike, refinements, deviation, is_lead)
