@@ -1,10 +1,10 @@
-"""Noise that lasts for some readings, told on single laps by its spectrum: how much of it is in the lowest harmonics.
+"""Noise that lasts for some readings, on single laps, by its spectrum: how much of it is in the lowest harmonics.
 
 White noise and noise that is forgotten exponentially: power s P(f) + (1 - s) times a variance, f in periods a reading,
 with P = (1 - kept^2) / (1 - 2 kept cos 2 pi f + kept^2). What a reading keeps of the one before is the same at every
-rate of readings, or goes by the time between them: both are weighed. The harmonics above the lowest tell variance, s
-and `kept` by Whittle's likelihood (1953), sum of -log S - I / S over their periodograms I; averaged over s and `kept`,
-it gives the power of the lowest harmonics, in which a fault shows, and how uncertain that is.
+rate of readings, or goes by the time between them: both are weighed. The harmonics above the lowest determine variance,
+s and `kept` by Whittle's likelihood (1953), sum of -log S - I / S over their periodograms I; averaged over s and
+`kept`, it gives the power of the lowest harmonics, in which a fault shows, and how uncertain that is.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 MOST_READINGS, MOST_OF_LAP = 20.0, 0.05
-"""Readings, and part of the slowest sweep, that noise lasts at most: longer it is as smooth as a fault, and no single
-lap tells them apart. A twentieth of a lap has its bend at the third harmonic."""
+"""Readings, and part of the slowest sweep, that noise lasts at most: longer it is as smooth as a fault, and a single
+lap does not distinguish them. A twentieth of a lap has its bend at the third harmonic."""
 CASES = 24
-"""Times that noise may last: from one to the next they grow by an eighth, far less than spectra tell."""
+"""Times that noise may last: from one to the next they grow by an eighth, far less than spectra resolve."""
 SHARES: Floats = np.linspace(0.0, 1.0, 33) ** 2
 """Of the variance: dense where little of it lasts, which still doubles the lowest power."""
 BINS = 48
