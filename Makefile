@@ -76,7 +76,7 @@ test-python: setup  ## Python tests
 	@$(BIN)/python -m pytest --numprocesses auto --dist loadfile -m "$(if $(filter ON,$(HEXDBB_LONG)),,not long)"
 
 .PHONY: test-long
-test-long: setup  ## whole searches of causes, one for each rule of them
+test-long: setup  ## the long tests: whole searches of causes
 	@echo "==> Long Python tests"
 	@$(BIN)/python -m pytest --numprocesses auto --dist worksteal -m long
 

@@ -9,7 +9,7 @@ harmonics of the angle
            takes and the rest; were the residual white, both would have the same variance: an F-test that needs no
            stated noise. A gauge noisier or quieter than stated does not deceive it. Noise that changes slowly is smooth
            as well, but differs from lap to lap: where laps are repeated, what they share must exceed what they do not.
-           Where none are, noise that lasts for some readings is told by its spectrum (`lasting_noise.py`): the
+           Where none are, noise that lasts for some readings is known by its spectrum (`lasting_noise.py`): the
            harmonics must exceed what it has there.
 """
 

@@ -20,11 +20,16 @@ MOST_READINGS, MOST_OF_LAP = 20.0, 0.05
 """Readings, and part of the slowest sweep, that noise lasts at most: longer it is as smooth as a fault, and a single
 lap does not distinguish them. A twentieth of a lap has its bend at the third harmonic."""
 CASES = 24
-"""Times that noise may last: from one to the next they grow by an eighth, far less than spectra resolve."""
+"""Number of times that noise may last. Neighbours differ by an eighth at one rate of readings, by a quarter where the
+rates differ by four; spectra of some thousand readings do not resolve less."""
+SHORTEST = 0.3
+"""Least time that noise lasts, in times between two readings: a reading then keeps 4 % of the one before, and the noise
+is white but for that."""
 SHARES: Floats = np.linspace(0.0, 1.0, 33) ** 2
-"""Of the variance: dense where little of it lasts, which still doubles the lowest power."""
+"""Parts of the variance that may last. They are close together where they are small: 3 % that lasts for twenty readings
+already doubles the power of the lowest harmonics."""
 BINS = 48
-"""Of frequencies, evenly spaced in their logarithm: the spectrum has one bend, which some ten describe."""
+"""Number of frequency bins, evenly spaced in the logarithm. The spectrum bends once, and ten bins describe that."""
 SAME_RATE = 1.1
 """Ratio of the times between readings up to which sweeps are of one rate: what is kept differs by a tenth at most."""
 
@@ -124,7 +129,7 @@ def _kept(steps_s: Floats, most: float) -> Floats:
     `most` is how many readings it lasts at most, those of the slowest rate.
     """
     same = 1.0 - np.geomspace(1.0 / most, 1.0, CASES)
-    by_time = np.exp(-steps_s[:, None] / np.geomspace(0.3 * steps_s.min(), most * steps_s.max(), CASES))
+    by_time = np.exp(-steps_s[:, None] / np.geomspace(SHORTEST * steps_s.min(), most * steps_s.max(), CASES))
     return np.hstack([np.tile(same, (len(steps_s), 1)), by_time])
 
 

@@ -40,7 +40,7 @@ class LearnedEntry(StrictModel):
     period: NotNegative = 0.0
     sign_width: NotNegative = 0.0
     since_s: Number = Field(validation_alias=AliasChoices("since_s", "middle_s"))
-    """Time at which what grows is zero; `middle_s` in files of hexdbb 0.1, in which that was the middle."""
+    """Time at which what grows is zero; earlier files call it `middle_s`, since it was the middle of the record's time."""
     span_s: Positive
     warp_width: NotNegative = 0.0
     roughness: Positive

@@ -157,15 +157,7 @@ class CirclePath:
 
 
 def circle_clearances(machine: MachineFile, circle: Circle, cup_mm: tuple[float, float, float]) -> Clearances | None:
-    """Compute the clearances of a circle; None where the machine cannot follow it.
-
-    Parameters
-    ----------
-    machine : MachineFile
-    circle : Circle
-    cup_mm : tuple of float
-        Nominal cup centre, base frame, mm.
-    """
+    """Compute the clearances of a circle; None where the machine cannot follow it. Parameters as of `CirclePath`."""
     path = CirclePath(machine, circle, cup_mm)
     if not path.is_reached:
         return None

@@ -36,7 +36,7 @@ def test_it_is_a_lead_where_a_function_of_its_place_is_a_cause(beside: Known | L
 def test_a_known_effect_is_as_large_as_what_it_pushes(
     own: Known | Learned, share: float, size: float, expected_um: float
 ) -> None:
-    """Of 100 noise variances unexplained, noise 0.5 µm."""
+    """The noise is 0.5 µm, and 100 times its variance is unexplained."""
     search: Any = SimpleNamespace(
         engine=SimpleNamespace(row_noise_mm=[5e-4]),
         root=SimpleNamespace(trial=SimpleNamespace(left=101.0)),
