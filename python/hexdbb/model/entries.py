@@ -40,7 +40,7 @@ class LearnedEntry(StrictModel):
     period: NotNegative = 0.0
     sign_width: NotNegative = 0.0
     since_s: Number = Field(validation_alias=AliasChoices("since_s", "middle_s"))
-    """Time at which what grows is zero; earlier files call it `middle_s`, since it was the middle of the record's time."""
+    """Time at which what grows is zero; earlier files call it `middle_s`, the middle of the record then."""
     span_s: Positive
     warp_width: NotNegative = 0.0
     roughness: Positive
