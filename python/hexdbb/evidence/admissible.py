@@ -30,6 +30,8 @@ class Checked:
     """Error of the grouping predicted worst, beyond what the fit expects of it, over the RMS explained where fitted."""
     missed_at_least: float = 0.0
     """The same where of several causes each predicts by its formula, or with its form, whichever errs less."""
+    of_geometry: tuple[str, ...] = ()
+    """Those of the reasons and excuses that geometry has too: it does not predict the same groups alone."""
 
     @property
     def excused(self) -> bool:
@@ -53,6 +55,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
     share = (base.left - trial.left) / excess if excess > 0.0 else 0.0
     reasons: list[str] = []
     excused: list[str] = []
+    of_geometry: list[str] = []
     if trial.is_of_time:
         return Checked(predicted, share, _not_between(predicted, share, criteria), claimed=(ARC,))
     for grouping, held in predicted.items():
@@ -63,7 +66,10 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
             continue
         extrapolates = held.before > criteria.extrapolates * base.left**0.5
         is_excused = extrapolates and _bends_geometry(trial, share, criteria)
-        (excused if is_excused else reasons).append(f"does not predict {WORDS[grouping]}")
+        words = f"does not predict {WORDS[grouping]}"
+        (excused if is_excused else reasons).append(words)
+        if extrapolates:
+            of_geometry.append(words)
     claimed = [held for grouping, held in predicted.items() if grouping != ARC]
     if claimed and not (
         reasons or excused or any(held.share >= criteria.heldout_share_min * share for held in claimed)
@@ -74,7 +80,7 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         if grouping != ARC:
             errors = _missed(grouping, held, trial, base, trials, criteria)
             missed, at_least = max(missed, errors[0]), max(at_least, errors[1])
-    return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least)
+    return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least, tuple(of_geometry))
 
 
 def _missed(

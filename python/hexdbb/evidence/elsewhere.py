@@ -26,7 +26,9 @@ def rivals_elsewhere(search: Search, node: Node, cause: Known) -> list[str]:
     cause : Known
     """
     kin = search.kin.get(cause.name, set())
-    is_instrument = search.engine.absent.ports(cause.effect) <= INSTRUMENT
+    # A gauge that is read late reads like all sliders ahead of it, and is the instrument's.
+    is_set_up = search.engine.base.info(cause.effect).is_set_up
+    is_instrument = is_set_up or search.engine.absent.ports(cause.effect) <= INSTRUMENT
     found = []
     for other in search.nodes:
         stands_in = [h for h in other.hypotheses if _is_elsewhere(h, kin, is_instrument)]

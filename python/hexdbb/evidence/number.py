@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
@@ -29,6 +30,11 @@ CONSTANT_STEP = 0.05
 MOST_STEPS = 12.0
 """Such changes that a number may move by: a quarter of a turn, beyond which a line is no approximation of a wave, or a
 factor of nearly two, from one of the constants first tried to the next."""
+
+
+def _learned(trial: Trial, place: int) -> Learned | None:
+    hypothesis = trial.members[place].hypothesis
+    return hypothesis if isinstance(hypothesis, Learned) and has_chosen_number(hypothesis.variable) else None
 
 
 def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
@@ -63,8 +69,7 @@ def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
 
 def with_best_number(search: Search, trial: Trial, place: int) -> Trial:
     """Return a trial with the number of one member where it fits best; the same where that gains nothing."""
-    hypothesis = trial.members[place].hypothesis
-    if not isinstance(hypothesis, Learned) or not has_chosen_number(hypothesis.variable):
+    if (hypothesis := _learned(trial, place)) is None:
         return trial
     for _ in range(1 if hypothesis.variable.period else search.criteria.constant_rounds):
         member = trial.members[place]
@@ -78,4 +83,8 @@ def with_best_number(search: Search, trial: Trial, place: int) -> Trial:
         if found.log_evidence <= trial.log_evidence or found.refused:
             break
         trial = found
+    tuned = _learned(trial, place)
+    if tuned not in (None, hypothesis) and not hypothesis.variable.period:
+        # A gauge that settles within a tenth of a second is late by that: the same as one that is read late.
+        add_kin(search, [tuned])
     return trial

@@ -22,6 +22,8 @@ from hexdbb.predictors.periods import strongest_frequency
 
 Floats = NDArray[np.float64]
 
+SCALE_NOISES = 8.0
+"""Shortest period of the gauge's scale over the noise of a reading: a sine of it loses a quarter of itself by the noise."""
 EVERY = slice(0, None)
 """All rows."""
 
@@ -197,7 +199,7 @@ class _Scan:
 
 
 def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
-    """Yield the strongest periods: of the places of sliders and guideways, and in time of what shifts.
+    """Yield the strongest periods: of the places of sliders and guideways, of the gauge's scale, and in time of what shifts.
 
     The cup stands for the ball too, which moves alike.
     """
@@ -210,6 +212,8 @@ def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[
         weighted = np.concatenate([linear.residual * readings.answer(ports) for _, ports in pushes])
         values = np.concatenate([position[:, column] for column, _ in pushes])
         yield from _period(place, element, "position", weighted, values, 1.0 / criteria.shortest_mm)
+    scale_mm, shortest_mm = readings.state["gauge_scale_mm"], SCALE_NOISES * float(np.mean(readings.noise_mm))
+    yield from _period("reading", ALL, "scale", linear.residual, scale_mm, 1.0 / shortest_mm)
     gaps = np.diff(np.unique(time_s))
     if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))

@@ -99,6 +99,9 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
     # What the chosen one is excused from, circles that its form does not predict, refutes no set that fits better.
     if is_ahead and reasons and reasons <= set(search.checked(node).excused_from):
         return not _is_bent(search, other)
+    # Nor do circles that geometry does not predict, of the same effect at another element.
+    if is_ahead and _errs_where_geometry_does(search, other, node):
+        return not _is_bent(search, other)
     if reasons or _is_bent(search, other):
         return False
     # What stands in for something else makes nothing less sure that is for sure.
@@ -106,6 +109,14 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
         return True
     # But where geometry leads away, what fewer faults miss there does not refute them, if they fit better.
     return is_ahead and other.is_known and other.faults < node.faults and misses_only_geometry(search, other)
+
+
+def _errs_where_geometry_does(search: Search, other: Node, node: Node) -> bool:
+    """Check for one effect at one other element each, and that geometry errs in every grouping that it does not predict."""
+    if len(node.members) != 1 or other.faults != 1 or not (other.is_known and _has_effect(other, node.hypotheses[0])):
+        return False
+    checked = search.checked(other)
+    return set(checked.reasons) <= set(checked.of_geometry)
 
 
 def _describe(search: Search, other: Node, cause: Hypothesis) -> bool:

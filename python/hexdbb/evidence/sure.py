@@ -43,8 +43,8 @@ def _explain_unrefined(search: Search, node: Node) -> bool:
 def is_for_sure(search: Search, node: Node, missed_most: float | None = None) -> bool:
     """Check that causes together explain enough, and err little enough elsewhere, to be named for sure.
 
-    One effect that its form excuses from predicting may still be the cause, where its formula explains a part. Several
-    must explain more by their formulas: functions of forms, free enough, stand in for something else.
+    The formula of one effect must explain a part, whether or not its form excuses it from predicting; those of several
+    more: functions of forms, free enough, stand in for something else.
 
     Parameters
     ----------
@@ -59,8 +59,6 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
         return False
     if not _errs_little(search, node, missed_most):
         return is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
-    if is_one and not checked.excused:
-        return True
     return explained_by_formulas(search, node) >= _least_by_formulas(search, node)
 
 

@@ -10,13 +10,12 @@ from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import in_known_words, of_better_form, settled, with_found_beside
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
-from hexdbb.evidence.one_predicts import or_one_that_predicts
 from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
+from hexdbb.evidence.predicting import or_another_that_predicts, or_one_that_predicts
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over
@@ -103,7 +102,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
     first = search.run()
-    other = _predicting(search, first)
+    other = or_another_that_predicts(search, first)
     node = in_known_words(search, other)
     if other is not first:
         node = with_found_beside(search, node)
@@ -136,34 +135,6 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
 def _is_form(search: Search) -> bool:
     """Check that what nothing explains is no more than the forms of the effects in the model may be off."""
     return search.root.trial.left - 1.0 < search.criteria.form_named**2 * search.trials.explained_before
-
-
-def _predicting(search: Search, node: Node) -> Node:
-    """Prefer another set that explains nearly all and predicts to one that does not.
-
-    A single cause gives way to one of another kind; of several, some may be right.
-    """
-    if not is_doubtful(search, node):
-        return node
-    is_one = len(node.members) == 1
-    others = [
-        each
-        for each in search.nodes
-        if len(each.members) <= len(node.members)
-        and not each.trial.refused
-        and not (is_one and any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses))
-    ]
-    # The best first: what lies behind it need not be held out.
-    others.sort(key=lambda each: -each.score)
-    return next((each for each in others if _explains_and_predicts(search, each)), node)
-
-
-def _explains_and_predicts(search: Search, node: Node) -> bool:
-    excess = search.root.trial.left - 1.0
-    if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
-        return False
-    # A free function of time claims nothing of what was left out, and so predicts nothing of it either.
-    return not (search.checked(node).reasons or is_doubtful(search, node) or node.trial.is_free_in_time)
 
 
 def _grouped(search: Search, node: Node) -> tuple[list[Hypothesis], dict[str, tuple[str, ...]]]:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, following, rocking
+from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, along, following
 from hexdbb.learned.variable import ELAPSED, Variable
 
 SPLINES = 6
@@ -109,8 +109,10 @@ OF_PAIR_OF_LEGS = (
     *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE)),
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
-ROCKING = (v.CARRIAGES_ACCELERATION, *map(rocking, DIRECTIONS_DEG))
+ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
 """A base that stands softly rocks by the inertia of what moves on it: alike in every direction, or along one."""
+LEANING = tuple(along("position", each) for each in DIRECTIONS_DEG)
+"""A frame bends, or a table tips, by where the platform's weight stands; the cup stands on it."""
 
 
 def _by_speed(course: Variable) -> Variable:
@@ -164,7 +166,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,
     "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
-    "cup": (*OF_BALL, *COURSES),
+    "cup": (*OF_BALL, *COURSES, *LEANING),
     "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION), *SINCE_START),
 }
 """Further variables of single elements by place."""

@@ -17,10 +17,18 @@ from hexdbb.learned.variable import OF_MEMORY, Variable
 
 PERIOD_SPLINES = 8
 """Splines of a period that the readings chose: a sine with two harmonics."""
+REPEATING = {
+    "time": ("time_s", "s", "time"),
+    "position": ("sliders_mm", "mm", "position of the slider"),
+    "scale": ("gauge_scale_mm", "mm", "position on the gauge's scale"),
+}
+"""Columns over which something may repeat with a period that readings choose: column, unit, words."""
 INSTANT_S = 1e-4
 """Resolution of instants in names: far below the time between two samples."""
 FOLLOWING_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
+POSITION_SPLINES = 12
+"""Splines over the platform's position: a frame's supports lift off somewhere."""
 LAGGED, RELAXING, AFTER, ALONG = "lagged", "relaxing", "after", "along"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
@@ -31,7 +39,11 @@ BY_NUMBER = {
 of the run-up."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
-ROCKING = f"acceleration_{ALONG}"
+DIRECTED = {
+    "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages", FOLLOWING_SPLINES),
+    "position": ("position_mm", "mm", "position of the platform", POSITION_SPLINES),
+}
+"""Vectors of which the part along a direction counts: column, unit, words, splines."""
 HALF_TURN_DEG = 180.0
 """A direction and its opposite are the same: the spline takes either sign."""
 
@@ -45,10 +57,9 @@ def step(instants_s: Sequence[float]) -> Variable:
 
 
 def periodic(column: str, period: float) -> Variable:
-    """Return the variable of what repeats with a period of `time` (s) or `position` (mm)."""
+    """Return the variable of what repeats with a period of `time` (s), `position` or `scale` (mm)."""
     name = f"{period:.7g}"
-    of = {"time": ("time_s", "s", "time"), "position": ("sliders_mm", "mm", "position of the slider")}
-    return Variable(f"{column}_period@{name}", *of[column], PERIOD_SPLINES, period=float(name))
+    return Variable(f"{column}_period@{name}", *REPEATING[column], PERIOD_SPLINES, period=float(name))
 
 
 def following(variable: Variable, how: str, constant: float) -> Variable:
@@ -64,15 +75,16 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     )
 
 
-def rocking(direction_deg: float) -> Variable:
-    """Return the variable of the carriages' acceleration along a direction in the base's x-y plane."""
+def along(vector: str, direction_deg: float) -> Variable:
+    """Return the variable of a vector's part along a direction in the base's x-y plane; `DIRECTED` names the vector."""
+    column, unit, words, count = DIRECTED[vector]
     number = f"{direction_deg % HALF_TURN_DEG or HALF_TURN_DEG:.{NUMBER_DIGITS}g}"
     return Variable(
-        f"{ROCKING}@{number}",
-        f"carriages_acceleration_mm_s2{OF_MEMORY}{ALONG}@{number}",
-        "mm/s²",
-        f"acceleration of all carriages along {float(number):.3g}° in the x-y plane",
-        FOLLOWING_SPLINES,
+        f"{vector}_{ALONG}@{number}",
+        f"{column}{OF_MEMORY}{ALONG}@{number}",
+        unit,
+        f"{words} along {float(number):.3g}° in the x-y plane",
+        count,
     )
 
 
@@ -119,10 +131,10 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return step(values)
     if len(values) != 1 or values[0] <= 0.0:
         return None
-    if kind in ("time_period", "position_period"):
+    if kind in (f"{each}_period" for each in REPEATING):
         return periodic(kind.removesuffix("_period"), values[0])
-    if kind == ROCKING:
-        return rocking(values[0]) if any(each.name.startswith(ROCKING) for each in variables) else None
     of, _, how = kind.rpartition("_")
+    if how == ALONG:
+        return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None
     known = {each.name: each for each in variables}
     return following(known[of], how, values[0]) if how in BY_NUMBER and of in known else None

@@ -30,6 +30,7 @@ OWN = {
     "course_in_platform": ("axis", "1", "the same in the platform frame"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
+    "gauge_scale_mm": ("sample", "mm", "where the gauge stands on its scale: the measured reading, nominal if planned"),
     "deflection_direction": ("sample", "1", "direction in which that changes, +1 or -1; 0: never moved"),
     "deflection_since_turn_mm": ("sample", "mm", "travel of the gauge since it turned in its sweep; 1e6: not yet"),
     "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),

@@ -1,6 +1,7 @@
 """Deflection of the gauge as geometry predicts it: what errors of the gauge that depend on its reading depend on.
 
-The measured reading is no variable of a cause: a function of it explains whatever is missing. The nominal one is
+The measured reading is no variable of a cause: a function of it explains whatever is missing, unless it repeats within
+so little of the gauge's scale that what is missing does not (`scale_mm`: a scale's lines, its interpolation). The nominal one is
 constant on circles of the nominal radius, where errors of geometry and set-up deflect the gauge by tenths of a
 millimetre. So the readings are predicted by the machine with its geometry and set-up fitted to them by steps of Gauss
 and Newton from the nominal machine. A gauge whose scale bends would bend geometry instead: from the second step on,
@@ -23,6 +24,7 @@ from hexdbb.model import Model, MountKey, new_model
 Floats = NDArray[np.float64]
 
 DEFLECTION = "deflection_mm"
+SCALE = "gauge_scale_mm"
 DIRECTION_AND_TRAVEL = ("deflection_direction", "deflection_since_turn_mm")
 FITTED_ROWS = 3000
 """Readings that the step is taken from: some tens for each value of geometry and set-up, as in `Criteria.fit_rows`."""
@@ -38,6 +40,11 @@ NOT_YET_MM = 1e6
 """As the engine writes a travel since a reversal that has not been."""
 NOISE_MM = 1e-3
 """Against which priors count: of tenths of a millimetre, they are the same beside the noise of any gauge."""
+
+
+def scale_mm(reading_mm: Floats, nominal_mm: Floats) -> Floats:
+    """Return where the gauge stood on its scale, shape (n,): as measured, or nominal where samples are planned."""
+    return np.where(np.isfinite(reading_mm), reading_mm, nominal_mm)
 
 
 def deflection_mm(

@@ -19,7 +19,14 @@ from hexdbb.plan import CircleRun
 from hexdbb.record import Record
 from hexdbb.record.columns import joined
 from hexdbb.samples.course import COURSES, COURSES_FROM, courses
-from hexdbb.samples.deflection import DEFLECTION, DIRECTION_AND_TRAVEL, deflection_mm, direction_and_travel
+from hexdbb.samples.deflection import (
+    DEFLECTION,
+    DIRECTION_AND_TRAVEL,
+    SCALE,
+    deflection_mm,
+    direction_and_travel,
+    scale_mm,
+)
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
@@ -66,7 +73,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, DEFLECTION, *DIRECTION_AND_TRAVEL)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -98,6 +105,8 @@ class Whole:
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
+        elif name == SCALE:
+            self.columns[name] = scale_mm(*self._known("reading_mm", "nominal_reading_mm"))
         elif name in DIRECTION_AND_TRAVEL:
             found = direction_and_travel(*self._known(DEFLECTION, "time_s", "sweep"))
             self.columns |= dict(zip(DIRECTION_AND_TRAVEL, found, strict=True))

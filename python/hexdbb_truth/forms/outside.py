@@ -14,6 +14,7 @@ from hexdbb_truth.forms import (
     outside_last,
     outside_later,
     outside_measuring,
+    outside_others,
     outside_structure,
 )
 from hexdbb_truth.forms.fault import Fault, Outside
@@ -34,6 +35,7 @@ BY_NAME_ONLY: dict[str, Outside] = {
     **outside_blind_three.TABLE,
     **outside_blind_three_structure.TABLE,
     **outside_blind_three_measuring.TABLE,
+    **outside_others.TABLE,
 }
 """Kinds by name that are in a list only where it is told to have them."""
 EVERY_OUTSIDE: dict[str, Outside] = {**OUTSIDE, **BY_NAME_ONLY}

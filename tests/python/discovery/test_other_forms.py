@@ -34,6 +34,28 @@ def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
     assert after < 1.1 < before
 
 
+def test_a_table_that_leans_is_learned_over_the_platform_s_position() -> None:
+    """The weight counts along 43.5 degrees."""
+    line = line_of(case("table_leans-d0-x10-calibrate-s0"), ())
+    assert line["outcome"] == "right"
+    (found,) = line["found"]
+    name, _, direction_deg = found["name"].partition("@")
+    assert name == "learned:cup:position_along"
+    assert 43.0 < float(direction_deg) < 44.0
+    assert line["left"][1] < 1.2
+
+
+def test_a_scale_is_learned_over_its_lines() -> None:
+    """Its lines are 0.05307 mm apart; what it reads is off by a sine of each line and by one of half a line."""
+    line = line_of(case("scale_is_interpolated-d0-x3-calibrate-s0"), ())
+    assert line["outcome"] == "right"
+    (found,) = line["found"]
+    name, _, line_mm = found["name"].partition("@")
+    assert name == "learned:reading:scale_period"
+    assert float(line_mm) == pytest.approx(0.05307, rel=1e-3)
+    assert line["left"][1] < 1.2
+
+
 def test_a_drive_that_yields_under_load_is_learned_over_speed_and_load() -> None:
     line = line_of(case("droops_when_pushed-d0-x10-calibrate-s0"), ())
     assert line["outcome"] == "right"

@@ -52,6 +52,12 @@ def test_a_period_of_a_slider_is_found(linear: Linear, readings: Readings, port:
     assert found.hypothesis.variable.period == pytest.approx(7.3, rel=0.01)
 
 
+def test_a_period_of_the_gauge_s_scale_is_found(linear: Linear, readings: Readings) -> None:
+    lines = 4.0 * np.sin(2.0 * np.pi * readings.state["gauge_scale_mm"] / 0.053)
+    (found,) = _of(replace(linear, residual=linear.residual + lines), readings, "learned:reading:scale_period")
+    assert found.hypothesis.variable.period == pytest.approx(0.053, rel=0.01)
+
+
 def test_a_period_in_time_is_found_of_a_leg_that_swings(linear: Linear, readings: Readings, port: Port) -> None:
     swing = port("leg")[:, 1] * 3e-3 * np.sin(2.0 * np.pi * readings.state["time_s"] / 2.3)
     (found,) = _of(replace(linear, residual=linear.residual + swing), readings, "learned:leg:2:time_period")

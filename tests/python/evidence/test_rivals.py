@@ -10,7 +10,7 @@ import pytest
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.rivals import rivals_of
+from hexdbb.evidence.rivals import Rivals, rivals_of
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
@@ -38,10 +38,24 @@ def rivals(
     beside: tuple[Known, ...] = (),
     by_formulas: tuple[float, float] = (1.0, 1.0),
 ) -> tuple[str, ...]:
-    """Return the names of those that rival a cause, which has a score of 0 and lives in a learned function.
+    """Return the names of those of another kind that rival a cause.
 
-    Other causes may stand beside it; what the formulas of the set and the rival leave is stated.
+    It has a score of 0 and lives in a learned function. Other causes may stand beside it; what the formulas of the set and
+    the rival leave is stated.
     """
+    return rivalry(chosen, other, rival, cause, home, beside, by_formulas).others
+
+
+def rivalry(
+    chosen: Checked,
+    other: Checked,
+    rival: Any,
+    cause: Known = CAUSE,
+    home: Learned = HOME,
+    beside: tuple[Known, ...] = (),
+    by_formulas: tuple[float, float] = (1.0, 1.0),
+) -> Rivals:
+    """Return the same with those of the cause's kind."""
     node, root = node_of(0.0, cause, *beside), node_of(-1000.0, left=11.0)
     formulas = {id(node.trial): by_formulas[0], id(rival.trial): by_formulas[1]}
     checks = {id(node): chosen, id(rival): other}
@@ -57,7 +71,7 @@ def rivals(
         trials=SimpleNamespace(explained_before=0.0),
         engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"}))),
     )
-    return rivals_of(search, node, cause).others
+    return rivals_of(search, node, cause)
 
 
 @pytest.mark.parametrize(
@@ -80,6 +94,24 @@ def test_what_a_cause_is_excused_from_refutes_nothing_that_fits_better(
 
 def test_a_cause_that_predicts_has_no_rival_that_does_not() -> None:
     assert rivals(Checked({}, 1.0, ()), Checked({}, 1.0, (CIRCLES,)), node_of(50.0, TILT)) == ()
+
+
+@pytest.mark.parametrize(
+    ("score", "reasons", "is_named"),
+    [
+        (50.0, (CIRCLES,), True),
+        (50.0, (CIRCLES, FEED), False),
+        (0.0, (CIRCLES,), False),
+    ],
+    ids=["fits better", "misses a feed", "fits as well"],
+)
+def test_circles_that_geometry_does_not_predict_refute_no_other_element(
+    score: float, reasons: tuple[str, ...], is_named: bool
+) -> None:
+    other = Known("ball_eccentricity", ("1",))
+    checked = Checked({}, 1.0, reasons, missed=7.0, of_geometry=(CIRCLES,))
+    found = rivalry(Checked({}, 1.0, ()), checked, node_of(score, other))
+    assert found.alike == ((other.name,) if is_named else ())
 
 
 @pytest.mark.parametrize(("reasons", "is_rival"), [((), True), ((FEED,), False)])

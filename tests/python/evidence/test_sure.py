@@ -113,6 +113,13 @@ def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, 
     assert asked(form, before=before_um, missed=5.0, left=left) is sure_of_it
 
 
+@pytest.mark.parametrize(("part", "sure_of_it"), [(1.1, True), (0.9, False)])
+def test_the_formula_of_one_effect_explains_a_part_though_it_predicts(part: float, sure_of_it: bool) -> None:
+    """A bow of a guideway that is nine tenths functions of its form may be the slider's cover."""
+    form = Form(0.4, 0.07, ("learned:vertical:3:position",))
+    assert asked(form, left=BEFORE - part * DEFAULT.formula_explains * SHARE) is sure_of_it
+
+
 @pytest.mark.parametrize(
     ("left", "missed", "before", "sure_of_it"),
     [(5.0, 1.2, 1.0, True), (8.0, 1.2, 1.0, False), (8.0, 0.3, 1.0, True), (8.0, 0.3, 11.0, False)],

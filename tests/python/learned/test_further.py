@@ -104,6 +104,8 @@ def test_a_direction_and_its_opposite_are_one() -> None:
     assert learned.with_number(190.0).name == "learned:ball:acceleration_along@10"
     assert learned.with_number(360.0).name == "learned:ball:acceleration_along@180"
     assert learned.variable.column == "carriages_acceleration_mm_s2.along@170"
+    table = Learned.parse("learned:cup:position_along@190")
+    assert (table.variable.column, table.components) == ("position_mm.along@10", 3)
 
 
 def test_what_a_function_needs_of_memory_is_the_column_and_the_time() -> None:
@@ -143,6 +145,7 @@ def test_what_acts_within_what(one: str, place: str, element: int, expected: boo
         ("learned:leg:1-3:time", "element '1-3' (expected one of 1, 2, 3, 4, 5, 6, 1-2, 3-4, 5-6, all)"),
         ("learned:leg:1:leg_force_lagged@-2", "variable 'leg_force_lagged@-2' (expected one of position"),
         ("learned:slider:1:acceleration_along@30", "variable 'acceleration_along@30' (expected one of position"),
+        ("learned:ball:position_along@30", "variable 'position_along@30' (expected one of time"),
         ("learned:platform:position", "variable 'position' (expected one of time, warming)"),
         ("learned:lateral:all:position", "variable 'position' (expected one of time, warming)"),
     ],

@@ -37,6 +37,12 @@ def test_it_is_what_the_machine_deflects_and_not_what_the_gauge_adds() -> None:
     assert np.std(disturbed - found) < 0.3 * np.std(hum_mm)
 
 
+def test_the_gauge_stands_where_it_reads() -> None:
+    record = record_of(7)
+    reading_mm = _deflected_mm(record)
+    np.testing.assert_allclose(_with_reading(record, reading_mm)["gauge_scale_mm"], reading_mm, rtol=0.0, atol=1e-12)
+
+
 def test_a_scale_that_bends_leaves_it_a_function_of_the_true_deflection() -> None:
     """A curve of the true deflection is all that a function of it needs; geometry alone is bent beside any curve."""
     record = record_of(7)
@@ -52,4 +58,5 @@ def test_planned_samples_deflect_the_gauge_as_the_nominal_machine_does() -> None
     runs = [run for run in plan.runs() if run.circle.id < 2]
     angle = np.linspace(0.0, 2.0 * np.pi, COUNT, endpoint=False)
     planned = Samples.planned(MACHINE, runs, angle, plan.gauge.bar_length_mm)
-    np.testing.assert_array_equal(planned["deflection_mm"], planned["nominal_reading_mm"])
+    for name in ("deflection_mm", "gauge_scale_mm"):
+        np.testing.assert_array_equal(planned[name], planned["nominal_reading_mm"])

@@ -53,7 +53,9 @@ VARIABLES = {
     "time_in_sweep": ("time_in_run",),
     "time_period": ("time",),
     "position_period": ("position",),
+    "scale_period": ("deflection",),
     "acceleration_along": ("acceleration",),
+    "position_along": ("position",),
     "course": ("direction",),
     "course_speed": ("direction", "velocity"),
 }

@@ -1,4 +1,4 @@
-"""One hypothesis that predicts everything better than a set which only fits better: the one is the cause."""
+"""What predicts, in place of what only fits."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from hexdbb.evidence import one_predicts
+from hexdbb.evidence import predicting
 from hexdbb.evidence.criteria import DEFAULT
 
 ONE = {"circle": 0.12, "feed": 0.2, "direction": 0.3}
@@ -24,10 +24,10 @@ def node_of(count: int, left: float, errors: dict[str, float], reasons: tuple[st
 
 def answered(monkeypatch: pytest.MonkeyPatch, one: Any, several: Any, *, for_sure: bool = False) -> Any:
     """Return which of two sets is the answer where 901 noise variances are unexplained."""
-    monkeypatch.setattr(one_predicts, "is_for_sure", lambda search, node: for_sure)
+    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: for_sure)
     root = SimpleNamespace(trial=SimpleNamespace(left=901.0))
     search: Any = SimpleNamespace(criteria=DEFAULT, root=root, nodes=[several, one], checked=lambda each: each.checked)
-    return one_predicts.or_one_that_predicts(search, several)
+    return predicting.or_one_that_predicts(search, several)
 
 
 def test_what_predicts_better_is_the_cause_though_it_leaves_more(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -49,3 +49,28 @@ def test_what_predicts_better_is_the_cause_though_it_leaves_more(monkeypatch: py
 def test_else_the_set_stays(monkeypatch: pytest.MonkeyPatch, one: Any, for_sure: bool) -> None:
     several = node_of(2, 1.1, SEVERAL)
     assert answered(monkeypatch, one, several, for_sure=for_sure) is several
+
+
+@pytest.mark.parametrize(
+    ("score", "for_sure", "gives_way"),
+    [(-300.0, True, False), (-300.0, False, True), (300.0, True, True)],
+    ids=["fits worse", "fits worse than one that is not sure", "fits better"],
+)
+def test_what_is_for_sure_gives_way_to_nothing_that_fits_worse(
+    monkeypatch: pytest.MonkeyPatch, score: float, for_sure: bool, gives_way: bool
+) -> None:
+    """Circles that hardly hold geometry are predicted badly by a formula too, and by a free function as it expects."""
+    formula, function = node_of(1, 1.0, ONE), node_of(1, 1.1, ONE)
+    formula.score, function.score = 0.0, score
+    for each in (formula, function):
+        each.hypotheses, each.trial.is_free_in_time = (each,), False
+    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: for_sure)
+    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is formula)
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=9.0)),
+        nodes=[formula, function],
+        checked=lambda each: each.checked,
+        same_kind=lambda one, other: one is other,
+    )
+    assert predicting.or_another_that_predicts(search, formula) is (function if gives_way else formula)

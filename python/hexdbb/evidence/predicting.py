@@ -1,0 +1,66 @@
+"""Sets that predict what was left out, in place of those that only fit."""
+
+from __future__ import annotations
+
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.readings import ARC
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import is_doubtful
+from hexdbb.evidence.sure import is_for_sure
+
+
+def or_another_that_predicts(search: Search, node: Node) -> Node:
+    """Prefer another set that explains nearly all and predicts to one that does not.
+
+    A single cause gives way to one of another kind; of several, some may be right. One that is for sure although it
+    errs where geometry leads away gives way to nothing that fits worse: what is freer only expects to err more.
+    """
+    if not is_doubtful(search, node):
+        return node
+    is_sure = is_for_sure(search, node)
+    is_one = len(node.members) == 1
+    others = [
+        each
+        for each in search.nodes
+        if len(each.members) <= len(node.members)
+        and not each.trial.refused
+        and not (is_one and any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses))
+        and not (is_sure and each.score < node.score - search.criteria.margin_nats)
+    ]
+    # The best first: what lies behind it need not be held out.
+    others.sort(key=lambda each: -each.score)
+    return next((each for each in others if _explains_and_predicts(search, each)), node)
+
+
+def _explains_and_predicts(search: Search, node: Node) -> bool:
+    excess = search.root.trial.left - 1.0
+    if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
+        return False
+    # A free function of time claims nothing of what was left out, and so predicts nothing of it either.
+    return not (search.checked(node).reasons or is_doubtful(search, node) or node.trial.is_free_in_time)
+
+
+def or_one_that_predicts(search: Search, node: Node) -> Node:
+    """Return one hypothesis that predicts all that was left out better than a set which is not for sure; else the set.
+
+    It must explain nearly all alone. What the set explains beyond that it explains only where fitted.
+    """
+    if len(node.members) < 2 or is_for_sure(search, node):
+        return node
+    most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
+    alone = [e for e in search.nodes if len(e.members) == 1 and not e.trial.refused and e.trial.left < most]
+    alone.sort(key=lambda each: -each.score)
+    return next((each for each in alone if _predicts_better(search, each, node)), node)
+
+
+def _predicts_better(search: Search, one: Node, several: Node) -> bool:
+    """Check that one hypothesis errs less than several in every grouping that they claim to predict."""
+    checked, others = search.checked(one), search.checked(several).heldout
+    claimed = [grouping for grouping in others if grouping != ARC]
+    if checked.reasons or not claimed or any(grouping not in checked.heldout for grouping in claimed):
+        return False
+    return all(
+        checked.heldout[grouping].as_fitted / checked.heldout[grouping].before
+        < others[grouping].as_fitted / others[grouping].before
+        for grouping in claimed
+    )
