@@ -80,7 +80,9 @@ def check(trial: Trial, base: Trial, trials: Trials, criteria: Criteria) -> Chec
         if grouping != ARC:
             errors = _missed(grouping, held, trial, base, trials, criteria)
             missed, at_least = max(missed, errors[0]), max(at_least, errors[1])
-    return Checked(predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least, tuple(of_geometry))
+    return Checked(
+        predicted, share, tuple(reasons), tuple(excused), tuple(predicted), missed, at_least, tuple(of_geometry)
+    )
 
 
 def _missed(

@@ -199,7 +199,7 @@ class _Scan:
 
 
 def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
-    """Yield the strongest periods: of the places of sliders and guideways, of the gauge's scale, and in time of what shifts.
+    """Yield the strongest periods: of the places of sliders and guideways, of the gauge's scale, in time of what shifts.
 
     The cup stands for the ball too, which moves alike.
     """

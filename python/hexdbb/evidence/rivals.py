@@ -112,7 +112,7 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
 
 
 def _errs_where_geometry_does(search: Search, other: Node, node: Node) -> bool:
-    """Check for one effect at one other element each, and that geometry errs in every grouping that it does not predict."""
+    """Check for the same effect at one other element, which fails only on what geometry alone does not predict."""
     if len(node.members) != 1 or other.faults != 1 or not (other.is_known and _has_effect(other, node.hypotheses[0])):
         return False
     checked = search.checked(other)

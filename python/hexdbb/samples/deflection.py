@@ -1,11 +1,11 @@
 """Deflection of the gauge as geometry predicts it: what errors of the gauge that depend on its reading depend on.
 
 The measured reading is no variable of a cause: a function of it explains whatever is missing, unless it repeats within
-so little of the gauge's scale that what is missing does not (`scale_mm`: a scale's lines, its interpolation). The nominal one is
-constant on circles of the nominal radius, where errors of geometry and set-up deflect the gauge by tenths of a
-millimetre. So the readings are predicted by the machine with its geometry and set-up fitted to them by steps of Gauss
-and Newton from the nominal machine. A gauge whose scale bends would bend geometry instead: from the second step on,
-polynomials of the deflection are fitted beside it, and only what geometry predicts is the deflection.
+so little of the gauge's scale that what is missing does not (`scale_mm`: a scale's lines, its interpolation). The
+nominal one is constant on circles of the nominal radius, where errors of geometry and set-up deflect the gauge by
+tenths of a millimetre. So the readings are predicted by the machine with its geometry and set-up fitted to them by
+steps of Gauss and Newton from the nominal machine. A gauge whose scale bends would bend geometry instead: from the
+second step on, polynomials of the deflection are fitted beside it, and only what geometry predicts is the deflection.
 """
 
 from __future__ import annotations

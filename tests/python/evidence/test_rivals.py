@@ -40,8 +40,8 @@ def rivals(
 ) -> tuple[str, ...]:
     """Return the names of those of another kind that rival a cause.
 
-    It has a score of 0 and lives in a learned function. Other causes may stand beside it; what the formulas of the set and
-    the rival leave is stated.
+    It has a score of 0 and lives in a learned function. Other causes may stand beside it; what the formulas of the set
+    and the rival leave is stated.
     """
     return rivalry(chosen, other, rival, cause, home, beside, by_formulas).others
 
