@@ -23,7 +23,7 @@ from hexdbb.predictors.periods import strongest_frequency
 Floats = NDArray[np.float64]
 
 SCALE_NOISES = 8.0
-"""Shortest period of the gauge's scale over the noise of a reading: a sine of it loses a quarter of itself by the noise."""
+"""Shortest period of the gauge's scale over the noise of a reading, by which a sine of it loses a quarter of itself."""
 EVERY = slice(0, None)
 """All rows."""
 
@@ -199,7 +199,7 @@ class _Scan:
 
 
 def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
-    """Yield the strongest periods: of the places of sliders and guideways, of the gauge's scale, in time of what shifts.
+    """Yield the strongest periods: of the places of sliders and guideways, the gauge's scale, in time of what shifts.
 
     The cup stands for the ball too, which moves alike.
     """

@@ -28,6 +28,7 @@ def readings() -> Readings:
         "travel_direction": np.sign(velocity),
         "time_s": time_s,
         "angle_rad": turn % (2.0 * np.pi),
+        "gauge_scale_mm": 0.3 * np.sin(turn + 0.7),
         "direction": np.where(np.arange(rows) // 120 % 2 == 0, 1.0, -1.0),
     }
     circle = np.arange(rows) // 240

@@ -69,7 +69,10 @@ def rivalry(
         learnable=SimpleNamespace(by_name={home.name: home}),
         left_by_formulas=lambda trial: formulas.get(id(trial), trial.left),
         trials=SimpleNamespace(explained_before=0.0),
-        engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"}))),
+        engine=SimpleNamespace(
+            absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
+            base=SimpleNamespace(info=lambda effect: SimpleNamespace(is_set_up=True)),
+        ),
     )
     return rivals_of(search, node, cause)
 
