@@ -53,8 +53,31 @@ def or_one_that_predicts(search: Search, node: Node) -> Node:
     return next((each for each in alone if _predicts_better(search, each, node)), node)
 
 
+def or_fewer_by_formulas(search: Search, node: Node) -> Node:
+    """Return fewer known effects whose formulas explain as much as those of a set, and predict better; else the set.
+
+    They must explain nearly all. What the set leaves less is explained by the functions of its forms, which of slow
+    drifts at six screws are free enough for anything.
+    """
+    if not node.is_known or len(node.members) < 2:
+        return node
+    left = search.left_by_formulas(node.trial)
+    most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
+    fewer = [
+        each
+        for each in search.nodes
+        if each.is_known
+        and each.faults < node.faults
+        and each.trial.left < most
+        and not each.trial.refused
+        and search.left_by_formulas(each.trial) <= left
+    ]
+    fewer.sort(key=lambda each: (each.faults, -each.score))
+    return next((each for each in fewer if _predicts_better(search, each, node)), node)
+
+
 def _predicts_better(search: Search, one: Node, several: Node) -> bool:
-    """Check that one hypothesis errs less than several in every grouping that they claim to predict."""
+    """Check that a set errs less than another in every grouping that this claims to predict."""
     checked, others = search.checked(one), search.checked(several).heldout
     claimed = [grouping for grouping in others if grouping != ARC]
     if checked.reasons or not claimed or any(grouping not in checked.heldout for grouping in claimed):

@@ -188,8 +188,16 @@ class Search:
             return one.effect == other.effect and not set(one.elements).isdisjoint(other.elements)
         if isinstance(one, Known) or isinstance(other, Known):
             known, learned = (one, other) if isinstance(one, Known) else (other, one)
-            return learned.name in self.kin.get(known.name, set())
+            return self._is_kin(known, learned)
         return (one.place, one.element) == (other.place, other.element)
+
+    def _is_kin(self, known: Known, learned: Learned) -> bool:
+        """Check whether a function contains an effect: at the place of a drift, steps do as other functions of time do."""
+        kin = self.kin.get(known.name, set())
+        if learned.name in kin or not learned.variable.instants:
+            return learned.name in kin
+        homes = (Learned.parse(name) for name in kin)
+        return any(each.is_of_time and (each.place, each.element) == (learned.place, learned.element) for each in homes)
 
     def _children(self, node: Node) -> list[Node]:
         screen = self.screen(node)

@@ -11,7 +11,7 @@ from hexdbb.evidence.exchange import in_known_words, of_better_form, settled, wi
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
-from hexdbb.evidence.predicting import or_another_that_predicts, or_one_that_predicts
+from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -111,7 +111,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
     node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
-    node = with_tuned_numbers(search, or_one_that_predicts(search, node))
+    node = or_one_that_predicts(search, or_fewer_by_formulas(search, node))
+    node = with_tuned_numbers(search, node)
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)

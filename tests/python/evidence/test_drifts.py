@@ -13,6 +13,7 @@ from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import judge
+from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.cases import PACE, case
@@ -40,7 +41,13 @@ def test_a_drift_of_another_form_is_a_drift(form: Callable[[Floats], Floats]) ->
     drifted_um = reading_um + DRIFT_UM * (elapsed + PART * form(elapsed))
     samples = Samples.of([replace(record, columns={**record.columns, "reading_um": drifted_um})])
     model = new_model(samples.machine).with_mounts(samples.mounts)
-    verdict = judge(Search(Engine(samples, model, judging_noise(samples).noise), ("bar_drift", "backlash"), DEFAULT))
+    search = Search(Engine(samples, model, judging_noise(samples).noise), ("bar_drift", "backlash"), DEFAULT)
+    verdict = judge(search)
     assert [each.hypothesis.name for each in verdict.found] == ["bar_drift"]
     assert verdict.grade == "effect"
     assert verdict.node.trial.left < DEFAULT.leaves_structure
+    (drift,) = verdict.node.hypotheses
+    alike = [
+        search.same_kind(drift, Learned.parse(f"learned:{place}:step@60/300")) for place in ("reading", "slider:2")
+    ]
+    assert alike == [True, False]

@@ -74,3 +74,31 @@ def test_what_is_for_sure_gives_way_to_nothing_that_fits_worse(
         same_kind=lambda one, other: one is other,
     )
     assert predicting.or_another_that_predicts(search, formula) is (function if gives_way else formula)
+
+
+@pytest.mark.parametrize(
+    ("formulas", "errors", "left", "is_answer"),
+    [
+        (4.9, ONE, 5.0, True),
+        (5.2, ONE, 5.0, False),
+        (4.9, ONE | {"feed": 0.4}, 5.0, False),
+        (4.9, ONE, 200.0, False),
+    ],
+    ids=["explains and predicts", "formulas explain less", "errs more on a feed", "explains too little"],
+)
+def test_fewer_effects_whose_formulas_explain_as_much_are_the_answer(
+    formulas: float, errors: dict[str, float], left: float, is_answer: bool
+) -> None:
+    """A gauge that drifts and is read late, for a delay, a ball off its axis and six screws that warm."""
+    fewer, several = node_of(2, left, errors), node_of(3, 1.8, SEVERAL)
+    for each, faults in ((fewer, 2), (several, 8)):
+        each.is_known, each.faults = True, faults
+    by_formulas = {id(fewer.trial): formulas, id(several.trial): 5.1}
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=901.0)),
+        nodes=[several, fewer],
+        checked=lambda each: each.checked,
+        left_by_formulas=lambda trial: by_formulas[id(trial)],
+    )
+    assert predicting.or_fewer_by_formulas(search, several) is (fewer if is_answer else several)
