@@ -186,13 +186,14 @@ class Search:
         """Check whether two hypotheses are one cause in different words."""
         if isinstance(one, Known) and isinstance(other, Known):
             return one.effect == other.effect and not set(one.elements).isdisjoint(other.elements)
-        if isinstance(one, Known) or isinstance(other, Known):
-            known, learned = (one, other) if isinstance(one, Known) else (other, one)
-            return self._is_kin(known, learned)
+        if isinstance(one, Known):
+            return not isinstance(other, Known) and self._is_kin(one, other)
+        if isinstance(other, Known):
+            return self._is_kin(other, one)
         return (one.place, one.element) == (other.place, other.element)
 
     def _is_kin(self, known: Known, learned: Learned) -> bool:
-        """Check whether a function contains an effect: at the place of a drift, steps do as other functions of time do."""
+        """Check whether a function contains an effect; steps contain a drift where other functions of time do."""
         kin = self.kin.get(known.name, set())
         if learned.name in kin or not learned.variable.instants:
             return learned.name in kin
