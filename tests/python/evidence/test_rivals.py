@@ -29,23 +29,6 @@ def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> No
     return Node(trial, score)
 
 
-def rivals(
-    chosen: Checked,
-    other: Checked,
-    rival: Any,
-    cause: Known = CAUSE,
-    home: Learned = HOME,
-    beside: tuple[Known, ...] = (),
-    by_formulas: tuple[float, float] = (1.0, 1.0),
-) -> tuple[str, ...]:
-    """Return the names of those of another kind that rival a cause.
-
-    It has a score of 0 and lives in a learned function. Other causes may stand beside it; what the formulas of the set
-    and the rival leave is stated.
-    """
-    return rivalry(chosen, other, rival, cause, home, beside, by_formulas).others
-
-
 def rivalry(
     chosen: Checked,
     other: Checked,
@@ -55,7 +38,10 @@ def rivalry(
     beside: tuple[Known, ...] = (),
     by_formulas: tuple[float, float] = (1.0, 1.0),
 ) -> Rivals:
-    """Return the same with those of the cause's kind."""
+    """Return what rivals a cause, which has a score of 0 and lives in a learned function.
+
+    Other causes may stand beside it; what the formulas of the set and the rival leave is stated.
+    """
     node, root = node_of(0.0, cause, *beside), node_of(-1000.0, left=11.0)
     formulas = {id(node.trial): by_formulas[0], id(rival.trial): by_formulas[1]}
     checks = {id(node): chosen, id(rival): other}
@@ -75,6 +61,11 @@ def rivalry(
         ),
     )
     return rivals_of(search, node, cause)
+
+
+def rivals(*args: Any, **kwargs: Any) -> tuple[str, ...]:
+    """Return the names of those of another kind alone."""
+    return rivalry(*args, **kwargs).others
 
 
 @pytest.mark.parametrize(
