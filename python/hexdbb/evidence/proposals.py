@@ -201,17 +201,20 @@ class _Scan:
 def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
     """Yield the strongest periods: of the places of sliders and guideways, the gauge's scale, in time of what shifts.
 
-    The cup stands for the ball too, which moves alike.
+    A rail waves for both of its carriages, the balls that roll in one carriage lift that alone. The cup stands for the
+    ball too, which moves alike.
     """
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
-    places = [("slider", each) for each in range(1, 7)]
+    places = [(place, each) for place in ("slider", "slider_joint") for each in range(1, 7)]
     places += [(place, each) for place in ("lateral", "vertical") for each in range(1, 4)]
     machine = readings.state.machine
     for place, element in places:
-        pushes = Learned(place, element, periodic("position", 1.0)).pushes(0, machine)
-        weighted = np.concatenate([linear.residual * readings.answer(ports) for _, ports in pushes])
-        values = np.concatenate([position[:, column] for column, _ in pushes])
-        yield from _period(place, element, "position", weighted, values, 1.0 / criteria.shortest_mm)
+        learned = Learned(place, element, periodic("position", 1.0))
+        axes = [learned.pushes(axis, machine) for axis in range(learned.components)]
+        answers = [np.concatenate([linear.residual * readings.answer(ports) for _, ports in each]) for each in axes]
+        values = np.concatenate([position[:, column] for column, _ in axes[0]])
+        highest = 1.0 / criteria.shortest_mm
+        yield from _period(place, element, "position", np.column_stack(answers), values, highest)
     scale_mm, shortest_mm = readings.state["gauge_scale_mm"], SCALE_NOISES * float(np.mean(readings.noise_mm))
     yield from _period("reading", ALL, "scale", linear.residual, scale_mm, 1.0 / shortest_mm)
     gaps = np.diff(np.unique(time_s))

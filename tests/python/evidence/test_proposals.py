@@ -52,6 +52,13 @@ def test_a_period_of_a_slider_is_found(linear: Linear, readings: Readings, port:
     assert found.hypothesis.variable.period == pytest.approx(7.3, rel=0.01)
 
 
+def test_a_period_of_one_carriage_is_found(linear: Linear, readings: Readings, port: Port) -> None:
+    turn = 2.0 * np.pi * readings.state["sliders_mm"][:, 1] / 16.7
+    wave = port("slider_joint")[:, 3 + 2] * 3e-3 * np.sin(turn)
+    (found,) = _of(replace(linear, residual=linear.residual + wave), readings, "learned:slider_joint:2:position_period")
+    assert found.hypothesis.variable.period == pytest.approx(16.7, rel=0.01)
+
+
 def test_a_period_of_the_gauge_s_scale_is_found(linear: Linear, readings: Readings) -> None:
     lines = 4.0 * np.sin(2.0 * np.pi * readings.state["gauge_scale_mm"] / 0.053)
     (found,) = _of(replace(linear, residual=linear.residual + lines), readings, "learned:reading:scale_period")
