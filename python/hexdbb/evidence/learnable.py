@@ -40,8 +40,13 @@ class Learnable:
     def further(self) -> dict[str, Learned]:
         """Those that are looked at where no simple one settles, by name; made when first asked for."""
         if not self._further:
-            self._further = {each.name: each for each in varying(further_hypotheses(), self._readings)}
+            every = varying(further_hypotheses(), self._readings)
+            self._further = {each.name: each for each in every if not self._is_angle(each)}
         return self._further
+
+    def _is_angle(self, learned: Learned) -> bool:
+        """Check for a function of the platform's position where all circles are about one cup: that is their angle."""
+        return "position_mm" in learned.variable.needs and len(np.unique(self._readings.state["mount"])) < 2
 
     def is_further(self, hypothesis: Hypothesis) -> bool:
         """Check whether a hypothesis is one of those that are looked at where no simple one settles."""

@@ -18,12 +18,16 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned, periodic, step
+from hexdbb.machine import MachineFile
 from hexdbb.predictors.periods import strongest_frequency
 
 Floats = NDArray[np.float64]
 
 SCALE_NOISES = 8.0
 """Shortest period of the gauge's scale over the noise of a reading, by which a sine of it loses a quarter of itself."""
+SCREW_TURNS = 0.02
+"""Turns by which a lead may differ from whole periods and still be a turn of the screw: the period of a weak wave is
+seen to a twentieth of a turn over all readings, on the smallest circles over a few turns of the screw."""
 EVERY = slice(0, None)
 """All rows."""
 
@@ -213,8 +217,8 @@ def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[
         axes = [learned.pushes(axis, machine) for axis in range(learned.components)]
         answers = [np.concatenate([linear.residual * readings.answer(ports) for _, ports in each]) for each in axes]
         values = np.concatenate([position[:, column] for column, _ in axes[0]])
-        highest = 1.0 / criteria.shortest_mm
-        yield from _period(place, element, "position", np.column_stack(answers), values, highest)
+        found = _period(place, element, "position", np.column_stack(answers), values, 1.0 / criteria.shortest_mm)
+        yield from (each for each in found if place != "slider_joint" or not _is_of_screw(each.hypothesis, machine))
     scale_mm, shortest_mm = readings.state["gauge_scale_mm"], SCALE_NOISES * float(np.mean(readings.noise_mm))
     yield from _period("reading", ALL, "scale", linear.residual, scale_mm, 1.0 / shortest_mm)
     gaps = np.diff(np.unique(time_s))
@@ -224,6 +228,12 @@ def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[
             if place != "ball":
                 weighted = linear.residual[:, None] * _answers(readings, place, element)
                 yield from _period(place, element, "time", weighted, time_s, highest)
+
+
+def _is_of_screw(learned: Learned, machine: MachineFile) -> bool:
+    """Check whether something repeats with each turn of the screw, or with a part of one: it is no carriage's."""
+    turns = machine.sliders.screw_lead_mm / learned.variable.period
+    return round(turns) >= 1 and abs(turns - round(turns)) < SCREW_TURNS
 
 
 def _period(

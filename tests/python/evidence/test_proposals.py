@@ -59,6 +59,15 @@ def test_a_period_of_one_carriage_is_found(linear: Linear, readings: Readings, p
     assert found.hypothesis.variable.period == pytest.approx(16.7, rel=0.01)
 
 
+@pytest.mark.parametrize("part", [1.0, 0.5])
+def test_what_repeats_with_the_screw_is_no_carriage_s(
+    linear: Linear, readings: Readings, port: Port, part: float
+) -> None:
+    period_mm = part * readings.state.machine.sliders.screw_lead_mm
+    wave = port("slider_joint")[:, 3 + 2] * 3e-3 * np.sin(2.0 * np.pi * readings.state["sliders_mm"][:, 1] / period_mm)
+    assert not _of(replace(linear, residual=linear.residual + wave), readings, "learned:slider_joint:2:position_period")
+
+
 def test_a_period_of_the_gauge_s_scale_is_found(linear: Linear, readings: Readings) -> None:
     lines = 4.0 * np.sin(2.0 * np.pi * readings.state["gauge_scale_mm"] / 0.053)
     (found,) = _of(replace(linear, residual=linear.residual + lines), readings, "learned:reading:scale_period")

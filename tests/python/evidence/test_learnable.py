@@ -1,0 +1,22 @@
+"""Which learned hypotheses a search looks at."""
+
+from __future__ import annotations
+
+import pytest
+
+from hexdbb.diagnosis import judging_noise
+from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.learnable import Learnable
+from hexdbb.model import new_model
+from hexdbb.samples import Samples
+from hexdbb_truth.forms.cases import case
+
+
+@pytest.mark.parametrize(("plan", "is_asked"), [("standard", False), ("varied", True)])
+def test_about_one_cup_the_platform_s_position_is_the_angle(plan: str, is_asked: bool) -> None:
+    samples = Samples.of([case(f"none-calibrate-s1@{plan}").record()])
+    model = new_model(samples.machine).with_mounts(samples.mounts)
+    readings = Engine(samples, model, judging_noise(samples).noise).readings
+    further = Learnable(readings, learns=True).further
+    assert "learned:cup:angle" in further
+    assert ("learned:cup:position_along@45" in further) is is_asked
