@@ -12,9 +12,9 @@ from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_doubtful, misses_most
+from hexdbb.evidence.settling import NOTHING_LEFT, is_doubtful, misses_most
 from hexdbb.evidence.trial import Member
-from hexdbb.learned import Learned, has_chosen_number
+from hexdbb.learned import Learned
 
 
 def settled(search: Search, node: Node) -> Node:
@@ -102,9 +102,9 @@ def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterato
         other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
         if trial.refused or not explains_nearly(search, trial.left, node.trial.left):
             continue
-        # What is more than any simple function is no known effect that errs by all that it explains; but with the time
-        # constant at which it contains the effect, it is that effect.
-        is_more = search.learnable.is_further(learned) and not has_chosen_number(learned.variable)
+        # What is more than any simple function is no known effect that errs by all that it explains; but it is one
+        # whose formula fits as well.
+        is_more = search.learnable.is_further(learned) and trial.left - node.trial.left >= NOTHING_LEFT
         if not is_more or misses_most(search, other) <= misses_most(search, node):
             yield other
 
