@@ -26,8 +26,8 @@ Floats = NDArray[np.float64]
 SCALE_NOISES = 8.0
 """Shortest period of the gauge's scale over the noise of a reading, by which a sine of it loses a quarter of itself."""
 SCREW_TURNS = 0.02
-"""Turns by which a lead may differ from whole periods and still repeat with the screw: a period is seen to a twentieth of
-a turn over all readings, which span three turns of the screw and more."""
+"""Turns by which a lead may differ from whole periods and still repeat with the screw: a period is seen to a twentieth
+of a turn over all readings, which span three turns of the screw and more."""
 EVERY = slice(0, None)
 """All rows."""
 
