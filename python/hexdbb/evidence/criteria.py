@@ -141,11 +141,11 @@ class Criteria:
         function beside the effect holds the difference. Where an effect stood in for another it was 80 %. The same from
         which formulas are said to explain nearly all.
     formula_explains : float
-        Part of the unexplained that the formulas of several effects, or of one so excused, must explain to be named for
-        sure: of one 20 % off, the largest that the calibration has, it was 0.38 and more where geometry takes most of
-        it, of sets that stood in for others down to 0.05. Several that leave something must explain `explained_min` so:
-        of sixty true pairs it was 0.75 and more but for six that left noise alone, of ten sets that stood in for what
-        drags, tips or tautens 0.30 to 0.72.
+        Part of the unexplained that the formulas of several effects, or of one so excused, or that no circles left out
+        test (`leads_away`), must explain to be named for sure: of one 20 % off, the largest that the calibration has,
+        it was 0.38 and more where geometry takes most of it, of sets that stood in for others down to 0.05. Several
+        that leave something must explain `explained_min` so: of sixty true pairs it was 0.75 and more but for six that
+        left noise alone, of ten sets that stood in for what drags, tips or tautens 0.30 to 0.72.
     missed_most : float
         Error of what was left out, beyond what the fit expects of itself, over the RMS explained where fitted, above
         which causes that predict are looked at further (for several causes that contradict the others, `by_chance`:

@@ -43,8 +43,8 @@ def _explain_unrefined(search: Search, node: Node) -> bool:
 def is_for_sure(search: Search, node: Node, missed_most: float | None = None) -> bool:
     """Check that causes together explain enough, and err little enough elsewhere, to be named for sure.
 
-    The formula of one effect must explain a part, whether or not its form excuses it from predicting; those of several
-    more: functions of forms, free enough, stand in for something else.
+    The formula of one effect must explain a part where its form excuses it from predicting, or geometry leads away so
+    that nothing left out tests it; those of several more: functions of forms, free enough, stand in for something else.
 
     Parameters
     ----------
@@ -59,6 +59,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
         return False
     if not _errs_little(search, node, missed_most):
         return is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
+    if is_one and not checked.excused and not _leads_away(search, _held(search, node)):
+        return True
     return explained_by_formulas(search, node) >= _least_by_formulas(search, node)
 
 

@@ -113,11 +113,16 @@ def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, 
     assert asked(form, before=before_um, missed=5.0, left=left) is sure_of_it
 
 
-@pytest.mark.parametrize(("part", "sure_of_it"), [(1.1, True), (0.9, False)])
-def test_the_formula_of_one_effect_explains_a_part_though_it_predicts(part: float, sure_of_it: bool) -> None:
+@pytest.mark.parametrize(
+    ("before", "part", "sure_of_it"),
+    [(0.9, 0.9, True), (1.1, 1.1, True), (1.1, 0.9, False)],
+    ids=["other circles test it", "its formula explains a part", "functions of its form alone"],
+)
+def test_what_nothing_tests_is_explained_by_a_formula(before: float, part: float, sure_of_it: bool) -> None:
     """A bow of a guideway that is nine tenths functions of its form may be the slider's cover."""
     form = Form(0.4, 0.07, ("learned:vertical:3:position",))
-    assert asked(form, left=BEFORE - part * DEFAULT.formula_explains * SHARE) is sure_of_it
+    left = BEFORE - part * DEFAULT.formula_explains * SHARE
+    assert asked(form, before=before * DEFAULT.leads_away * BEFORE**0.5, left=left) is sure_of_it
 
 
 @pytest.mark.parametrize(
