@@ -28,7 +28,8 @@ INSTANT_S = 1e-4
 FOLLOWING_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
 POSITION_SPLINES = 12
-"""Splines over the platform's position: a frame's supports lift off somewhere."""
+"""Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
+such a bend was taken for a leg's swing."""
 LAGGED, RELAXING, AFTER, ALONG = "lagged", "relaxing", "after", "along"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",

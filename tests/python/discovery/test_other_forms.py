@@ -34,26 +34,24 @@ def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
     assert after < 1.1 < before
 
 
-def test_a_table_that_leans_is_learned_over_the_platform_s_position() -> None:
-    """The weight counts along 43.5 degrees."""
-    line = line_of(case("table_leans-d0-x10-calibrate-s0"), ())
+@pytest.mark.parametrize(
+    ("name", "learned", "true", "within", "left"),
+    [
+        ("table_leans-d0-x10-calibrate-s0", "learned:cup:position_along", 43.5, 0.5, 1.2),
+        ("scale_is_interpolated-d0-x3-calibrate-s0", "learned:reading:scale_period", 0.05307, 5e-5, 1.2),
+        ("boot_relaxes-d0-x10-calibrate-s0", "learned:leg:6:joint_angle_relaxing", 10.5, 0.5, 1.1),
+    ],
+    ids=["direction, degrees", "line of a scale, mm", "time that memory lasts, s"],
+)
+def test_it_is_learned_with_its_number(name: str, learned: str, true: float, within: float, left: float) -> None:
+    """A table leans as the platform moves along a direction, a gauge has lines, the strain of a boot wears off."""
+    line = line_of(case(name), ())
     assert line["outcome"] == "right"
     (found,) = line["found"]
-    name, _, direction_deg = found["name"].partition("@")
-    assert name == "learned:cup:position_along"
-    assert 43.0 < float(direction_deg) < 44.0
-    assert line["left"][1] < 1.2
-
-
-def test_a_scale_is_learned_over_its_lines() -> None:
-    """Its lines are 0.05307 mm apart; what it reads is off by a sine of each line and by one of half a line."""
-    line = line_of(case("scale_is_interpolated-d0-x3-calibrate-s0"), ())
-    assert line["outcome"] == "right"
-    (found,) = line["found"]
-    name, _, line_mm = found["name"].partition("@")
-    assert name == "learned:reading:scale_period"
-    assert float(line_mm) == pytest.approx(0.05307, rel=1e-3)
-    assert line["left"][1] < 1.2
+    called, _, number = found["name"].partition("@")
+    assert called == learned
+    assert float(number) == pytest.approx(true, abs=within)
+    assert line["left"][1] < left
 
 
 def test_a_drive_that_yields_under_load_is_learned_over_speed_and_load() -> None:
@@ -61,17 +59,6 @@ def test_a_drive_that_yields_under_load_is_learned_over_speed_and_load() -> None
     assert line["outcome"] == "right"
     assert [each["name"] for each in line["found"]] == ["learned:slider:3:velocity_drive_load"]
     assert line["heldout"]["circle"]["after"] < 1.1
-
-
-def test_what_remembers_is_learned_with_the_time_that_it_lasts() -> None:
-    """A boot whose strain wears off within 10.5 s: the readings choose that time, and the run-up of a circle counts."""
-    line = line_of(case("boot_relaxes-d0-x10-calibrate-s0"), ())
-    assert line["outcome"] == "right"
-    (found,) = line["found"]
-    name, _, constant_s = found["name"].partition("@")
-    assert name == "learned:leg:6:joint_angle_relaxing"
-    assert 10.0 < float(constant_s) < 11.0
-    assert line["left"][1] < 1.1
 
 
 def test_a_gauge_that_drifts_is_not_put_down_to_legs_for_sure() -> None:
