@@ -12,7 +12,7 @@ from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, is_doubtful, misses_most
+from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, is_doubtful, misses_most
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
 
@@ -112,10 +112,13 @@ def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterato
 def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
     """Check that a set predicts, and is not excused from it where another is not.
 
-    A free function of time claims nothing of what was left out: any formula that is hardly bent says more.
+    A free function of time claims nothing of what was left out: any formula that is hardly bent says more. One that
+    predicts says what it is itself: an effect that explains it by functions of its form, not by its formula, says less.
     """
     if than.trial.is_of_time:
         return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
+    if _is_by_form(search, node) and not is_doubtful(search, than):
+        return False
     one, other = search.checked(node), search.checked(than)
     return not one.reasons and one.excused <= other.excused
 
@@ -185,3 +188,9 @@ def _known_for(search: Search, names: list[str]) -> list[Known]:
             every = tuple(search.engine.base.info(effect).elements)
             found.append(Known(effect, tuple(elements.split(",")) if elements else every, not elements))
     return found
+
+
+def _is_by_form(search: Search, node: Node) -> bool:
+    """Check for one known effect whose formula explains less than that of any effect whose form is off."""
+    is_one = node.is_known and node.faults == 1
+    return is_one and explained_by_formulas(search, node) < search.criteria.formula_explains
