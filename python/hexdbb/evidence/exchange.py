@@ -9,6 +9,7 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly
+from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
@@ -92,7 +93,8 @@ def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterato
         add_kin(search, [learned])  # it may have moved since it was proposed
     at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
     kept = tuple(each for each in node.members if each not in at_place)
-    for known in _in_their_place(search, [each.hypothesis for each in at_place]):
+    instead = (*_in_their_place(search, [each.hypothesis for each in at_place]), *_as_good(search, node, learned))
+    for known in dict.fromkeys(instead):
         if not {*known}.isdisjoint(node.hypotheses):
             continue
         try:
@@ -107,6 +109,24 @@ def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterato
         is_more = search.learnable.is_further(learned) and trial.left - node.trial.left >= NOTHING_LEFT
         if not is_more or misses_most(search, other) <= misses_most(search, node):
             yield other
+
+
+def _as_good(search: Search, node: Node, learned: Learned) -> list[tuple[Known, ...]]:
+    """Return the known effects at the place of the only cause whose formulas, nearly as they are, leave no more.
+
+    Of few readings a function does not contain such an effect: where its speed turns, there are none.
+    """
+    if len(node.members) > 1:
+        return []
+    return [
+        (each.hypotheses[0],)
+        for each in search.nodes
+        if len(each.members) == 1
+        and isinstance(each.hypotheses[0], Known)
+        and at_its_place(search, each.hypotheses[0], learned)
+        and each.trial.left < node.trial.left + NOTHING_LEFT
+        and explained_by_formulas(search, each) >= search.criteria.form_explains
+    ]
 
 
 def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:

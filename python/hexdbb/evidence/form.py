@@ -19,7 +19,7 @@ from hexdbb.evidence.homes import Home, Homes, discrepancy
 from hexdbb.evidence.marginal import Marginal, marginal
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.signatures import Signature, signature_of
+from hexdbb.evidence.signatures import Signature, signature_of, varying
 from hexdbb.evidence.sums import Block, Projected, Sums
 from hexdbb.learned import ALL, Learned
 from hexdbb.model import Parameter
@@ -173,7 +173,9 @@ class Forms:
                 rms_mm = max(nearest.rms_mm, same[0].rms_mm if same else 0.0)
                 square += (rms_mm * float(model.values[column]) / sigma) ** 2
                 for each in places:
-                    groups += discrepancy(each, self.criteria, is_set_up=is_set_up)
+                    # Of few readings a variable may vary over all elements and have too few values at one.
+                    near = discrepancy(each, self.criteria, is_set_up=is_set_up)
+                    groups += [some for group in near if (some := tuple(varying(group, readings)))]
         assert len(readings) > 0
         groups = list(dict.fromkeys(groups))
         return float(np.sqrt(square)), groups if len(known.elements) == 1 else _by_variable(groups)
