@@ -10,6 +10,7 @@ from __future__ import annotations
 from functools import lru_cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from hexdbb import _core
@@ -66,6 +67,18 @@ def test_no_value_is_impossible(name: str) -> None:
             continue
         lower = {each.name: each.lower for each in _core.effect_info(machine, 1, cause.effect).parameters}
         assert all(each.value >= 0.0 or lower[each.name] < 0.0 for each in cause.values)
+
+
+@pytest.mark.parametrize(
+    ("name", "first"), [("bow-10x", 0), ("sag-10x", 0), ("joint-friction-10x", 0), ("joint-friction-3x", 13)]
+)
+def test_five_hundred_readings_are_enough_to_name_it(name: str, first: int) -> None:
+    """Then a variable of all legs may have too few values at one of them, and friction's sign no reading between."""
+    record = read_record(FOREIGN / f"{name}.parquet")
+    samples = Samples.of([record.part(np.arange(len(record)) % 40 == first)])
+    found = discover(samples, new_model(samples.machine))
+    assert [each.choice for each in found.causes] == [TRUTH[name]]
+    assert found.verdict in ("effect", "ambiguous")
 
 
 def test_with_the_true_effect_withheld_nothing_false_is_named() -> None:
