@@ -171,6 +171,8 @@ def _remarks(
     beside_um = left_um(search, trial)
     if grade == "effect" and remaining is not None and remaining.matters and beside_um >= remaining.matters_um:
         said.append(f"{MORE}: {beside_um:.2f} µm are left that neither the causes nor their forms explain")
+    if causes and not search.learns:
+        said.append(words.KNOWN_ALONE)
     return tuple(said)
 
 

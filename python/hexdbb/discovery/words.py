@@ -12,6 +12,7 @@ from hexdbb.model import Term
 
 GROUPS: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 NOTHING = "nothing is missing: what is left is noise"
+KNOWN_ALONE = "known effects alone were tried: a function learned from the readings may explain as much"
 NUMBERED = "@"
 """In the names of variables whose instants or period the readings chose: these say more than the function's form."""
 SMALLEST_DEVIATION = 0.01

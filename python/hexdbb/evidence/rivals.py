@@ -12,7 +12,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_complete, must_explain
+from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain
 from hexdbb.evidence.sure import is_for_sure, misses_only_geometry
 from hexdbb.learned import Learned
 
@@ -55,14 +55,16 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
             margin = min(margin, lead)
     form = node.trial.forms[node.hypotheses.index(cause)]
     if form is not None and form.deviation > search.criteria.form_named:
-        others += [name for name in _nearly_as_good(search, node, cause, form) if name not in others]
+        others += _nearly_as_good(search, node, cause, form)
     if isinstance(cause, Known) and len(node.members) == 1:
-        others += [name for name in _errs_no_more(search, node, cause) if name not in others]
+        others += _errs_no_more(search, node, cause)
+    if form is not None and len(node.members) == 1:
+        others += _lenders(search, node, cause, form)
     if node.is_known and len(node.members) > 1:
-        others += [name for name in _better_by_formula(search, node, cause) if name not in others]
+        others += _better_by_formula(search, node, cause)
     if isinstance(cause, Known):
-        others += [name for name in rivals_elsewhere(search, node, cause) if name not in others]
-    return Rivals(tuple(others), tuple(alike), margin)
+        others += rivals_elsewhere(search, node, cause)
+    return Rivals(tuple(dict.fromkeys(others)), tuple(dict.fromkeys(alike)), margin)
 
 
 def _without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[Node, float]]:
@@ -154,6 +156,25 @@ def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
         if search.root.trial.left - other.trial.left >= search.criteria.explained_min * excess
         and not search.checked(other).reasons
         and search.checked(other).missed <= missed
+    ]
+
+
+def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:
+    """Return other effects that live in the functions of a cause's form, and explain as much with less of a form.
+
+    Few readings hardly tell a gauge that drifts, and is not linear, from one that is linear, but of another gain.
+    """
+    return [
+        other.trial.names[0]
+        for other, _ in _without(search, node, cause)
+        if len(other.members) == 1
+        and other.is_known
+        and not _has_effect(other, cause)
+        and not search.kin.get(other.trial.names[0], set()).isdisjoint(form.functions)
+        and other.trial.left < node.trial.left + NOTHING_LEFT
+        and other.trial.forms[0] is not None
+        and other.trial.forms[0].deviation < form.deviation
+        and not search.checked(other).reasons
     ]
 
 

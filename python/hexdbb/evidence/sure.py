@@ -57,11 +57,24 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     checked, is_one = search.checked(node), node.faults == 1
     if checked.share < search.criteria.explained_min or _is_put_together(search, node):
         return False
+    if not _predicts_more_than_laps(search, node):
+        return False
     if not _errs_little(search, node, missed_most):
         return is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
     if is_one and not checked.excused and not _leads_away(search, _held(search, node)):
         return True
     return explained_by_formulas(search, node) >= _least_by_formulas(search, node)
+
+
+def _predicts_more_than_laps(search: Search, node: Node) -> bool:
+    """Check that a set predicts circles, feeds or directions left out, where there are such.
+
+    A further lap repeats what was fitted: whatever follows the readings of one predicts the next.
+    """
+    checked = search.checked(node)
+    least = search.criteria.heldout_share_min * checked.share
+    others = [held.share for grouping, held in checked.heldout.items() if grouping not in (ARC, "lap")]
+    return not others or max(others) >= least
 
 
 def _is_put_together(search: Search, node: Node) -> bool:
