@@ -10,7 +10,27 @@ from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying
-from hexdbb.learned import Learned, further_hypotheses, products
+from hexdbb.learned import ALL, Learned, further_hypotheses, products
+from hexdbb.learned.numbered import step
+
+
+MOST_CIRCLES = 24
+"""Beginnings of circles, from which on what sits otherwise in each is left to functions of time: these have no more
+values (`homes.MOST_COLUMNS`)."""
+
+
+def by_circle(readings: Readings) -> list[Learned]:
+    """Return what lets ball and cup sit otherwise in every circle: steps where one begins.
+
+    Such are forms of what sits otherwise after a change of the set-up; of a circle left out they claim little.
+    """
+    time_s, circle = readings.state["time_s"], readings.groups["circle"]
+    order = np.argsort(time_s, kind="stable")
+    begins = 1 + np.flatnonzero(np.diff(circle[order]))
+    if not 1 < len(begins) < MOST_CIRCLES:
+        return []
+    variable = step(time_s[order][begins])
+    return [Learned(place, ALL, variable) for place in ("ball", "cup")]
 
 
 class Learnable:
@@ -27,12 +47,15 @@ class Learnable:
     simple : list of Learned
     products : list of Learned
         Further ones in which a known effect's form may be wrong.
+    by_circle : list of Learned
+        Others in which it may be: of ball and cup.
     """
 
     def __init__(self, readings: Readings, *, learns: bool) -> None:
         self._readings = readings
         self.simple = all_varying(readings)
         self.products = list(varying(products(), readings)) if learns else []
+        self.by_circle = by_circle(readings) if learns else []
         self._further: dict[str, Learned] = {}
         self._chosen: dict[Learned, float] = {}
 

@@ -23,6 +23,8 @@ from hexdbb_truth.forms.cases import case
         ("backlash+joint_friction-d0-x30,3-calibrate-s725", {"backlash:3", "joint_friction:5"}),
         ("backlash+ball_eccentricity-d5-x30,3-calibrate-s715", {"backlash:6", "ball_eccentricity"}),
         ("backlash-d20-x30-calibrate-s876", {"backlash:6"}),
+        # The ball creeps in its seat, and is set anew with every circle.
+        ("straightness+ball_eccentricity-d10-x3-calibrate-s755", {"straightness:1", "ball_eccentricity"}),
     ],
 )
 def test_a_fault_a_tenth_as_large_is_found_and_a_form_of_the_large_one_is_none(name: str, causes: set[str]) -> None:
