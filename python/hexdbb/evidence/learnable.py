@@ -13,7 +13,6 @@ from hexdbb.evidence.signatures import all_varying, varying
 from hexdbb.learned import ALL, Learned, further_hypotheses, products
 from hexdbb.learned.numbered import step
 
-
 MOST_CIRCLES = 24
 """Beginnings of circles, from which on what sits otherwise in each is left to functions of time: these have no more
 values (`homes.MOST_COLUMNS`)."""

@@ -27,13 +27,13 @@ def _part(name: str, circles: Sequence[int], *, slow: bool = False, forward: boo
 
 @pytest.mark.long
 def test_what_predicts_no_more_than_further_laps_is_not_named_for_sure() -> None:
-    """The strain of a boot that wears off, on three circles at one feed: six drives that lag explain it where fitted."""
+    """A boot whose strain wears off, on three circles at one feed: six drives that lag explain it where fitted."""
     samples = _part("boot_relaxes-d0-x10-calibrate-s134", [1, 3, 5], slow=True)
     assert discover(samples, new_model(samples.machine), with_tables=False).verdict == "unknown"
 
 
 def test_an_effect_that_lends_the_functions_of_anothers_form_is_named_beside_it() -> None:
-    """A gauge of another gain, on four circles in one direction: one that drifts, and is not linear, explains as much."""
+    """A gauge of another gain, on four circles in one direction: one that drifts and is bent explains as much."""
     samples = _part("bar_gain-d20-x30-calibrate-s118", [0, 3, 6, 7], forward=True)
     found = discover(samples, new_model(samples.machine), known_only=True, with_tables=False)
     (cause,) = found.causes
