@@ -28,7 +28,7 @@ def by_circle(readings: Readings) -> list[Learned]:
     begins = 1 + np.flatnonzero(np.diff(circle[order]))
     if not 1 < len(begins) < MOST_CIRCLES:
         return []
-    variable = step(time_s[order][begins])
+    variable = step(time_s[order][begins].tolist())
     return [Learned(place, ALL, variable) for place in ("ball", "cup")]
 
 
