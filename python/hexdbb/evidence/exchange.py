@@ -1,21 +1,16 @@
-"""A set's hypotheses exchanged for better ones: looked at again, put into known words, given the better form."""
+"""A set's hypotheses exchanged for better ones: looked at again, given the better form."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import product
-
 from hexdbb.errors import RunError
+from hexdbb.evidence.known_words import in_known_words, known_for
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly
-from hexdbb.evidence.place import at_its_place
-from hexdbb.evidence.screen import Hypothesis, Known
-from hexdbb.evidence.screened import add_kin
+from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, is_doubtful, misses_most
+from hexdbb.evidence.settling import is_doubtful
 from hexdbb.evidence.trial import Member
-from hexdbb.learned import Learned
 
 
 def settled(search: Search, node: Node) -> Node:
@@ -77,72 +72,6 @@ def _all_needed(search: Search, node: Node) -> Node:
     return node
 
 
-def in_known_words(search: Search, node: Node) -> Node:
-    """Put known effects in the place of the learned functions that contain them, where they explain nearly as much."""
-    for learned in [each for each in node.hypotheses if isinstance(each, Learned)]:
-        if learned in node.hypotheses:
-            others = sorted(_with_known_instead(search, node, learned), key=lambda each: -each.score)
-            search.nodes += others
-            node = next((each for each in others if _predicts_no_worse(search, each, node)), node)
-    return node
-
-
-def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterator[Node]:
-    """Yield sets in which known effects replace all at a learned function's place, and explain nearly as much."""
-    if learned.variable.period:
-        add_kin(search, [learned])  # it may have moved since it was proposed
-    at_place = [m for m in node.members if _is_at(m.hypothesis, learned)]
-    kept = tuple(each for each in node.members if each not in at_place)
-    instead = (*_in_their_place(search, [each.hypothesis for each in at_place]), *_as_good(search, node, learned))
-    for known in dict.fromkeys(instead):
-        if not {*known}.isdisjoint(node.hypotheses):
-            continue
-        try:
-            trial = search.trials.of((*kept, *map(Member, known)))
-        except RunError:
-            continue
-        other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
-        if trial.refused or not explains_nearly(search, trial.left, node.trial.left):
-            continue
-        # What is more than any simple function is no known effect that errs by all that it explains; but it is one
-        # whose formula fits as well.
-        is_more = search.learnable.is_further(learned) and trial.left - node.trial.left >= NOTHING_LEFT
-        if not is_more or misses_most(search, other) <= misses_most(search, node):
-            yield other
-
-
-def _as_good(search: Search, node: Node, learned: Learned) -> list[tuple[Known, ...]]:
-    """Return the known effects at the place of the only cause whose formulas, nearly as they are, leave no more.
-
-    Of few readings a function does not contain such an effect: where its speed turns, there are none.
-    """
-    if len(node.members) > 1:
-        return []
-    return [
-        (each.hypotheses[0],)
-        for each in search.nodes
-        if len(each.members) == 1
-        and isinstance(each.hypotheses[0], Known)
-        and at_its_place(search, each.hypotheses[0], learned)
-        and each.trial.left < node.trial.left + NOTHING_LEFT
-        and explained_by_formulas(search, each) >= search.criteria.form_explains
-    ]
-
-
-def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
-    """Check that a set predicts, and is not excused from it where another is not.
-
-    A free function of time claims nothing of what was left out: any formula that is hardly bent says more. One that
-    predicts says what it is itself: an effect that explains it by functions of its form, not by its formula, says less.
-    """
-    if than.trial.is_of_time:
-        return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
-    if _is_by_form(search, node) and not is_doubtful(search, than):
-        return False
-    one, other = search.checked(node), search.checked(than)
-    return not one.reasons and one.excused <= other.excused
-
-
 def of_better_form(search: Search, node: Node) -> Node:
     """Exchange an effect of quite another form for a known one whose own form fits, at the same place."""
     for place, member in enumerate(node.members):
@@ -150,7 +79,7 @@ def of_better_form(search: Search, node: Node) -> Node:
         if form is None or form.deviation <= search.criteria.form_named:
             continue
         others = node.without(member)
-        for known in _known_for(search, list(form.functions)):
+        for known in known_for(search, list(form.functions)):
             if known in node.hypotheses:
                 continue
             try:
@@ -184,33 +113,3 @@ def _without_the_needless(search: Search, node: Node) -> Node:
 def _is_admissible(search: Search, node: Node) -> bool:
     """Check that a set predicts and that nothing could be left out of it."""
     return not node.trial.refused and needs_all(search, node) and not search.checked(node).reasons
-
-
-def _is_at(one: Hypothesis, learned: Learned) -> bool:
-    return isinstance(one, Learned) and (one.place, one.element) == (learned.place, learned.element)
-
-
-def _in_their_place(search: Search, hypotheses: Sequence[Hypothesis]) -> Iterator[tuple[Known, ...]]:
-    """Yield known effects that live in some hypotheses; for a function that two elements share, one effect at both."""
-    yield from ((known,) for known in _known_for(search, [each.name for each in hypotheses]))
-    for each in hypotheses:
-        if isinstance(each, Learned) and each.of_each:
-            one, other = (_known_for(search, [alone.name]) for alone in each.of_each)
-            yield from (both for both in product(one, other) if both[0].effect == both[1].effect and both[0] != both[1])
-
-
-def _known_for(search: Search, names: list[str]) -> list[Known]:
-    """Return the known effects that live in one of some learned hypotheses, by what each explains of the readings."""
-    found = []
-    for name, kin in search.kin.items():
-        if kin & set(names):
-            effect, _, elements = name.partition(":")
-            every = tuple(search.engine.base.info(effect).elements)
-            found.append(Known(effect, tuple(elements.split(",")) if elements else every, not elements))
-    return found
-
-
-def _is_by_form(search: Search, node: Node) -> bool:
-    """Check for one known effect whose formula explains less than that of any effect whose form is off."""
-    is_one = node.is_known and node.faults == 1
-    return is_one and explained_by_formulas(search, node) < search.criteria.formula_explains

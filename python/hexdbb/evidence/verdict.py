@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
-from hexdbb.evidence.exchange import in_known_words, of_better_form, settled, with_found_beside
+from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
+from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place

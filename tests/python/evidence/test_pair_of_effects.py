@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.exchange import in_known_words
+from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.trial import Member
