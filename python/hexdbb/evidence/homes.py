@@ -46,10 +46,17 @@ class Homes:
     hypotheses : sequence of Learned
         All that are learned.
     criteria : Criteria
+    of_forms : sequence of Learned
+        Others, in which effects' forms may be wrong and nothing more.
     """
 
     def __init__(
-        self, linear: Linear, thinned: Thinned, hypotheses: Sequence[Learned], criteria: Criteria = DEFAULT
+        self,
+        linear: Linear,
+        thinned: Thinned,
+        hypotheses: Sequence[Learned],
+        criteria: Criteria = DEFAULT,
+        of_forms: Sequence[Learned] = (),
     ) -> None:
         self.criteria = criteria
         self.rows = thinned.rows
@@ -59,7 +66,7 @@ class Homes:
         seen = values * len(linear.residual) > len(self.rows)
         self._absorbed = thin.own @ (vectors[:, seen] / np.sqrt(values[seen]))
         self._spaces, bases = [], []
-        for each in hypotheses:
+        for each in (*hypotheses, *of_forms):
             space = thinned.signature(each)
             visible = self._visible(space.table.astype(np.float64))
             values, vectors = np.linalg.eigh(visible.T @ visible)
@@ -74,6 +81,8 @@ class Homes:
         widths = [half.shape[1] for _, half in self._spaces]
         self._first = np.cumsum([0, *widths[:-1]])
         """First of each hypothesis' axes among those of all."""
+        self._words = sum(space.hypothesis not in of_forms for space, _ in self._spaces)
+        """How many are words for an effect: they stand before those of forms alone."""
 
     def of(self, signature: Floats) -> list[Home]:
         """Return the hypotheses that contain a signature, shape (n,), the simplest first."""
@@ -81,15 +90,16 @@ class Homes:
 
     def of_each(self, signatures: Floats) -> list[list[Home]]:
         """Return the hypotheses that contain each of some signatures, shape (n, m)."""
-        return self._near(signatures, self.criteria.same_form)
+        return self._near(signatures, self.criteria.same_form, self._words)
 
     def around_each(self, signatures: Floats) -> list[list[Home]]:
         """Return the hypotheses in whose functions effects' forms may be wrong: those that nearly contain them."""
-        return self._near(signatures, self.criteria.form_home)
+        return self._near(signatures, self.criteria.form_home, len(self._spaces))
 
-    def _near(self, signatures: Floats, least: float) -> list[list[Home]]:
+    def _near(self, signatures: Floats, least: float, count: int) -> list[list[Home]]:
+        """Return the nearest of the first so many hypotheses."""
         explained, along = self._explained(signatures)
-        return [self._nearest(*each, least) for each in zip(explained.T, along.T, strict=True)]
+        return [self._nearest(*each, least) for each in zip(explained[:count].T, along.T, strict=True)]
 
     def _explained(self, signatures: Floats) -> tuple[Floats, Floats]:
         """Return how much of each signature every hypothesis contains, (hypotheses, m), and its part along all axes."""
@@ -109,7 +119,8 @@ class Homes:
         return left
 
     def _nearest(self, explained: Floats, along: Floats, same: float) -> list[Home]:
-        least = max(min(same, float(explained.max(initial=0.0)) - (1.0 - same)), self.criteria.near_form)
+        best = float(explained[: self._words].max(initial=0.0))
+        least = max(min(same, best - (1.0 - same)), self.criteria.near_form)
         near = [self._home(place, float(explained[place]), along) for place in np.flatnonzero(explained >= least)]
         # What is constant is a function of time too, and its form does not go wrong in time.
         constant = {each.hypothesis.place for each in near if each.hypothesis.variable.is_constant}
