@@ -29,7 +29,7 @@ def by_circle(readings: Readings) -> list[Learned]:
     if not 1 < len(begins) < MOST_CIRCLES:
         return []
     variable = step(time_s[order][begins].tolist())
-    return [Learned(place, ALL, variable) for place in ("ball", "cup")]
+    return list(varying((Learned(place, ALL, variable) for place in ("ball", "cup")), readings))
 
 
 class Learnable:
