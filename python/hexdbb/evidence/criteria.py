@@ -146,6 +146,10 @@ class Criteria:
         it was 0.38 and more where geometry takes most of it, of sets that stood in for others down to 0.05. Several
         that leave something must explain `explained_min` so: of sixty true pairs it was 0.75 and more but for six that
         left noise alone, of ten sets that stood in for what drags, tips or tautens 0.30 to 0.72.
+    formula_names : float
+        The same that the formula of one effect must explain to take the place of a function that predicts: of a joint
+        20 % off, of which geometry takes most, it was 0.27; of leads, legs and screws that stood in for bumps and for a
+        ball that settles 0.01 to 0.17.
     missed_most : float
         Error of what was left out, beyond what the fit expects of itself, over the RMS explained where fitted, above
         which causes that predict are looked at further (for several causes that contradict the others, `by_chance`:
@@ -272,6 +276,7 @@ class Criteria:
     leaves_structure: float = 1.3
     form_explains: float = 0.9
     formula_explains: float = 1.0 / 3.0
+    formula_names: float = 0.2
     missed_most: float = 0.8
     missed_sure: float = 0.5
     missed_bent: float = 1.3

@@ -164,7 +164,13 @@ class Forms:
                 continue
             # Columns of the discrepancies stand behind those of the free values.
             sigma = model.prior_sigma[column]
-            homes = self._homes_of(parameter, fitted, place)
+            ports = self.engine.absent.ports(parameter.effect)
+            # What sits otherwise in every circle stands in for anything slow: it is a form of what is at its port alone.
+            homes = [
+                each
+                for each in self._homes_of(parameter, fitted, place)
+                if each.hypothesis.port in ports or not each.hypothesis.variable.instants
+            ]
             if homes:
                 places = self._places(parameter, homes)
                 nearest = max(places[0], key=lambda each: each.explained)
@@ -203,8 +209,6 @@ class Forms:
         What all legs share stays with all homes: a function of each leg's own beside it may imitate anything.
         """
         ports = self.engine.absent.ports(parameter.effect)
-        # What sits otherwise in every circle stands in for anything slow: it is a form of what it belongs to alone.
-        homes = [each for each in homes if each.hypothesis.port in ports or not each.hypothesis.variable.instants]
         there: dict[str, list[Home]] = {parameter.element: []}
         for each in homes:
             # The ball is one place, whichever fixing of it an element stands for.

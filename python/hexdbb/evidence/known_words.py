@@ -75,18 +75,18 @@ def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
     A free function of time claims nothing of what was left out: any formula that is hardly bent says more. One that
     predicts says what it is itself: an effect that explains it by functions of its form, not by its formula, says less.
     """
-    if than.trial.is_of_time:
-        return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
     if _is_by_form(search, node) and not is_doubtful(search, than):
         return False
+    if than.trial.is_of_time:
+        return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
     one, other = search.checked(node), search.checked(than)
     return not one.reasons and one.excused <= other.excused
 
 
 def _is_by_form(search: Search, node: Node) -> bool:
     """Check for one known effect whose formula explains less than that of any effect whose form is off."""
-    is_one = node.is_known and node.faults == 1
-    return is_one and explained_by_formulas(search, node) < search.criteria.formula_explains
+    is_one = node.is_known and len(node.members) == 1
+    return is_one and explained_by_formulas(search, node) < search.criteria.formula_names
 
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:
