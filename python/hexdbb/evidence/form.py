@@ -165,7 +165,7 @@ class Forms:
             # Columns of the discrepancies stand behind those of the free values.
             sigma = model.prior_sigma[column]
             ports = self.engine.absent.ports(parameter.effect)
-            # What sits otherwise in every circle stands in for anything slow: it is a form of what is at its port alone.
+            # What sits otherwise in every circle imitates anything slow: it is a form of what is at its port alone.
             homes = [
                 each
                 for each in self._homes_of(parameter, fitted, place)
