@@ -15,7 +15,7 @@ from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Fitted
 from hexdbb.evidence.screen import Known
 from hexdbb.learned import Learned
-from hexdbb.units import shown_factor, shown_unit
+from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 
 def outside_domain(
@@ -38,7 +38,7 @@ def outside_domain(
         if (each.effect, each.element) not in known:
             continue
         value, sigma = float(fitted.model.values[column]), float(fitted.spread[place] * fitted.prior_sigma[place])
-        shown = f"{value * shown_factor(each.unit):.3g} {shown_unit(each.unit)}"
+        shown = f"{value * shown_factor(each.unit):.3g} {readable_unit(shown_unit(each.unit))}"
         if is_one_sided(fitted.model.info(each.effect), each.name):
             change += float(np.log(2.0)) + _core.log_normal_below(value / sigma)
             if value < -criteria.domain_sigmas * sigma:
