@@ -147,9 +147,9 @@ class Criteria:
         that leave something must explain `explained_min` so: of sixty true pairs it was 0.75 and more but for six that
         left noise alone, of ten sets that stood in for what drags, tips or tautens 0.30 to 0.72.
     formula_names : float
-        The same that the formula of one effect must explain to take the place of a function that predicts: of a joint
-        20 % off, of which geometry takes most, it was 0.27; of leads, legs and screws that stood in for bumps and for a
-        ball that settles 0.01 to 0.17.
+        The same that the formula of one effect, of quite another form (`form_named`) or elsewhere than a function that
+        predicts, must explain to take its place: of a joint 20 % off, of which geometry takes most, it was 0.27; of
+        leads and legs that stood in for bumps and for a ball that settles 0.01 to 0.17.
     missed_most : float
         Error of what was left out, beyond what the fit expects of itself, over the RMS explained where fitted, above
         which causes that predict are looked at further (for several causes that contradict the others, `by_chance`:

@@ -14,7 +14,7 @@ from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, is_doubtful, misses_most
 from hexdbb.evidence.trial import Member
-from hexdbb.learned import Learned
+from hexdbb.learned import ALL, Learned
 
 
 def in_known_words(search: Search, node: Node) -> Node:
@@ -23,7 +23,7 @@ def in_known_words(search: Search, node: Node) -> Node:
         if learned in node.hypotheses:
             others = sorted(_with_known_instead(search, node, learned), key=lambda each: -each.score)
             search.nodes += others
-            node = next((each for each in others if _predicts_no_worse(search, each, node)), node)
+            node = next((each for each in others if _says_as_much(search, each, node, learned)), node)
     return node
 
 
@@ -69,13 +69,13 @@ def _as_good(search: Search, node: Node, learned: Learned) -> list[tuple[Known, 
     ]
 
 
-def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
+def _says_as_much(search: Search, node: Node, than: Node, learned: Learned) -> bool:
     """Check that a set predicts, and is not excused from it where another is not.
 
     A free function of time claims nothing of what was left out: any formula that is hardly bent says more. One that
     predicts says what it is itself: an effect that explains it by functions of its form, not by its formula, says less.
     """
-    if _is_by_form(search, node) and not is_doubtful(search, than):
+    if _is_by_form(search, node, learned) and not is_doubtful(search, than):
         return False
     if than.trial.is_of_time:
         return all(form is None or form.deviation <= search.criteria.form_named for form in node.trial.forms)
@@ -83,10 +83,19 @@ def _predicts_no_worse(search: Search, node: Node, than: Node) -> bool:
     return not one.reasons and one.excused <= other.excused
 
 
-def _is_by_form(search: Search, node: Node) -> bool:
-    """Check for one known effect whose formula explains less than that of any effect whose form is off."""
-    is_one = node.is_known and len(node.members) == 1
-    return is_one and explained_by_formulas(search, node) < search.criteria.formula_names
+def _is_by_form(search: Search, node: Node, learned: Learned) -> bool:
+    """Check for one known effect of another form, or elsewhere than a function, whose formula explains hardly anything.
+
+    Of a lead of the function's own slider geometry may take all but the form, and it is a lead nevertheless.
+    """
+    (known, *others), form = node.hypotheses, node.trial.forms[0]
+    if others or not isinstance(known, Known) or form is None:
+        return False
+    is_there = learned.port in search.engine.absent.ports(known.effect) and (
+        known.is_whole or learned.element == ALL or str(learned.element) in known.elements
+    )
+    is_other = form.deviation > search.criteria.form_named or not is_there
+    return is_other and explained_by_formulas(search, node) < search.criteria.formula_names
 
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:
