@@ -88,8 +88,8 @@ def _is_by_form(search: Search, node: Node, learned: Learned) -> bool:
 
     Of a lead of the function's own slider geometry may take all but the form, and it is a lead nevertheless.
     """
-    (known, *others), form = node.hypotheses, node.trial.forms[0]
-    if others or not isinstance(known, Known) or form is None:
+    known, *others = node.hypotheses
+    if others or not isinstance(known, Known) or (form := node.trial.forms[0]) is None:
         return False
     is_there = learned.port in search.engine.absent.ports(known.effect) and (
         known.is_whole or learned.element == ALL or str(learned.element) in known.elements

@@ -120,10 +120,11 @@ def test_what_bends_to_fit_together_is_no_rival() -> None:
     assert not found["rivals"]
 
 
-def test_a_function_that_predicts_is_no_known_effect_that_explains_by_its_form() -> None:
-    """Rails that meet with a step in height: of a bow it has a few hundredths, the rest is the bow's form."""
+def test_a_known_effect_of_quite_another_form_predicts_once_refined() -> None:
+    """Rails that meet with a step in height, called a bow."""
     line = line_of(case("rail_joint-d0-x100-calibrate-s0"), ())
-    assert [each["name"] for each in line["found"]] == ["learned:vertical:3:fine_position"]
+    assert line["found"][0]["name"] == "straightness:3"
+    assert line["found"][0]["refinements"] == ("learned:vertical:3:fine_position",)
     circle = line["heldout"]["circle"]
     assert circle["after"] < 1.3 < 50.0 < circle["before"]
 
