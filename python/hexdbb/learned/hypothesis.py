@@ -9,6 +9,7 @@ from typing import Protocol
 
 from hexdbb import _core
 from hexdbb.errors import InputError
+from hexdbb.learned import variables as v
 from hexdbb.learned.numbered import numbered, with_number
 from hexdbb.learned.places import (
     ALL,
@@ -131,6 +132,12 @@ class Learned:
         variables = {each.name: each for each in variables_of(self.place, self.element)}
         variable = variables.get(f"{self.variable.name}_alike")
         return None if variable is None else replace(self, variable=variable)
+
+    @property
+    def after_each_fixing(self) -> Learned | None:
+        """The function of the time since the fixing at the same place; None where it is no function of time."""
+        is_there = self.is_of_time and v.SINCE_FIXING in variables_of(self.place, self.element)
+        return replace(self, variable=v.SINCE_FIXING) if is_there else None
 
     @property
     def parts(self) -> tuple[Learned, ...]:

@@ -59,6 +59,10 @@ CARRIAGE_LOAD = Variable("carriage_load", "carriage_load", "", "force across the
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
+SINCE_FIXING = Variable(
+    "time_since_fixing", "time_since_fixing_s", "s", "time since the set-up was fixed", 10, is_log=True
+)
+"""What was just fixed seats itself, fast at first; alike after each fixing, which no function of time is."""
 ROLL, PITCH, YAW = (
     Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
     for axis, name in enumerate(("roll", "pitch", "yaw"))
@@ -182,7 +186,7 @@ OF_GUIDEWAY = (
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
     *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION, TIME_POSITION_BENT),
 )
-OF_BALL = (TIME, FINE_TIME, ROLL, PITCH, YAW)
+OF_BALL = (TIME, FINE_TIME, SINCE_FIXING, ROLL, PITCH, YAW)
 OF_PLATFORM_JOINT = (
     Variable("constant", "", "", "nothing: an offset"),
     Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5),

@@ -1,4 +1,4 @@
-"""Columns that few ask for, computed when they are: the legs' swing, the bar in the platform, time within a sweep.
+"""Columns that few ask for, computed when they are: the legs' swing, the bar in the platform, times since a beginning.
 
 The swing of a leg is the angle about its guideway at which it stands, from the guideway's own axes; its rate is the
 central difference along the slider's smoothed velocity, so that the encoders' steps do not show in it.
@@ -19,8 +19,11 @@ from hexdbb.machine import MachineFile
 Floats = NDArray[np.float64]
 Pose = tuple[Floats, Floats]
 
-DERIVED = ("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "time_in_sweep_s")
-DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep")
+DERIVED = (
+    *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad"),
+    *("time_in_sweep_s", "time_since_fixing_s"),
+)
+DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount")
 """Columns that these follow from."""
 LEGS = 6
 STEP_S = 1e-3
@@ -31,7 +34,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6) thrice, (n,) twice; rad, rad/s, rad, rad and s.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) three times; rad, rad/s, rad, rad, s and s.
 
     Parameters
     ----------
@@ -54,6 +57,7 @@ def derived_columns(
         "leg_inclination_rad": np.arctan2(np.hypot(reach_mm[0], reach_mm[1]), reach_mm[2]),
         "bar_angle_rad": _bar_angle(pose, columns["set_up"], set_ups),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
+        "time_since_fixing_s": _since_fixing_s(columns["time_s"], columns["mount"]),
     }
 
 
@@ -73,9 +77,17 @@ def _bar_angle(pose: Pose, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_
     return found
 
 
-def _begin_s(time_s: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
-    """Return the time at which each sample's sweep begins, shape (n,)."""
-    member = np.unique(sweep, return_inverse=True)[1].ravel()
+def _since_fixing_s(time_s: Floats, mount: NDArray[np.integer[Any]]) -> Floats:
+    """Return the time since the first sample of each sample's fixing, shape (n,); nan where all have one.
+
+    Of one fixing it is the time of the record, under another name.
+    """
+    return time_s - _begin_s(time_s, mount) if len(np.unique(mount)) > 1 else np.full(len(time_s), np.nan)
+
+
+def _begin_s(time_s: Floats, part: NDArray[np.integer[Any]]) -> Floats:
+    """Return the time at which each sample's part, a sweep or a fixing, begins; shape (n,)."""
+    member = np.unique(part, return_inverse=True)[1].ravel()
     begin = np.full(int(member.max()) + 1, np.inf)
     np.minimum.at(begin, member, time_s)
     found: Floats = begin[member]

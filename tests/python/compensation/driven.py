@@ -61,7 +61,7 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     set_up = _core.SetUp(cup_mm=np.zeros(3), ball_offset_mm=np.zeros(3), bar_length_mm=100.0)
     block = _core.Samples(sliders_mm=sliders_mm, set_up=zeros, mount=zeros, set_ups=[set_up], state=state)
     block.derive(engine_machine(machine))
-    columns = {**block.state, "sliders_mm": sliders_mm, "set_up": zeros}
+    columns = {**block.state, "sliders_mm": sliders_mm, "set_up": zeros, "mount": zeros}
     columns |= derived_columns(machine, columns, [set_up])
     columns |= load_columns(columns["leg_force"], columns["slider_joint_angle_rad"])
     columns["leg_force.lagged@12"] = remembered_column(

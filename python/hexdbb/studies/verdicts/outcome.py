@@ -48,6 +48,7 @@ VARIABLES = {
     "warming": ("time",),
     "step": ("time",),
     "fine_time": ("time",),
+    "time_since_fixing": ("time",),
     "roll": ("tilt",),
     "pitch": ("tilt",),
     "time_in_sweep": ("time_in_run",),
