@@ -166,11 +166,12 @@ class Forms:
             # Columns of the discrepancies stand behind those of the free values.
             sigma = model.prior_sigma[column]
             ports = self.engine.absent.ports(parameter.effect)
-            # What sits otherwise in every circle imitates anything slow: it is a form of what is at its port alone.
+            # What sits otherwise in every circle, or grows with warmth, imitates anything slow: it is a form of what is
+            # at its port alone.
             homes = [
                 each
                 for each in self._homes_of(parameter, fitted, place)
-                if each.hypothesis.port in ports or not each.hypothesis.variable.instants
+                if each.hypothesis.port in ports or each.hypothesis not in self.homes.of_forms
             ]
             if homes:
                 places = self._places(parameter, homes)

@@ -58,7 +58,7 @@ class Homes:
         criteria: Criteria = DEFAULT,
         of_forms: Sequence[Learned] = (),
     ) -> None:
-        self.criteria = criteria
+        self.criteria, self.of_forms = criteria, frozenset(of_forms)
         self.rows = thinned.rows
         thin = thinned.linear(linear)
         values, vectors = np.linalg.eigh(thin.own.T @ thin.own)
@@ -81,7 +81,7 @@ class Homes:
         widths = [half.shape[1] for _, half in self._spaces]
         self._first = np.cumsum([0, *widths[:-1]])
         """First of each hypothesis' axes among those of all."""
-        self._words = sum(space.hypothesis not in of_forms for space, _ in self._spaces)
+        self._words = sum(space.hypothesis not in self.of_forms for space, _ in self._spaces)
         """How many are words for an effect: they stand before those of forms alone."""
 
     def of(self, signature: Floats) -> list[Home]:

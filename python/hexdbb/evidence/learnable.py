@@ -32,6 +32,12 @@ def by_circle(readings: Readings) -> list[Learned]:
     return list(varying((Learned(place, ALL, variable) for place in ("ball", "cup")), readings))
 
 
+def _of_forms(readings: Readings) -> list[Learned]:
+    """Return products that are forms only, those with time or warmth, and what sits otherwise in every circle."""
+    of_forms = (each for each in all_varying(readings, of_forms=True) if each.variable.times)
+    return [*of_forms, *varying(products(slow=True), readings), *by_circle(readings)]
+
+
 class Learnable:
     """Learned hypotheses whose variable varies in some readings.
 
@@ -46,15 +52,16 @@ class Learnable:
     simple : list of Learned
     products : list of Learned
         Further ones in which a known effect's form may be wrong.
-    by_circle : list of Learned
-        Others in which it may be: of ball and cup.
+    of_forms : list of Learned
+        Others in which the form of an effect at the same port may be wrong: products with time, with warmth, with the
+        sense in which a joint turns since it reversed; what sits otherwise in every circle.
     """
 
     def __init__(self, readings: Readings, *, learns: bool) -> None:
         self._readings = readings
         self.simple = all_varying(readings)
         self.products = list(varying(products(), readings)) if learns else []
-        self.by_circle = by_circle(readings) if learns else []
+        self.of_forms = _of_forms(readings) if learns else []
         self._further: dict[str, Learned] = {}
         self._chosen: dict[Learned, float] = {}
 

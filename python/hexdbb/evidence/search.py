@@ -70,8 +70,8 @@ class Search:
         readings = self.engine.readings
         self.learnable = Learnable(readings, learns=self.learns)
         self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
-        words, by_circle = (*self.learnable.simple, *self.learnable.products), self.learnable.by_circle
-        self.homes = Homes(linear, self.thinned, words, self.criteria, by_circle)
+        words = (*self.learnable.simple, *self.learnable.products)
+        self.homes = Homes(linear, self.thinned, words, self.criteria, self.learnable.of_forms)
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)

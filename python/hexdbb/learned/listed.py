@@ -19,16 +19,16 @@ def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
                     yield Learned(place, element, variable)
 
 
-def products() -> Iterator[Learned]:
+def products(*, slow: bool = False) -> Iterator[Learned]:
     """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too.
 
     In them a known effect's form may be wrong. What changes with time or warmth is no form of what does not, and
-    a growth that goes by the place is another cause.
+    a growth that goes by the place is another cause: such products are yielded apart.
     """
     for place, variables in further.FURTHER.items():
         for element in single(place):
             every = (Learned(place, element, each) for each in variables if each.times)
-            yield from (each for each in every if not each.is_of_time and each.variable.times not in further.SLOW)
+            yield from (each for each in every if slow == (each.variable.times in further.SLOW) and not each.is_of_time)
 
 
 def further_hypotheses() -> Iterator[Learned]:
