@@ -171,7 +171,7 @@ class Forms:
             homes = [
                 each
                 for each in self._homes_of(parameter, fitted, place)
-                if each.hypothesis.port in ports or each.hypothesis not in self.homes.of_forms
+                if each.hypothesis.port in ports or not each.is_of_forms
             ]
             if homes:
                 places = self._places(parameter, homes)

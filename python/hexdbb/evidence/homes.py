@@ -29,11 +29,15 @@ function of time may be finer: a room's heating swings within minutes, and a dri
 
 @dataclass(frozen=True)
 class Home:
-    """A hypothesis that contains a signature, how much of it, and the RMS of the push (mm) per signature's unit."""
+    """A hypothesis that contains a signature, how much of it, and the RMS of the push (mm) per signature's unit.
+
+    `is_of_forms` marks those in which forms may be wrong and nothing more: no word for an effect.
+    """
 
     hypothesis: Learned
     explained: float
     rms_mm: float
+    is_of_forms: bool = False
 
 
 class Homes:
@@ -58,7 +62,7 @@ class Homes:
         criteria: Criteria = DEFAULT,
         of_forms: Sequence[Learned] = (),
     ) -> None:
-        self.criteria, self.of_forms = criteria, frozenset(of_forms)
+        self.criteria = criteria
         self.rows = thinned.rows
         thin = thinned.linear(linear)
         values, vectors = np.linalg.eigh(thin.own.T @ thin.own)
@@ -81,7 +85,7 @@ class Homes:
         widths = [half.shape[1] for _, half in self._spaces]
         self._first = np.cumsum([0, *widths[:-1]])
         """First of each hypothesis' axes among those of all."""
-        self._words = sum(space.hypothesis not in self.of_forms for space, _ in self._spaces)
+        self._words = sum(space.hypothesis not in of_forms for space, _ in self._spaces)
         """How many are words for an effect: they stand before those of forms alone."""
 
     def of(self, signature: Floats) -> list[Home]:
@@ -130,7 +134,8 @@ class Homes:
     def _home(self, place: np.intp, explained: float, along: Floats) -> Home:
         space, half = self._spaces[place]
         first = self._first[place]
-        return Home(space.hypothesis, explained, space.rms_mm(half @ along[first : first + half.shape[1]]))
+        rms_mm = space.rms_mm(half @ along[first : first + half.shape[1]])
+        return Home(space.hypothesis, explained, rms_mm, bool(place >= self._words))
 
 
 def discrepancy(

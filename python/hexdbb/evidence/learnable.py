@@ -10,7 +10,7 @@ from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying
-from hexdbb.learned import ALL, Learned, further_hypotheses, products
+from hexdbb.learned import ALL, Learned, further_hypotheses, grown_with_warmth, products
 from hexdbb.learned.numbered import step
 
 MOST_CIRCLES = 24
@@ -33,9 +33,9 @@ def by_circle(readings: Readings) -> list[Learned]:
 
 
 def _of_forms(readings: Readings) -> list[Learned]:
-    """Return products that are forms only, those with time or warmth, and what sits otherwise in every circle."""
+    """Return products that are forms only, what grows with warmth, and what sits otherwise in every circle."""
     of_forms = (each for each in all_varying(readings, of_forms=True) if each.variable.times)
-    return [*of_forms, *varying(products(slow=True), readings), *by_circle(readings)]
+    return [*of_forms, *varying(grown_with_warmth(), readings), *by_circle(readings)]
 
 
 class Learnable:
@@ -53,8 +53,8 @@ class Learnable:
     products : list of Learned
         Further ones in which a known effect's form may be wrong.
     of_forms : list of Learned
-        Others in which the form of an effect at the same port may be wrong: products with time, with warmth, with the
-        sense in which a joint turns since it reversed; what sits otherwise in every circle.
+        Others in which the form of an effect at the same port may be wrong: what a joint has turned since it reversed,
+        what grows with warmth, what sits otherwise in every circle.
     """
 
     def __init__(self, readings: Readings, *, learns: bool) -> None:

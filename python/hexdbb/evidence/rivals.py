@@ -181,8 +181,10 @@ def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[
 def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     """Return sets of no more effects without a cause that explain all too, by their formulas, and more by these.
 
-    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions.
+    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions. Two that
+    both leave less than the noise explain as much.
     """
+    least = max(node.trial.left, 1.0)
     left, spare = search.left_by_formulas(node.trial), must_explain(search, node.trial)
     found = (
         " + ".join(sorted(other.trial.names))
@@ -191,7 +193,7 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         and _is_no_freer(other, node)
         and not _has_effect(other, cause)
         and is_complete(search, other)
-        and other.trial.left - node.trial.left < spare
+        and other.trial.left - least < spare
         and not search.checked(other).reasons
         and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
     )

@@ -73,13 +73,14 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
 
 
 SINCE_START = tuple(following(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
+WARMING_POSITION = product("warming", v.POSITION)
 PRODUCTS_OF_SLIDER = (
     *(product("velocity", each) for each in (v.POSITION, v.FORCE, v.DRIVE_LOAD)),
     product("acceleration", v.POSITION),
     *(product("leg_force", each) for each in (v.POSITION,)),
     *(product("direction", each) for each in (v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.TIME, v.WARMING)),
     *(product(each, v.TIME) for each in ("velocity", "leg_force")),
-    product("warming", v.POSITION),
+    WARMING_POSITION,
 )
 PRODUCTS_OF_LEG = (
     *PRODUCTS_OF_SLIDER,

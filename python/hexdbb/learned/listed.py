@@ -19,16 +19,22 @@ def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
                     yield Learned(place, element, variable)
 
 
-def products(*, slow: bool = False) -> Iterator[Learned]:
+def products() -> Iterator[Learned]:
     """Yield the hypotheses in which one state multiplies functions of another, those that all elements share too.
 
     In them a known effect's form may be wrong. What changes with time or warmth is no form of what does not, and
-    a growth that goes by the place is another cause: such products are yielded apart.
+    a growth that goes by the place is another cause.
     """
     for place, variables in further.FURTHER.items():
         for element in single(place):
             every = (Learned(place, element, each) for each in variables if each.times)
-            yield from (each for each in every if slow == (each.variable.times in further.SLOW) and not each.is_of_time)
+            yield from (each for each in every if not each.is_of_time and each.variable.times not in further.SLOW)
+
+
+def grown_with_warmth() -> Iterator[Learned]:
+    """Yield what grows with warmth along sliders and legs: what grows with time there (`variables.TIME_POSITION`) may."""
+    for place in ("slider", "leg"):
+        yield from (Learned(place, element, further.WARMING_POSITION) for element in single(place))
 
 
 def further_hypotheses() -> Iterator[Learned]:

@@ -80,3 +80,19 @@ def test_what_is_set_up_has_one_form() -> None:
     lag = Learned.parse("learned:slider:all:velocity")
     assert [len(each) for each in discrepancy([Home(lag, 1.0, 0.01)])] == [7]
     assert discrepancy([Home(lag, 1.0, 0.01)], is_set_up=True) == [(lag,)]
+
+
+def test_a_form_alone_is_near_an_effect_and_no_word_for_it(linear: Linear, readings: Readings, port: Port) -> None:
+    position, of_form = (Learned.parse(f"learned:slider:2:{name}") for name in ("position", "fine_position"))
+    homes = Homes(linear, Thinned(readings), [position], of_forms=[of_form])
+    signature = port("slider")[:, [1]] * np.sin(readings.state["sliders_mm"][:, [1]] / 15.0)
+    assert [each.hypothesis for each in homes.of(signature[:, 0])] == [position]
+    (near,) = homes.around_each(signature)
+    assert {each.hypothesis: each.is_of_forms for each in near} == {position: False, of_form: True}
+
+
+def test_what_changes_with_time_at_the_ball_may_seat_itself_after_each_fixing() -> None:
+    in_time, since = (Learned.parse(f"learned:ball:{name}") for name in ("time", "time_since_fixing"))
+    assert discrepancy([Home(in_time, 1.0, 0.01)]) == [(in_time,), (since,)]
+    assert in_time.after_each_fixing == since
+    assert Learned.parse("learned:leg:2:time").after_each_fixing is None

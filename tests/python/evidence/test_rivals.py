@@ -37,12 +37,13 @@ def rivalry(
     home: Learned = HOME,
     beside: tuple[Known, ...] = (),
     by_formulas: tuple[float, float] = (1.0, 1.0),
+    left: float = 1.0,
 ) -> Rivals:
     """Return what rivals a cause, which has a score of 0 and lives in a learned function.
 
-    Other causes may stand beside it; what the formulas of the set and the rival leave is stated.
+    Other causes may stand beside it; what the formulas of the set and the rival leave is stated, and what the set does.
     """
-    node, root = node_of(0.0, cause, *beside), node_of(-1000.0, left=11.0)
+    node, root = node_of(0.0, cause, *beside, left=left), node_of(-1000.0, left=11.0)
     formulas = {id(node.trial): by_formulas[0], id(rival.trial): by_formulas[1]}
     checks = {id(node): chosen, id(rival): other}
     search: Any = SimpleNamespace(
@@ -142,3 +143,11 @@ def test_as_many_effects_that_explain_more_by_their_formulas_are_a_rival(
     other = Known("screw_thermal", ("3",))
     found = rivals(checked, checked, rival, beside=(other,), by_formulas=(of_node, of_rival))
     assert found == (("bar_drift + bar_gain",) if is_rival else ())
+
+
+@pytest.mark.parametrize(("of_rival", "is_rival"), [(0.96, True), (1.04, False)])
+def test_sets_that_both_leave_less_than_the_noise_explain_as_much(of_rival: float, is_rival: bool) -> None:
+    """Of noise that is stated too large a freer form leaves less, and explains no more."""
+    rival, checked = node_of(-500.0, DRIFT, GAIN, left=of_rival), Checked({}, 1.0, ())
+    found = rivals(checked, checked, rival, beside=(Known("screw_thermal", ("3",)),), by_formulas=(1.3, 1.1), left=0.8)
+    assert bool(found) is is_rival

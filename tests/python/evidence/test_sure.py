@@ -65,14 +65,21 @@ def held(before: float, error: float) -> HeldOut:
 
 
 def asked(
-    form: Form, *, before: float = 5.0, missed: float = 0.0, left: float = 1.0, fitted: float = 1.0, **checked: Any
+    form: Form,
+    *,
+    members: tuple[Member, ...] = (LEGS,),
+    before: float = 5.0,
+    missed: float = 0.0,
+    left: float = 1.0,
+    fitted: float = 1.0,
+    **checked: Any,
 ) -> bool:
-    """Return whether one known effect is for sure that misses a part of what it explains.
+    """Return whether known effects are for sure that miss a part of what they explain.
 
-    `left` is what its formula leaves, `fitted` what it leaves with its form, noise variances.
+    `left` is what their formulas leave, `fitted` what they leave with their forms, noise variances.
     """
     error = float(np.sqrt(1.0 + missed**2 * (BEFORE - 1.0)))
-    trial: Any = SimpleNamespace(members=(LEGS,), left=fitted, forms=(form,))
+    trial: Any = SimpleNamespace(members=members, left=fitted, forms=(form,) * len(members))
     node = Node(trial, 0.0)
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
@@ -80,7 +87,10 @@ def asked(
         trials=SimpleNamespace(explained_before=0.0),
         left_by_formulas=lambda trial: left,
         checked=lambda node: SimpleNamespace(
-            **{"share": 1.0, "excused": False, **checked}, missed=missed, heldout={"circle": held(before, error)}
+            **{"share": 1.0, "excused": False, **checked},
+            missed=missed,
+            missed_at_least=missed,
+            heldout={"circle": held(before, error)},
         ),
     )
     return is_for_sure(search, node)
@@ -106,11 +116,14 @@ def test_a_formula_that_leaves_what_its_form_may_is_nearly_as_it_is(part: float,
     [(1.1, 1.0, True), (0.9, 1.0, False), (1.1, 5.0, False)],
     ids=["leads away", "geometry is held", "explains by its form"],
 )
-def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, left: float, sure_of_it: bool) -> None:
+@pytest.mark.parametrize("members", [(LEGS,), (LEGS, SCREW)], ids=["one", "two"])
+def test_what_geometry_leads_away_from_says_nothing_of_formulas(
+    members: tuple[Member, ...], before: float, left: float, sure_of_it: bool
+) -> None:
     """The one mount of a plan whose circles hold geometry by each other: without one nothing could predict it."""
     form = Form(0.1, 0.2, ())
     before_um = before * DEFAULT.leads_away * BEFORE**0.5
-    assert asked(form, before=before_um, missed=5.0, left=left) is sure_of_it
+    assert asked(form, members=members, before=before_um, missed=5.0, left=left) is sure_of_it
 
 
 @pytest.mark.parametrize(
