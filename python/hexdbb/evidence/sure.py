@@ -45,7 +45,7 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
 
     The formula of one effect must explain a part where its form excuses it from predicting, or geometry leads away so
     that nothing left out tests it; those of several more: functions of forms, free enough, stand in for something else.
-    Formulas that explain nearly all may err as geometry does: no set that stood in for others explained so much by them.
+    Formulas that explain nearly all may err as geometry does: no set that stood in for others explained so much so.
 
     Parameters
     ----------
