@@ -1,22 +1,28 @@
-"""Whether the ball bar may be the cause rather than the machine, or the machine rather than the ball bar.
+"""Whether something elsewhere may be the cause: at the ball bar rather than the machine, or the reverse; another leg.
 
 A known effect is put in the place of a learned function that contains its form. Where the two push at different ends of
-the measuring loop, they are different causes: legs that grow alike, and a gauge that drifts.
+the measuring loop, they are different causes: legs that grow alike, and a gauge that drifts. So are a ball with lobes
+in the joint of one leg, and a joint of the other leg that is off its place, whose form explains a third.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.screen import Hypothesis, Known
+from hexdbb.evidence.place import kin_of
+from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.learned import Learned
+from hexdbb.evidence.settling import explained_by_formulas
+from hexdbb.learned import ALL
+from hexdbb.learned.places import members
 
 INSTRUMENT = frozenset({"reading", "ball", "cup"})
 """Ports of the ball bar and its set-up; all others are the machine's."""
 
 
-def rivals_elsewhere(search: Search, node: Node, cause: Known) -> list[str]:
-    """Return sets in which a learned function at the other end stands for a cause, with more evidence.
+def rivals_elsewhere(search: Search, node: Node, cause: Known, alike: Sequence[str]) -> list[str]:
+    """Return sets in which a learned function elsewhere stands for a cause, with more evidence.
 
     Parameters
     ----------
@@ -24,22 +30,38 @@ def rivals_elsewhere(search: Search, node: Node, cause: Known) -> list[str]:
     node : Node
         Set that the cause belongs to.
     cause : Known
+    alike : sequence of str
+        Sets with its effect at other elements that say the same.
     """
-    kin = search.kin.get(cause.name, set())
-    # A gauge that is read late reads like all sliders ahead of it, and is the instrument's.
-    is_set_up = search.engine.base.info(cause.effect).is_set_up
-    is_instrument = is_set_up or search.engine.absent.ports(cause.effect) <= INSTRUMENT
+    same = {element for name in alike for effect, _, element in _named(name) if effect == cause.effect}
+    elsewhere = {*_at_other_end(search, cause), *_at_other_elements(search, node, cause, {*cause.elements, *same})}
     found = []
     for other in search.nodes:
-        stands_in = [h for h in other.hypotheses if _is_elsewhere(h, kin, is_instrument)]
         lead = (other.score - node.score) / max(node.trial.left, 1.0)
         more = lead > search.criteria.margin_nats and len(other.members) <= len(node.members)
+        stands_in = not elsewhere.isdisjoint(other.trial.names)
         if stands_in and more and not (other.trial.refused or search.checked(other).reasons):
             found.append(" + ".join(other.trial.names))
     return found
 
 
-def _is_elsewhere(hypothesis: Hypothesis, kin: set[str], is_instrument: bool) -> bool:
-    if not isinstance(hypothesis, Learned) or hypothesis.name not in kin:
-        return False
-    return ({hypothesis.port} <= INSTRUMENT) != is_instrument
+def _at_other_end(search: Search, cause: Known) -> Iterator[str]:
+    """Yield the functions that contain a cause's form and push at the other end of the measuring loop."""
+    # A gauge that is read late reads like all sliders ahead of it, and is the instrument's.
+    is_set_up = search.engine.base.info(cause.effect).is_set_up
+    is_instrument = is_set_up or search.engine.absent.ports(cause.effect) <= INSTRUMENT
+    yield from (each.name for each in kin_of(search, cause) if ({each.port} <= INSTRUMENT) != is_instrument)
+
+
+def _named(name: str) -> Iterator[tuple[str, str, str]]:
+    """Yield the effects of a set by its name, each before and behind its colon."""
+    yield from (each.partition(":") for each in name.split(" + "))
+
+
+def _at_other_elements(search: Search, node: Node, cause: Known, elements: set[str]) -> Iterator[str]:
+    """Yield those that push at none of some elements, where a cause explains by functions of its form too."""
+    if cause.is_whole or explained_by_formulas(search, node) >= search.criteria.form_explains:
+        return
+    kind = search.engine.base.info(cause.effect).element_kind
+    alike = (each for each in kin_of(search, cause) if each.kind == kind and each.element != ALL)
+    yield from (each.name for each in alike if elements.isdisjoint(map(str, members(each.element))))

@@ -25,7 +25,7 @@ def at_its_place(search: Search, cause: Hypothesis, learned: Learned) -> bool:
 
 def at_a_place_of_its_kin(search: Search, cause: Hypothesis, learned: Learned) -> bool:
     """Check the same of all that a cause's form reads like, at another port too."""
-    return any(learned.is_within(part_of(home), home.element) for home in _kin_of(search, cause))
+    return any(learned.is_within(part_of(home), home.element) for home in kin_of(search, cause))
 
 
 def homes_of(search: Search, cause: Hypothesis) -> list[Learned]:
@@ -33,7 +33,7 @@ def homes_of(search: Search, cause: Hypothesis) -> list[Learned]:
 
     At another port a form reads the same and goes wrong otherwise.
     """
-    kin = _kin_of(search, cause)
+    kin = kin_of(search, cause)
     if isinstance(cause, Learned):
         return kin
     ports = search.engine.absent.ports(cause.effect)
@@ -77,7 +77,8 @@ def functions_at(search: Search, trial: Trial, linear: Linear, places: Places | 
     ]
 
 
-def _kin_of(search: Search, cause: Hypothesis) -> list[Learned]:
+def kin_of(search: Search, cause: Hypothesis) -> list[Learned]:
+    """Return the learned functions that contain a cause's form: itself, or a known effect's kin at any port."""
     if isinstance(cause, Learned):
         return [cause]
     by_name = search.learnable.by_name

@@ -63,7 +63,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     if node.is_known and len(node.members) > 1:
         others += _better_by_formula(search, node, cause)
     if isinstance(cause, Known):
-        others += rivals_elsewhere(search, node, cause)
+        others += rivals_elsewhere(search, node, cause, alike)
     return Rivals(tuple(dict.fromkeys(others)), tuple(dict.fromkeys(alike)), margin)
 
 

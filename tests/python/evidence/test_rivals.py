@@ -58,7 +58,7 @@ def rivalry(
         trials=SimpleNamespace(explained_before=0.0),
         engine=SimpleNamespace(
             absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
-            base=SimpleNamespace(info=lambda effect: SimpleNamespace(is_set_up=True)),
+            base=SimpleNamespace(info=lambda effect: SimpleNamespace(is_set_up=True, element_kind="mount")),
         ),
     )
     return rivals_of(search, node, cause)

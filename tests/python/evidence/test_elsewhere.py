@@ -1,0 +1,90 @@
+"""A cause elsewhere: a function at another leg than an effect that explains by functions of its form."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.elsewhere import rivals_elsewhere
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
+from hexdbb.studies.verdicts.cases import line_of
+from hexdbb_truth.forms.cases import case
+
+OFFSET = Known("joint_offset", ("6",))
+BEFORE = 11.0
+BY_FORM, BY_FORMULA = 4.0, 1.5
+"""What the effect's formula leaves, in noise variances: seven tenths of what was missing are explained, and nearly all."""
+
+
+def node_of(hypothesis: Known | Learned, score: float) -> Node:
+    trial: Any = SimpleNamespace(members=(Member(hypothesis),), names=(hypothesis.name,), left=1.0, refused=())
+    return Node(trial, score)
+
+
+def named(function: str, formula_leaves: float, *, lead: float = 40.0, alike: tuple[str, ...] = ()) -> list[str]:
+    """Return what is named beside a joint of leg 6 off its place, in whose form a learned function lives."""
+    learned = Learned.parse(function)
+    chosen, other = node_of(OFFSET, 0.0), node_of(learned, lead)
+    search: Any = SimpleNamespace(
+        nodes=[chosen, other],
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        kin={OFFSET.name: {learned.name}},
+        learnable=SimpleNamespace(by_name={learned.name: learned}),
+        left_by_formulas=lambda trial: formula_leaves,
+        checked=lambda node: SimpleNamespace(reasons=()),
+        engine=SimpleNamespace(
+            absent=SimpleNamespace(ports=lambda effect: frozenset({"platform_joint"})),
+            base=SimpleNamespace(info=lambda effect: SimpleNamespace(is_set_up=False, element_kind="leg")),
+        ),
+    )
+    return rivals_elsewhere(search, chosen, OFFSET, alike)
+
+
+OTHER_LEG = "learned:leg:5:platform_joint_angle"
+
+
+@pytest.mark.parametrize("function", [OTHER_LEG, "learned:platform_joint:5:joint_angle"])
+def test_a_function_at_another_leg_is_named_beside_it(function: str) -> None:
+    """A ball with lobes in the joint of leg 5 was called a joint of leg 6 off its place, for sure."""
+    assert named(function, BY_FORM) == [function]
+
+
+def test_not_where_the_formula_explains_nearly_all() -> None:
+    assert named(OTHER_LEG, BY_FORMULA) == []
+
+
+def test_not_without_more_evidence() -> None:
+    assert named(OTHER_LEG, BY_FORM, lead=0.9 * DEFAULT.margin_nats) == []
+
+
+@pytest.mark.parametrize("function", ["learned:leg:6:platform_joint_angle", "learned:leg:5-6:platform_joint_angle"])
+def test_not_at_its_own_leg(function: str) -> None:
+    assert named(function, BY_FORM) == []
+
+
+def test_not_where_the_same_effect_at_that_leg_says_the_same() -> None:
+    assert named(OTHER_LEG, BY_FORM, alike=("backlash:4 + joint_offset:5",)) == []
+    assert named(OTHER_LEG, BY_FORM, alike=("backlash:5 + joint_offset:3",)) == [OTHER_LEG]
+
+
+@pytest.mark.parametrize("function", ["learned:lateral:1:position", "learned:slider:5:position"])
+def test_elements_of_another_kind_are_not_compared(function: str) -> None:
+    """Guideway 1 has sliders 1 and 2: its number says nothing of theirs."""
+    assert named(function, BY_FORM) == []
+
+
+def test_at_the_other_end_of_the_measuring_loop_it_is_named_whatever_the_formula_explains() -> None:
+    assert named("learned:ball:roll", BY_FORMULA) == ["learned:ball:roll"]
+
+
+@pytest.mark.long
+def test_a_joint_off_its_place_is_for_sure_where_its_pair_s_other_joint_says_the_same() -> None:
+    line = line_of(case("joint_offset-d10-x30-calibrate-s2"), ())
+    assert (line["outcome"], line["grade"]) == ("right", "effect")
