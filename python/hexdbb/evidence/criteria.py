@@ -139,8 +139,8 @@ class Criteria:
         Part of the unexplained from which an effect that does not predict circles left out may still be the cause with
         another form: a form 20 % off, the largest that the calibration has, leaves 4 % of it, twice that where no
         function beside the effect holds the difference. Where an effect stood in for another it was 80 %. The same from
-        which formulas are said to explain nearly all: of sets of two and more that stood in for other causes they
-        explained 0.85 at most; that of a joint which stood in for lobes of the other leg's joint explained 0.65.
+        which formulas are said to explain nearly all: that of a joint which stood in for lobes of the other leg's joint
+        explained 0.65. Two that stood in for one other effect explained 0.97: of several it is not enough.
     formula_explains : float
         Part of the unexplained that the formulas of several effects, or of one so excused, or that no circles left out
         test (`leads_away`), must explain to be named for sure: of one 20 % off, the largest that the calibration has,
@@ -167,7 +167,7 @@ class Criteria:
         four that stood in for other causes had 2.0 to 3.7. The value is between the two.
     leads_away : float
         Error of geometry alone on what was left out, over what it leaves where fitted, from which that says nothing of
-        effects whose formulas explain nearly all (`form_explains`), nor for several whose formulas do not: circles
+        one effect whose formula explains nearly all (`form_explains`), nor for several whose formulas do not: circles
         that hold geometry leave it at 3 to 7, others at 16 to 150.
     by_chance : float
         Largest contradiction between the readings left out and the others that counts as chance: the squared distance

@@ -45,7 +45,6 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
 
     The formula of one effect must explain a part where its form excuses it from predicting, or geometry leads away so
     that nothing left out tests it; those of several more: functions of forms, free enough, stand in for something else.
-    Formulas that explain nearly all may err as geometry does: no set that stood in for others explained so much so.
 
     Parameters
     ----------
@@ -61,7 +60,7 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     if not _predicts_more_than_laps(search, node):
         return False
     if not _errs_little(search, node, missed_most):
-        return _explains_by_formulas(search, node) and misses_only_geometry(search, node)
+        return is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
     if is_one and not checked.excused and not _leads_away(search, _held(search, node)):
         return True
     return explained_by_formulas(search, node) >= _least_by_formulas(search, node)

@@ -116,14 +116,17 @@ def test_a_formula_that_leaves_what_its_form_may_is_nearly_as_it_is(part: float,
     [(1.1, 1.0, True), (0.9, 1.0, False), (1.1, 5.0, False)],
     ids=["leads away", "geometry is held", "explains by its form"],
 )
-@pytest.mark.parametrize("members", [(LEGS,), (LEGS, SCREW)], ids=["one", "two"])
-def test_what_geometry_leads_away_from_says_nothing_of_formulas(
-    members: tuple[Member, ...], before: float, left: float, sure_of_it: bool
-) -> None:
+def test_what_geometry_leads_away_from_says_nothing_of_a_formula(before: float, left: float, sure_of_it: bool) -> None:
     """The one mount of a plan whose circles hold geometry by each other: without one nothing could predict it."""
     form = Form(0.1, 0.2, ())
     before_um = before * DEFAULT.leads_away * BEFORE**0.5
-    assert asked(form, members=members, before=before_um, missed=5.0, left=left) is sure_of_it
+    assert asked(form, before=before_um, missed=5.0, left=left) is sure_of_it
+
+
+def test_but_of_two_that_explain_nearly_all_it_does() -> None:
+    """A lead error and legs that sag stood in for a joint off its place: their formulas explained 97 %."""
+    form, before_um = Form(0.0, 0.0, ()), 1.1 * DEFAULT.leads_away * BEFORE**0.5
+    assert not asked(form, members=(LEGS, SCREW), before=before_um, missed=5.0)
 
 
 @pytest.mark.parametrize(
