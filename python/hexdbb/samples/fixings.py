@@ -2,13 +2,13 @@
 
 A record's mounts count as fixings of its own, unless they are given the name of a fixing (`hexdbb.plan.Mount.fixing`):
 mounts of one name and number are one, in whatever records they stand.
-Assumption users get wrong: a cup that was taken off and put back stands elsewhere by hundredths of a millimetre, and is
-another fixing.
+Assumptions users get wrong: a cup that was taken off and put back stands elsewhere by hundredths of a millimetre, and
+is another fixing. So is a ball that was moved to another place of the platform.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from hexdbb.errors import InputError
 from hexdbb.model import MountKey
@@ -57,3 +57,20 @@ def shared_words(records: Sequence[Record]) -> list[str]:
         for name in dict.fromkeys(mount.fixing for mount in record.mounts if mount.fixing is not None):
             names.setdefault(name, []).append(record.name)
     return [f'{", ".join(each)}: one set-up, "{name}"' for name, each in names.items() if len(each) > 1]
+
+
+def ball_places_sentences(records: Sequence[Record]) -> Iterator[str]:
+    """Yield a sentence for each mount whose circles have the ball at several places of the platform.
+
+    The 33 errors have the sides of the platform's triangle of joints, not how it is turned: with the ball at one place
+    `ball_offset` takes that, at several it does not.
+    """
+    for record in records:
+        for mount in record.mounts:
+            count = len({tuple(each.ball_offset_mm) for each in record.circles if each.mount == mount.id})
+            if count > 1:
+                yield (
+                    f"{record.name}: mount {mount.id} has its ball at {count} places of the platform (ball_offset_mm), "
+                    "with one error of place for all: what turns them together, as a holder or the triangle of "
+                    "joints may be turned, reads like joints off their places (expected a mount for each place)"
+                )
