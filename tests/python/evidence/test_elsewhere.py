@@ -19,7 +19,7 @@ from hexdbb_truth.forms.cases import case
 OFFSET = Known("joint_offset", ("6",))
 BEFORE = 11.0
 BY_FORM, BY_FORMULA = 4.0, 1.5
-"""What the effect's formula leaves, in noise variances: seven tenths of what was missing are explained, and nearly all."""
+"""What the effect's formula leaves, in noise variances: it explains seven tenths of what was missing, or nearly all."""
 
 
 def node_of(hypothesis: Known | Learned, score: float) -> Node:
