@@ -26,7 +26,7 @@ from hexdbb.errors import InputError
 from hexdbb.kinematics.margins import nearest_end, nearest_sliders
 from hexdbb.machine import MachineFile
 from hexdbb.model import load_model, new_model
-from hexdbb.plan import Plan, load_plan
+from hexdbb.plan import Plan, ball_places_sentences, load_plan
 from hexdbb.planning import Clearances, angle_of_row, circle_clearances
 from hexdbb.trajectory import Programme, plan_programme
 
@@ -80,6 +80,8 @@ def check(
         ]
         clearances = _clearances(plan, machine, plan_name)
     assessment = assess_plan(plan, model, rate_hz, noise_um, plan_name)
+    for line in ball_places_sentences(plan_name, plan.mounts, plan.circles):
+        say(line, err=True)
     if as_json:
         extent = {"rows": len(programme), "disk_bytes": int(programme.extent.disk_bytes)}
         motion = {"reachable": True, "duration_s": programme.duration_s, **extent, "bus_load": load, "runs": runs}

@@ -22,7 +22,7 @@ from hexdbb.diagnosis.sufficiency import Sufficiency, assess_sufficiency
 from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
-from hexdbb.samples import Samples, ball_places_sentences, predict
+from hexdbb.samples import Samples, ball_places_words, predict
 from hexdbb.samples.unmeasured import not_measured_sentences, with_judged_free
 
 NO_ACTION = 1e-9
@@ -232,7 +232,7 @@ def diagnose(
         unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
         warnings=(
             *not_measured_sentences(samples.records),
-            *ball_places_sentences(samples.records),
+            *ball_places_words(samples.records),
             *([] if fit.left_out is None else [fit.left_out]),
             *fit.either_sign,
             *warnings_of(fitted, result, enough, checked, expected),

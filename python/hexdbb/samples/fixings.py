@@ -8,10 +8,11 @@ is another fixing. So is a ball that was moved to another place of the platform.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from hexdbb.errors import InputError
 from hexdbb.model import MountKey
+from hexdbb.plan import ball_places_sentences
 from hexdbb.record import Record
 
 NAMED = "fixing {}"
@@ -59,18 +60,6 @@ def shared_words(records: Sequence[Record]) -> list[str]:
     return [f'{", ".join(each)}: one set-up, "{name}"' for name, each in names.items() if len(each) > 1]
 
 
-def ball_places_sentences(records: Sequence[Record]) -> Iterator[str]:
-    """Yield a sentence for each mount whose circles have the ball at several places of the platform.
-
-    The 33 errors have the sides of the platform's triangle of joints, not how it is turned: with the ball at one place
-    `ball_offset` takes that, at several it does not.
-    """
-    for record in records:
-        for mount in record.mounts:
-            count = len({tuple(each.ball_offset_mm) for each in record.circles if each.mount == mount.id})
-            if count > 1:
-                yield (
-                    f"{record.name}: mount {mount.id} has its ball at {count} places of the platform (ball_offset_mm), "
-                    "with one error of place for all: what turns them together, as a holder or the triangle of "
-                    "joints may be turned, reads like joints off their places (expected a mount for each place)"
-                )
+def ball_places_words(records: Sequence[Record]) -> list[str]:
+    """Return a sentence for each mount whose circles have the ball at several places of the platform."""
+    return [line for each in records for line in ball_places_sentences(each.name, each.mounts, each.circles)]

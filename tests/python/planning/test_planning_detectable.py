@@ -106,3 +106,13 @@ def test_printed_table_names_what_is_not_identifiable() -> None:
     assert "platform_side" in done.stdout
     assert "a rigid shift of base and cup along x" in done.stdout
     assert "…" not in done.stdout
+
+
+def test_check_says_where_one_mount_has_its_ball_at_several_places(tmp_path: Path) -> None:
+    path = tmp_path / "plan.toml"
+    text = shipped("plans", "standard.toml").read_text()
+    path.write_text(text.replace("ball_offset_mm = [0.0, 0.0, 60.0]", "ball_offset_mm = [5.0, 0.0, 60.0]", 1))
+    done = CliRunner().invoke(command, ["check", str(path), "--json"], catch_exceptions=False)
+    assert f"{path}: mount 0 has its ball at 2 places of the platform" in done.stderr
+    assert "(expected a mount for each place)" in done.stderr
+    assert json.loads(done.stdout)["reachable"] is True

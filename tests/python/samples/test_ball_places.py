@@ -9,7 +9,7 @@ import pytest
 from hexdbb.diagnosis import diagnose
 from hexdbb.model import new_model
 from hexdbb.record import Record
-from hexdbb.samples import Samples, ball_places_sentences
+from hexdbb.samples import Samples, ball_places_words
 from hexdbb_truth.forms.cases import case
 
 
@@ -29,13 +29,13 @@ def moved(record: Record, count: int) -> Record:
 
 @pytest.mark.parametrize("count", [1, 2])
 def test_several_places_are_counted(record: Record, count: int) -> None:
-    (sentence,) = ball_places_sentences([moved(record, count)])
+    (sentence,) = ball_places_words([moved(record, count)])
     assert f"mount 0 has its ball at {count + 1} places of the platform" in sentence
     assert "expected a mount for each place" in sentence
 
 
 def test_of_one_place_nothing_is_said(record: Record) -> None:
-    assert list(ball_places_sentences([record])) == []
+    assert list(ball_places_words([record])) == []
 
 
 def test_a_fit_warns_of_it(record: Record) -> None:
