@@ -59,8 +59,12 @@ def _named(name: str) -> Iterator[tuple[str, str, str]]:
 
 
 def _at_other_elements(search: Search, node: Node, cause: Known, elements: set[str]) -> Iterator[str]:
-    """Yield those that push at none of some elements, where a cause explains by functions of its form too."""
-    if cause.is_whole or explained_by_formulas(search, node) >= search.criteria.form_explains:
+    """Yield those that push at none of some elements, where the only cause explains by functions of its form too.
+
+    Of several the functions of one's form describe what the others leave.
+    """
+    is_one = len(node.members) == 1 and not cause.is_whole
+    if not is_one or explained_by_formulas(search, node) >= search.criteria.form_explains:
         return
     kind = search.engine.base.info(cause.effect).element_kind
     alike = (each for each in kin_of(search, cause) if each.kind == kind and each.element != ALL)

@@ -22,15 +22,23 @@ BY_FORM, BY_FORMULA = 4.0, 1.5
 """What the effect's formula leaves, in noise variances: it explains seven tenths of what was missing, or nearly all."""
 
 
-def node_of(hypothesis: Known | Learned, score: float) -> Node:
-    trial: Any = SimpleNamespace(members=(Member(hypothesis),), names=(hypothesis.name,), left=1.0, refused=())
+def node_of(score: float, *hypotheses: Known | Learned) -> Node:
+    members, names = tuple(map(Member, hypotheses)), tuple(each.name for each in hypotheses)
+    trial: Any = SimpleNamespace(members=members, names=names, left=1.0, refused=())
     return Node(trial, score)
 
 
-def named(function: str, formula_leaves: float, *, lead: float = 40.0, alike: tuple[str, ...] = ()) -> list[str]:
+def named(
+    function: str,
+    formula_leaves: float,
+    *,
+    lead: float = 40.0,
+    alike: tuple[str, ...] = (),
+    beside: tuple[Known, ...] = (),
+) -> list[str]:
     """Return what is named beside a joint of leg 6 off its place, in whose form a learned function lives."""
     learned = Learned.parse(function)
-    chosen, other = node_of(OFFSET, 0.0), node_of(learned, lead)
+    chosen, other = node_of(0.0, OFFSET, *beside), node_of(lead, learned)
     search: Any = SimpleNamespace(
         nodes=[chosen, other],
         criteria=DEFAULT,
@@ -58,6 +66,11 @@ def test_a_function_at_another_leg_is_named_beside_it(function: str) -> None:
 
 def test_not_where_the_formula_explains_nearly_all() -> None:
     assert named(OTHER_LEG, BY_FORMULA) == []
+
+
+def test_not_where_it_is_one_of_several() -> None:
+    """Then the functions of its form describe what the others leave."""
+    assert named(OTHER_LEG, BY_FORM, beside=(Known("sample_delay", ("1",), is_whole=True),)) == []
 
 
 def test_not_without_more_evidence() -> None:
