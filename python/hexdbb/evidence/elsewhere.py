@@ -1,8 +1,8 @@
-"""Whether something elsewhere may be the cause: at the ball bar rather than the machine, or the reverse; another leg.
+"""Rivals of a known effect at another place: at the other end of the measuring loop, or at another leg.
 
 A known effect is put in the place of a learned function that contains its form. Where the two push at different ends of
 the measuring loop, they are different causes: legs that grow alike, and a gauge that drifts. So are a ball with lobes
-in the joint of one leg, and a joint of the other leg that is off its place, whose form explains a third.
+in the joint of one leg, and a displaced joint of the other leg that explains a third of it by functions of its form.
 """
 
 from __future__ import annotations
@@ -54,14 +54,14 @@ def _at_other_end(search: Search, cause: Known) -> Iterator[str]:
 
 
 def _named(name: str) -> Iterator[tuple[str, str, str]]:
-    """Yield the effects of a set by its name, each before and behind its colon."""
+    """Yield effect, colon and element of each member in the name of a set."""
     yield from (each.partition(":") for each in name.split(" + "))
 
 
 def _at_other_elements(search: Search, node: Node, cause: Known, elements: set[str]) -> Iterator[str]:
-    """Yield those that push at none of some elements, where the only cause explains by functions of its form too.
+    """Yield the functions at none of some elements, if the effect is the only cause and its formula leaves much.
 
-    Of several the functions of one's form describe what the others leave.
+    Beside other causes the functions of an effect's form also describe what those leave.
     """
     is_one = len(node.members) == 1 and not cause.is_whole
     if not is_one or explained_by_formulas(search, node) >= search.criteria.form_explains:

@@ -29,8 +29,8 @@ KEPT = 48
 """Signatures kept in memory, of a megabyte or two each: those of an effect's homes are asked for in every trial."""
 
 KEPT_SQUARES = 8192
-"""Products of two of them kept, some ten kilobytes each: they are the same about every fit. What is one cause at all
-elements has some thousand, which 1024 threw out before they were asked for again: a sixth of a search's time."""
+"""Products of two of them kept, about ten kilobytes each: they are the same about every fit. An effect at all elements
+needs several thousand; with 1024 they were evicted before they were used again, which took a sixth of a search."""
 
 
 @dataclass(frozen=True)
@@ -166,8 +166,8 @@ class Forms:
             # Columns of the discrepancies stand behind those of the free values.
             sigma = model.prior_sigma[column]
             ports = self.engine.absent.ports(parameter.effect)
-            # What sits otherwise in every circle, or grows with warmth, imitates anything slow: it is a form of what is
-            # at its port alone.
+            # Steps from circle to circle and growth with warmth imitate anything slow: only at the effect's own port do
+            # they count as its form.
             homes = [
                 each
                 for each in self._homes_of(parameter, fitted, place)

@@ -31,7 +31,7 @@ function of time may be finer: a room's heating swings within minutes, and a dri
 class Home:
     """A hypothesis that contains a signature, how much of it, and the RMS of the push (mm) per signature's unit.
 
-    `is_of_forms` marks those in which forms may be wrong and nothing more: no word for an effect.
+    `is_of_forms` marks hypotheses that only describe how a form is wrong; they never take an effect's place.
     """
 
     hypothesis: Learned

@@ -33,7 +33,7 @@ def by_circle(readings: Readings) -> list[Learned]:
 
 
 def _of_forms(readings: Readings) -> list[Learned]:
-    """Return products that are forms only, what grows with warmth, and what sits otherwise in every circle."""
+    """Return products that only describe forms, growth with warmth, and steps from circle to circle."""
     of_forms = (each for each in all_varying(readings, of_forms=True) if each.variable.times)
     return [*of_forms, *varying(grown_with_warmth(), readings), *by_circle(readings)]
 
@@ -53,8 +53,8 @@ class Learnable:
     products : list of Learned
         Further ones in which a known effect's form may be wrong.
     of_forms : list of Learned
-        Others in which the form of an effect at the same port may be wrong: what a joint has turned since it reversed,
-        what grows with warmth, what sits otherwise in every circle.
+        Others that describe how the form of an effect at the same port is wrong: functions of the angle a joint has
+        turned since it reversed, growth with warmth, steps of ball and cup from circle to circle.
     """
 
     def __init__(self, readings: Readings, *, learns: bool) -> None:

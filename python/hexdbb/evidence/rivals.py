@@ -181,8 +181,8 @@ def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[
 def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     """Return sets of no more effects without a cause that explain all too, by their formulas, and more by these.
 
-    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions. Two that
-    both leave less than the noise explain as much.
+    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions. Sets
+    that both leave less than the noise count as explaining the same.
     """
     least = max(node.trial.left, 1.0)
     left, spare = search.left_by_formulas(node.trial), must_explain(search, node.trial)

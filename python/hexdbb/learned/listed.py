@@ -32,7 +32,7 @@ def products() -> Iterator[Learned]:
 
 
 def grown_with_warmth() -> Iterator[Learned]:
-    """Yield what grows with warmth along sliders and legs: the form of what grows with time there may follow it."""
+    """Yield growth with warmth along sliders and legs: what grows with time there may follow the temperature."""
     for place in ("slider", "leg"):
         yield from (Learned(place, element, further.WARMING_POSITION) for element in single(place))
 

@@ -62,7 +62,8 @@ TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since th
 SINCE_FIXING = Variable(
     "time_since_fixing", "time_since_fixing_s", "s", "time since the set-up was fixed", 10, is_log=True
 )
-"""What was just fixed seats itself, fast at first; alike after each fixing, which no function of time is."""
+"""What was just fixed settles, fast at first and in the same manner after each fixing, which no function of time
+describes. As many splines as time within a sweep has, over the logarithm of the time."""
 ROLL, PITCH, YAW = (
     Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
     for axis, name in enumerate(("roll", "pitch", "yaw"))

@@ -11,8 +11,8 @@ from hexdbb.plan.mount import Mount
 def ball_places_sentences(name: str, mounts: Sequence[Mount], circles: Sequence[Circle]) -> Iterator[str]:
     """Yield a sentence for each mount whose circles have the ball at several places of the platform.
 
-    The 33 errors have the sides of the platform's triangle of joints, not how it is turned: with the ball at one place
-    `ball_offset` takes that, at several it does not.
+    The 33 errors contain the sides of the platform's triangle of joints, not its orientation. With the ball at one
+    place `ball_offset` absorbs the orientation, at several places it cannot.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ def ball_places_sentences(name: str, mounts: Sequence[Mount], circles: Sequence[
         count = len({tuple(each.ball_offset_mm) for each in circles if each.mount == mount.id})
         if count > 1:
             yield (
-                f"{name}: mount {mount.id} has its ball at {count} places of the platform (ball_offset_mm), with one "
-                "error of place for all: what turns them together, as a holder or the triangle of joints may be "
-                "turned, reads like joints off their places (expected a mount for each place)"
+                f"{name}: mount {mount.id} has its ball at {count} places of the platform (ball_offset_mm), but one "
+                "fitted ball offset: a rotation of the ball's holder, or of the triangle of joints, then looks like "
+                "joints off their places (expected a mount for each place)"
             )

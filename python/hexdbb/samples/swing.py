@@ -80,9 +80,10 @@ def _bar_angle(pose: Pose, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_
 def _since_fixing_s(time_s: Floats, mount: NDArray[np.integer[Any]]) -> Floats:
     """Return the time since the first sample of each sample's fixing, shape (n,); nan where all have one.
 
-    Of one fixing it is the time of the record, under another name.
+    With one fixing it would repeat `time_s` under another name.
     """
-    return time_s - _begin_s(time_s, mount) if len(np.unique(mount)) > 1 else np.full(len(time_s), np.nan)
+    is_one = len(mount) == 0 or mount.min() == mount.max()
+    return np.full(len(time_s), np.nan) if is_one else time_s - _begin_s(time_s, mount)
 
 
 def _begin_s(time_s: Floats, part: NDArray[np.integer[Any]]) -> Floats:

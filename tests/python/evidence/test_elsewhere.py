@@ -1,4 +1,4 @@
-"""A cause elsewhere: a function at another leg than an effect that explains by functions of its form."""
+"""A rival at another leg: named beside an effect whose formula alone leaves much."""
 
 from __future__ import annotations
 

@@ -28,6 +28,6 @@ def test_forms_alone_are_of_joints_that_reverse_of_warmth_and_of_circles() -> No
     learnable = Learnable(Engine(samples, model, judging_noise(samples).noise).readings, learns=True)
     names = {each.name.partition("@")[0] for each in learnable.of_forms}
     assert {"learned:leg:3:joint_since_reversal", "learned:slider:2:warming_position", "learned:ball:step"} <= names
-    # What is read describes any error of the gauge, circle by circle.
+    # A function of the reading can describe any error of the gauge, circle by circle.
     assert "learned:reading:reading" not in names
     assert names.isdisjoint(each.name for each in (*learnable.simple, *learnable.products))

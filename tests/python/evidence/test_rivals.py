@@ -147,7 +147,7 @@ def test_as_many_effects_that_explain_more_by_their_formulas_are_a_rival(
 
 @pytest.mark.parametrize(("of_rival", "is_rival"), [(0.96, True), (1.04, False)])
 def test_sets_that_both_leave_less_than_the_noise_explain_as_much(of_rival: float, is_rival: bool) -> None:
-    """Of noise that is stated too large a freer form leaves less, and explains no more."""
+    """Where the stated noise is too large, a freer form leaves less without explaining more."""
     rival, checked = node_of(-500.0, DRIFT, GAIN, left=of_rival), Checked({}, 1.0, ())
     found = rivals(checked, checked, rival, beside=(Known("screw_thermal", ("3",)),), by_formulas=(1.3, 1.1), left=0.8)
     assert bool(found) is is_rival

@@ -1,4 +1,4 @@
-"""A ball at several places of the platform, with one error of place for all: said by fit and search."""
+"""A ball at several places of the platform within one mount: the fit warns of it."""
 
 from __future__ import annotations
 

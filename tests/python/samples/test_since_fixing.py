@@ -1,4 +1,4 @@
-"""Time since the fixing: it begins anew at each, and is no column of its own where there is one fixing only."""
+"""Time since the fixing: it restarts at each fixing, and is nan where there is only one."""
 
 from __future__ import annotations
 
