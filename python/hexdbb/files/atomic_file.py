@@ -23,7 +23,7 @@ def refuse_existing(path: Path, overwrite: bool) -> None:
     if path.is_dir():
         raise InputError(f"{path}: is a directory (expected the name of a file)")
     if path.exists() and not overwrite:
-        raise InputError(f"{path}: exists already (expected a new name, or leave to overwrite it)")
+        raise InputError(f"{path}: exists already (expected a new name, or the overwrite option)")
 
 
 def require_folder(folder: Path) -> None:
