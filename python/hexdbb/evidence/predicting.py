@@ -5,7 +5,7 @@ from __future__ import annotations
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_doubtful
+from hexdbb.evidence.settling import explained_by_formulas, is_doubtful
 from hexdbb.evidence.sure import is_for_sure
 
 
@@ -13,7 +13,8 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
     """Prefer another set that explains nearly all and predicts to one that does not.
 
     A single cause gives way to one of another kind; of several, some may be right. One that is for sure although it
-    errs where geometry leads away gives way to nothing that fits worse: what is freer only expects to err more.
+    errs where geometry leads away gives way to nothing that fits worse: what is freer only expects to err more. Known
+    effects that explain nearly all by their formulas do not give way to others that explain less by theirs.
     """
     if not is_doubtful(search, node):
         return node
@@ -26,10 +27,20 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
         and not each.trial.refused
         and not (is_one and any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses))
         and not (is_sure and each.score < node.score - search.criteria.margin_nats)
+        and not _explains_less_by_formulas(search, each, node)
     ]
     # The best first: what lies behind it need not be held out.
     others.sort(key=lambda each: -each.score)
     return next((each for each in others if _explains_and_predicts(search, each)), node)
+
+
+def _explains_less_by_formulas(search: Search, other: Node, node: Node) -> bool:
+    """Check for known effects whose formulas explain less than those of several that explain nearly all by theirs."""
+    if len(node.members) < 2 or not (node.is_known and other.is_known):
+        return False
+    if explained_by_formulas(search, node) < search.criteria.form_explains:
+        return False
+    return search.left_by_formulas(other.trial) > search.left_by_formulas(node.trial)
 
 
 def _explains_and_predicts(search: Search, node: Node) -> bool:

@@ -77,6 +77,31 @@ def test_what_is_for_sure_gives_way_to_nothing_that_fits_worse(
 
 
 @pytest.mark.parametrize(
+    ("of_set", "of_other", "gives_way"),
+    [(1.5, 2.0, False), (1.5, 1.2, True), (3.0, 4.0, True)],
+    ids=["its formulas explain less", "its formulas explain more", "the set explains by its forms"],
+)
+def test_several_that_explain_by_formulas_give_way_to_none_that_explains_less_by_its_own(
+    monkeypatch: pytest.MonkeyPatch, of_set: float, of_other: float, gives_way: bool
+) -> None:
+    """Functions of forms predict what they were fitted to; formulas that explain nearly all are what it is."""
+    several, other = node_of(2, 1.0, ONE), node_of(2, 1.1, ONE)
+    for each in (several, other):
+        each.is_known, each.trial.is_free_in_time = True, False
+    by_formulas = {id(several.trial): of_set, id(other.trial): of_other}
+    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: False)
+    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is several)
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=9.0)),
+        nodes=[several, other],
+        checked=lambda each: each.checked,
+        left_by_formulas=lambda trial: by_formulas[id(trial)],
+    )
+    assert predicting.or_another_that_predicts(search, several) is (other if gives_way else several)
+
+
+@pytest.mark.parametrize(
     ("formulas", "errors", "left", "is_answer"),
     [
         (4.9, ONE, 5.0, True),
