@@ -172,7 +172,9 @@ class Criteria:
     by_chance : float
         Largest contradiction between the readings left out and the others that counts as chance: the squared distance
         of the fitted values, in standard deviations, per value; 1 is expected. Thirty true sets, three times the noise,
-        had 6 or less, one had 17; twenty wrong or incomplete sets had 17 to several hundred.
+        had 6 or less, one had 17; twenty wrong or incomplete sets had 17 to several hundred. The same for the squared
+        error on readings left out, over what is expected, of effects that explain by their own formulas: both are
+        squares of few values that hardly anything determines.
     far_better : float
         Known effects together stand before one that its form excuses where they err by less than this part of its
         error: a true pair erred by 0.28 of it, the same with a wrong element by 0.49 and more.

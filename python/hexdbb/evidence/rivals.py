@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from hexdbb.evidence.by_formulas import explain_by_own_formulas
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead, of_forms
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.place import at_a_place_of_its_kin
+from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain
 from hexdbb.evidence.sure import is_for_sure, misses_only_geometry
-from hexdbb.learned import Learned
+from hexdbb.learned import ALL, Learned, part_of
+from hexdbb.learned.places import members
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
         others += _lenders(search, node, cause, form)
     if node.is_known and len(node.members) > 1:
         others += _better_by_formula(search, node, cause)
+        others += _one_instead(search, node, cause)
     if isinstance(cause, Known):
         others += rivals_elsewhere(search, node, cause, alike)
     return Rivals(tuple(dict.fromkeys(others)), tuple(dict.fromkeys(alike)), margin)
@@ -198,6 +201,35 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
         and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
     )
     return list(dict.fromkeys(found))
+
+
+def _one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return single hypotheses without a cause that leave only noise and predict, unless each of several is for sure.
+
+    Several whose forms make up for what their formulas leave may stand in for one cause. A function that two
+    sliders share says the same as a cause of each.
+    """
+    if explain_by_own_formulas(search, node):
+        return []
+    return [
+        other.trial.names[0]
+        for other, _ in _without(search, node, cause)
+        if len(other.members) == 1
+        and not _acts_where_they_do(search, other, node)
+        and other.trial.left - 1.0 < NOTHING_LEFT
+        and not search.checked(other).reasons
+        and search.checked(other).missed <= search.criteria.missed_sure
+    ]
+
+
+def _acts_where_they_do(search: Search, other: Node, node: Node) -> bool:
+    """Check for a function all of whose elements are those of causes of a set, at their own place."""
+    (one,) = other.hypotheses
+    if not isinstance(one, Learned):
+        return False
+    homes = [home for cause in node.hypotheses for home in kin_of(search, cause) if home.element != ALL]
+    places = {(part_of(home), element) for home in homes for element in members(home.element)}
+    return {(part_of(one), element) for element in members(one.element)} <= places
 
 
 def _is_no_freer(other: Node, node: Node) -> bool:

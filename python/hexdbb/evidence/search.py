@@ -19,6 +19,7 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.beside import with_known_beside
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.form import Form
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
@@ -182,6 +183,10 @@ class Search:
         if id(trial) not in self._by_formulas:
             self._by_formulas[id(trial)] = left_by_formulas(trial.forms, self.trials.linear(trial))
         return self._by_formulas[id(trial)]
+
+    def left_by_formula(self, trial: Trial, form: Form | None) -> float:
+        """Return the same without the functions of one form alone."""
+        return left_by_formulas([form], self.trials.linear(trial))
 
     def same_kind(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Check whether two hypotheses are one cause in different words."""

@@ -7,6 +7,7 @@ from typing import Literal
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import leads_away, missed_of
+from hexdbb.evidence.by_formulas import err_by_geometry
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
@@ -60,7 +61,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     if not _predicts_more_than_laps(search, node):
         return False
     if not _errs_little(search, node, missed_most):
-        return is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
+        by_formula = is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
+        return by_formula or err_by_geometry(search, node)
     if is_one and not checked.excused and not _leads_away(search, _held(search, node)):
         return True
     return explained_by_formulas(search, node) >= _least_by_formulas(search, node)

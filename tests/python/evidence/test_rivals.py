@@ -38,10 +38,12 @@ def rivalry(
     beside: tuple[Known, ...] = (),
     by_formulas: tuple[float, float] = (1.0, 1.0),
     left: float = 1.0,
+    by_formula: float = 1.0,
 ) -> Rivals:
     """Return what rivals a cause, which has a score of 0 and lives in a learned function.
 
-    Other causes may stand beside it; what the formulas of the set and the rival leave is stated, and what the set does.
+    Other causes may stand beside it; what the formulas of the set and the rival leave is stated, and what the set does,
+    and what it leaves with the formula of one of its causes alone, where the others leave eleven noise variances.
     """
     node, root = node_of(0.0, cause, *beside, left=left), node_of(-1000.0, left=11.0)
     formulas = {id(node.trial): by_formulas[0], id(rival.trial): by_formulas[1]}
@@ -55,7 +57,8 @@ def rivalry(
         kin={cause.name: {home.name}},
         learnable=SimpleNamespace(by_name={home.name: home}),
         left_by_formulas=lambda trial: formulas.get(id(trial), trial.left),
-        trials=SimpleNamespace(explained_before=0.0),
+        left_by_formula=lambda trial, form: by_formula,
+        trials=SimpleNamespace(explained_before=0.0, of=lambda members: SimpleNamespace(left=11.0)),
         engine=SimpleNamespace(
             absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
             base=SimpleNamespace(info=lambda effect: SimpleNamespace(is_set_up=True, element_kind="mount")),
@@ -151,3 +154,18 @@ def test_sets_that_both_leave_less_than_the_noise_explain_as_much(of_rival: floa
     rival, checked = node_of(-500.0, DRIFT, GAIN, left=of_rival), Checked({}, 1.0, ())
     found = rivals(checked, checked, rival, beside=(Known("screw_thermal", ("3",)),), by_formulas=(1.3, 1.1), left=0.8)
     assert bool(found) is is_rival
+
+
+@pytest.mark.parametrize(
+    ("by_formula", "left", "missed", "is_named"),
+    [(5.0, 1.02, 0.4, True), (1.5, 1.02, 0.4, False), (5.0, 1.05, 0.4, False), (5.0, 1.02, 0.6, False)],
+    ids=["by forms", "by formulas", "it leaves something", "it errs where left out"],
+)
+def test_one_that_leaves_only_noise_is_named_beside_several_that_explain_by_forms(
+    by_formula: float, left: float, missed: float, is_named: bool
+) -> None:
+    """A ball with lobes in a leg's joint read as two other effects whose forms made up for their formulas."""
+    other = node_of(-200.0, SCREW, left=left)
+    checked = Checked({}, 1.0, (), missed=missed)
+    found = rivals(Checked({}, 1.0, ()), checked, other, beside=(Known("backlash", ("3",)),), by_formula=by_formula)
+    assert found == ((SCREW.name,) if is_named else ())

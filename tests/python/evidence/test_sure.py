@@ -30,6 +30,12 @@ def explains_and_predicts(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sure, "is_for_sure", lambda *_: True)
 
 
+@pytest.fixture(autouse=True)
+def nothing_is_put_down_to_geometry(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What each effect explains by its own formula is asked in `test_by_formulas.py`."""
+    monkeypatch.setattr(sure, "err_by_geometry", lambda *_: False)
+
+
 def searched(left: float | None) -> Any:
     """Return a search in which the known effect alone leaves so much, or cannot be fitted."""
 
@@ -127,6 +133,12 @@ def test_but_of_two_that_explain_nearly_all_it_does() -> None:
     """A lead error and legs that sag stood in for a joint off its place: their formulas explained 97 %."""
     form, before_um = Form(0.0, 0.0, ()), 1.1 * DEFAULT.leads_away * BEFORE**0.5
     assert not asked(form, members=(LEGS, SCREW), before=before_um, missed=5.0)
+
+
+@pytest.mark.parametrize("left", [1.0, 8.0], ids=["together by formulas", "together by forms"])
+def test_unless_each_does_by_its_own_and_errs_by_geometry(monkeypatch: pytest.MonkeyPatch, left: float) -> None:
+    monkeypatch.setattr(sure, "err_by_geometry", lambda *_: True)
+    assert asked(Form(0.0, 0.0, ()), members=(LEGS, SCREW), missed=5.0, left=left)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,54 @@
+"""What known effects explain each by its own formula: that is what they are, however far geometry leads away beside."""
+
+from __future__ import annotations
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.form import Form
+from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.readings import ARC
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import is_complete
+from hexdbb.evidence.trial import Member
+
+
+def explain_by_own_formulas(search: Search, node: Node) -> bool:
+    """Check for known effects that each explain by their own formula nearly all that the others leave."""
+    return node.is_known and all(
+        _explains_by_its_own(search, node, member, form)
+        for member, form in zip(node.members, node.trial.forms, strict=True)
+    )
+
+
+def _explains_by_its_own(search: Search, node: Node, member: Member, form: Form | None) -> bool:
+    try:
+        others = search.trials.of(node.without(member)).left
+    except RunError:
+        return False
+    left = search.left_by_formula(node.trial, form)
+    return others - left >= search.criteria.form_explains * (others - 1.0)
+
+
+def err_by_geometry(search: Search, node: Node) -> bool:
+    """Check for known effects, each by its own formula, whose error where left out geometry and chance make up.
+
+    A small part of a form that the formulas leave is carried by geometry to circles that the others hardly hold, as
+    what is missing is: by its error there for each noise variance that it leaves where fitted. Where one hypothesis
+    alone leaves no more than forms may, several are no simpler.
+    """
+    if not explain_by_own_formulas(search, node):
+        return False
+    if len(node.members) > 1 and any(len(each.members) == 1 and _is_another(search, each) for each in search.nodes):
+        return False
+    held = search.checked(node).heldout
+    return all(_errs_by_chance(search, node, each) for grouping, each in held.items() if grouping != ARC)
+
+
+def _is_another(search: Search, one: Node) -> bool:
+    return is_complete(search, one) and not one.trial.refused
+
+
+def _errs_by_chance(search: Search, node: Node, held: HeldOut) -> bool:
+    carried = held.before**2 / search.root.trial.left * max(search.left_by_formulas(node.trial) - 1.0, 0.0)
+    expected = held.expected**2 * max(node.trial.left, 1.0)
+    return held.after**2 <= search.criteria.by_chance * (expected + carried)
