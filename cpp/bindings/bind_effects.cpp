@@ -66,7 +66,7 @@ void bind_effects(py::module_& module) {
            py::arg("element_kind"), py::arg("elements"), py::arg("parameters"), py::arg("ports"),
            py::arg("formula") = "")
       .def_readonly("name", &EffectInfo::name)
-      .def_readonly("group", &EffectInfo::group, "geometry, set-up, catalogue or user.")
+      .def_readonly("group", &EffectInfo::group, "geometry, set-up, places, catalogue or user.")
       .def_readonly("physics", &EffectInfo::physics, "One sentence.")
       .def_readonly("formula", &EffectInfo::formula, "What is pushed, as plain text.")
       .def_readonly("source", &EffectInfo::source, "Thesis section, standard or paper.")
@@ -79,7 +79,7 @@ void bind_effects(py::module_& module) {
       .def_readonly("is_free_at_first", &EffectInfo::is_free_at_first, "Whether a new model fits its values.")
       .def_property_readonly("size", &EffectInfo::size, "Number of values: elements times parameters.");
   module.def("effect_names", &effect_names, py::arg("group") = "",
-             "Return the names of the effects of a group (geometry, set-up, catalogue), or of all.");
+             "Return the names of the effects of a group (geometry, set-up, places, catalogue), or of all.");
   module.def(
       "effect_info",
       [](const Machine& machine, int mounts, const std::string& name) {

@@ -334,7 +334,7 @@ class EffectInfo:
     @property
     def group(self) -> str:
         """
-        geometry, set-up, catalogue or user.
+        geometry, set-up, places, catalogue or user.
         """
     @property
     def is_free_at_first(self) -> bool:
@@ -891,7 +891,7 @@ def effect_info(machine: Machine, mounts: typing.SupportsInt | typing.SupportsIn
 
 def effect_names(group: str = "") -> list[str]:
     """
-    Return the names of the effects of a group (geometry, set-up, catalogue), or of all.
+    Return the names of the effects of a group (geometry, set-up, places, catalogue), or of all.
     """
 
 def effect_pushes(

@@ -1,6 +1,7 @@
 // Pushes of every effect of the catalogue against formulas written here from its physics; no other port is pushed.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -54,7 +55,8 @@ TEST_F(Catalogue, IsCompleteAndInOrder) {
   EXPECT_EQ(effect_names(group::kCatalogue), expected);
   EXPECT_EQ(effect_names(group::kGeometry).size(), 7U);
   EXPECT_EQ(effect_names(group::kSetUp).size(), 3U);
-  EXPECT_EQ(effect_names().size(), 10U + expected.size());
+  EXPECT_EQ(effect_names(group::kPlaces), std::vector<std::string>{"ball_rotation"});
+  EXPECT_EQ(effect_names().size(), 11U + expected.size());
 }
 
 class Description : public ::testing::TestWithParam<std::string> {
@@ -116,7 +118,8 @@ TEST(PhysicalDomain, IsOneSidedWherePhysicsIs) {
 
 TEST_F(Catalogue, PushDerivativesAreThoseOfThePush) {
   Drawing drawing(17);
-  for (const std::string name : {"guideway_rotation_xy", "platform_side", "pitch_cyclic", "reversal_spike"}) {
+  for (const std::string name :
+       {"guideway_rotation_xy", "platform_side", "pitch_cyclic", "reversal_spike", "ball_rotation"}) {
     const EffectPtr effect = find_effect(machine, 1, name);
     const int size = effect->info().size();
     const double step = 1e-6;
@@ -357,6 +360,24 @@ TEST_F(Catalogue, BallOfEachSetUp) {
   samples.mount[5] = 3;
   EXPECT_EQ(refusal([&] { effect->require(samples); }),
             "mount[5] is 3, expected 0 to 2, the mounts of ball_eccentricity");
+}
+
+// The ball's place about the platform's origin, turned exactly: by hand with an elementary rotation, and by what turns
+// do not change.
+TEST_F(Catalogue, BallTurnsWithItsHolder) {
+  const auto index = static_cast<std::size_t>(samples.set_up[kRow]);
+  const Vector3 place(3.0, -4.0, 50.0);
+  samples.set_ups[index].ball_offset_mm = place;
+  const double angle = 0.05;
+  Ports expected;
+  expected.ball() << 0.0, std::cos(angle) * place.y() - std::sin(angle) * place.z() - place.y(),
+      std::sin(angle) * place.y() + std::cos(angle) * place.z() - place.z();
+  expect_same(pushed("ball_rotation", Vector3(angle, 0.0, 0.0)), expected);
+  const Vector3 turn(0.02, -0.03, 0.01);
+  const Vector3 moved = place + pushed("ball_rotation", turn).ball();
+  EXPECT_NEAR(moved.norm(), place.norm(), 1e-12 * place.norm());
+  EXPECT_NEAR(moved.dot(turn), place.dot(turn), 1e-12);
+  EXPECT_LT((moved - place - turn.cross(place)).norm(), turn.squaredNorm() * place.norm());
 }
 
 TEST_F(Catalogue, TableIsTheEffectItWasMadeOf) {

@@ -72,6 +72,7 @@ TEST(Effects, ThereAreThirtyThreeGeometricErrors) {
   for (const std::string& name : effect_names(group::kSetUp)) {
     EXPECT_TRUE(find_effect(machine, kMounts, name)->info().is_set_up);
   }
+  EXPECT_TRUE(find_effect(machine, kMounts, "ball_rotation")->info().is_set_up);
   EXPECT_EQ(find_effect(machine, kMounts, "cup_position")->info().size(), 3 * kMounts);
 }
 

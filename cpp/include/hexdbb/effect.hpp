@@ -32,6 +32,7 @@ struct ParameterInfo {
 namespace group {
 inline const std::string kGeometry = "geometry";    // the 33 geometric errors of the thesis
 inline const std::string kSetUp = "set-up";         // positions of cup and ball, length of the bar
+inline const std::string kPlaces = "places";        // of the set-up too, where the ball had several places
 inline const std::string kCatalogue = "catalogue";  // physical causes beyond these
 inline const std::string kUser = "user";            // defined by a user
 }  // namespace group
@@ -94,7 +95,7 @@ EffectPtr find_effect(const Machine& machine, int mounts, const std::string& nam
 
 bool is_known_effect(const std::string& name);
 
-/// Return the names of the effects of one group (geometry, set-up, catalogue), or of all, in catalogue order.
+/// Return the names of the effects of one group (geometry, set-up, places, catalogue), or of all, in catalogue order.
 std::vector<std::string> effect_names(const std::string& group = "");
 
 /// Compute d push / d value of an effect at given values: a matrix of samples x values for each of the 55 ports.

@@ -33,7 +33,8 @@
   EFFECT(bar_drift)                  \
   EFFECT(bar_gain)                   \
   EFFECT(sample_delay)               \
-  EFFECT(ball_eccentricity)
+  EFFECT(ball_eccentricity)          \
+  EFFECT(ball_rotation)
 // clang-format on
 
 namespace hexdbb::effects {

@@ -40,7 +40,8 @@ def compensated(request: Request, path: Path, temperature_c: float | None, progr
         unknown effect.
     """
     data = read_compensation(path, request.machine)
-    of_set_up = _core.effect_names("set-up")  # not part of the machine: never to be corrected
+    # Not part of the machine: never to be corrected.
+    of_set_up = {*_core.effect_names("set-up"), *_core.effect_names("places")}
     progress.notes += [
         f"{path}: {name} is not corrected: {why}" for name, why in data.left_out if name not in of_set_up
     ]

@@ -48,7 +48,7 @@ class Group:
 
 def groups_of(model: Model) -> tuple[Group, ...]:
     """Return the groups of all values that are free or differ from their start, in the model's order."""
-    whole = set(effect_names("geometry")) | set(effect_names("set-up"))
+    whole = {name for group in ("geometry", "set-up", "places") for name in effect_names(group)}
     parameters = model.parameters()
     acts = model.free | (model.values != model.start)
     found: list[Group] = []

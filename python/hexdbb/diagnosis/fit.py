@@ -22,7 +22,8 @@ from hexdbb.diagnosis.sufficiency import Sufficiency, assess_sufficiency
 from hexdbb.errors import InputError, RunError
 from hexdbb.identifiability import KNOWN_PART, Displacements, sentences
 from hexdbb.model import Model
-from hexdbb.samples import Samples, ball_places_words, predict
+from hexdbb.samples import Samples, predict
+from hexdbb.samples.places import with_places_free
 from hexdbb.samples.unmeasured import not_measured_sentences, with_judged_free
 
 NO_ACTION = 1e-9
@@ -141,7 +142,7 @@ class Fit:
 
 def fit_free(samples: Samples, model: Model, *, robust: bool = False) -> Fit:
     """Fit a model's free effects to samples and say no more of it; parameters and errors are those of `diagnose`."""
-    model = with_judged_free(samples.unmeasured, model)
+    model = with_places_free(samples.records, with_judged_free(samples.unmeasured, model))
     if not model.free.any():
         raise InputError("the model has no free value (expected at least one to fit)")
     _require_distinct(samples)
@@ -232,7 +233,6 @@ def diagnose(
         unidentifiable=tuple(sentences(unknown, [parameters[each] for each in judged], displaced)),
         warnings=(
             *not_measured_sentences(samples.records),
-            *ball_places_words(samples.records),
             *([] if fit.left_out is None else [fit.left_out]),
             *fit.either_sign,
             *warnings_of(fitted, result, enough, checked, expected),

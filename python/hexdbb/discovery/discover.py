@@ -34,7 +34,8 @@ from hexdbb.evidence.search import Search
 from hexdbb.evidence.sufficiency import repeats_but_for_forms
 from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
-from hexdbb.samples import Samples, ball_places_words, predict
+from hexdbb.samples import Samples, predict
+from hexdbb.samples.places import with_places_free
 from hexdbb.samples.unmeasured import judged_effects, not_measured_sentences, require_judged, with_judged_free
 from hexdbb.threads import one_thread
 
@@ -88,7 +89,7 @@ def discover(
     """
     _require_enough(samples)
     _require_size(matters_um)
-    known = model.with_mounts(samples.mounts)
+    known = with_places_free(samples.records, model.with_mounts(samples.mounts))
     names = _asked(samples, known, candidates)
     require_usable_effects(samples, known, names)
     progress("fitting the model as it is")
@@ -182,8 +183,7 @@ def _with_remarks(found: Discovery, begun: _Begun, *, repeats: bool = False) -> 
     engine, judging = begun.engine, begun.judging
     left_out = () if begun.left_out is None else (begun.left_out,)
     records = engine.samples.records
-    of_records = (*not_measured_sentences(records), *ball_places_words(records))
-    found = replace(found, remarks=(*found.remarks, *left_out, *of_records))
+    found = replace(found, remarks=(*found.remarks, *left_out, *not_measured_sentences(records)))
     explained = not judging.is_steady and (repeats or explains_changes(engine.samples, engine.residual_mm, judging))
     if judging.remark is None or explained:
         return found

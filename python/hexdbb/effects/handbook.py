@@ -14,6 +14,7 @@ INDEX = "README.md"
 GROUPS = {
     "geometry": "The thesis' 33 geometric errors",
     "set-up": "Unknowns of the set-up",
+    "places": "Unknowns of the set-up where the ball had several places on the platform within one mount",
     "catalogue": "Physical causes beyond geometry",
 }
 """Groups of effects and their headings, in the order of the index."""
@@ -44,7 +45,9 @@ def handbook() -> dict[str, str]:
 
 def shown_size(parameter: _core.ParameterInfo) -> str:
     """Return the prior standard deviation of a parameter with its unit, for people."""
-    return f"{parameter.prior_sigma * shown_factor(parameter.unit):.3g} {readable_unit(shown_unit(parameter.unit))}"
+    # Three digits, and thousands written out.
+    size = float(f"{parameter.prior_sigma * shown_factor(parameter.unit):.3g}")
+    return f"{size:g} {readable_unit(shown_unit(parameter.unit))}"
 
 
 def _index(infos: list[_core.EffectInfo]) -> str:

@@ -20,6 +20,7 @@ from hexdbb.identifiability.structure import Displacements
 from hexdbb.model import Model, MountKey, Parameter, new_term
 from hexdbb.plan import CircleRun, Plan
 from hexdbb.samples import PLANNED, Samples, linearise
+from hexdbb.samples.places import with_places_free, with_planned_places_free
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -117,7 +118,8 @@ def plan_sensitivity(
     runs = plan.runs()
     angle_rad: Floats = np.arange(samples_per_turn, dtype=np.float64) * (2.0 * np.pi / samples_per_turn)
     samples = Samples.planned(model.machine, runs, angle_rad, plan.gauge.bar_length_mm, origin=origin)
-    known = with_planned_mounts(model, [mount.id for mount in plan.mounts])
+    places = ((each.mount, each.ball_offset_mm) for each in plan.circles)
+    known = with_planned_places_free(places, with_planned_mounts(model, [mount.id for mount in plan.mounts]))
     counts = np.array([_readings(run, cycle_rate_hz) for run in runs])
     weights = np.sqrt(np.repeat(counts, samples_per_turn) / samples_per_turn)
     jacobian = _nominal_jacobian(samples, known) * weights[:, None]
@@ -132,7 +134,7 @@ def measured_sensitivity(samples: Samples, model: Model) -> Sensitivity:
     InputError
         Where a record is of another machine, or a sample out of the nominal machine's reach.
     """
-    known = model.with_mounts(samples.mounts)
+    known = with_places_free(samples.records, model.with_mounts(samples.mounts))
     jacobian = _nominal_jacobian(samples, known)
     return Sensitivity(jacobian, float(len(jacobian)), samples, known)
 

@@ -14,7 +14,7 @@ from hexdbb.model.own import OwnEffects
 
 
 def effect_names(group: str = "") -> list[str]:
-    """Return the names of the effects of a group (``geometry``, ``set-up``, ``catalogue``), or of all."""
+    """Return the names of the effects of a group (``geometry``, ``set-up``, ``places``, ``catalogue``), or of all."""
     return _core.effect_names(group)
 
 

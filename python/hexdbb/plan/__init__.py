@@ -1,6 +1,6 @@
 """Plans: gauge, mounts, circles, and the order in which the circles are driven."""
 
-from hexdbb.plan.ball_places import ball_places_sentences
+from hexdbb.plan.ball_places import ball_places_sentences, places_of
 from hexdbb.plan.circle import Circle, Direction
 from hexdbb.plan.conditions import Conditions
 from hexdbb.plan.file import CircleRun, Circles, Mounts, Plan, check_ids, load_plan, shipped_plans
@@ -23,6 +23,7 @@ __all__ = [
     "ball_places_sentences",
     "check_ids",
     "load_plan",
+    "places_of",
     "save_plan",
     "shipped_plans",
 ]

@@ -1,6 +1,6 @@
 """The table of samples: what everything from prediction to verdict takes, together with a model."""
 
-from hexdbb.samples.fixings import ball_places_words, require_agreement, shared_words
+from hexdbb.samples.fixings import require_agreement, shared_words
 from hexdbb.samples.prediction import (
     PUSH_SHAPES,
     Linearised,
@@ -21,7 +21,6 @@ __all__ = [
     "Linearised",
     "Prediction",
     "Samples",
-    "ball_places_words",
     "effect_pushes",
     "linearise",
     "normal_equations",

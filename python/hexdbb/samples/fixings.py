@@ -12,7 +12,6 @@ from collections.abc import Sequence
 
 from hexdbb.errors import InputError
 from hexdbb.model import MountKey
-from hexdbb.plan import ball_places_sentences
 from hexdbb.record import Record
 
 NAMED = "fixing {}"
@@ -58,8 +57,3 @@ def shared_words(records: Sequence[Record]) -> list[str]:
         for name in dict.fromkeys(mount.fixing for mount in record.mounts if mount.fixing is not None):
             names.setdefault(name, []).append(record.name)
     return [f'{", ".join(each)}: one set-up, "{name}"' for name, each in names.items() if len(each) > 1]
-
-
-def ball_places_words(records: Sequence[Record]) -> list[str]:
-    """Return a sentence for each mount whose circles have the ball at several places of the platform."""
-    return [line for each in records for line in ball_places_sentences(each.name, each.mounts, each.circles)]

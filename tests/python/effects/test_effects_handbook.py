@@ -30,11 +30,13 @@ CATALOGUE = [
     "sample_delay",
     "ball_eccentricity",
 ]
+PLACES = ["ball_rotation"]
 
 
 def test_names_are_the_interface() -> None:
     assert list(_core.effect_names("catalogue")) == CATALOGUE
-    assert len(_core.effect_names()) == 7 + 3 + len(CATALOGUE)
+    assert list(_core.effect_names("places")) == PLACES
+    assert len(_core.effect_names()) == 7 + 3 + len(PLACES) + len(CATALOGUE)
 
 
 @pytest.mark.parametrize("name", sorted(handbook()))
