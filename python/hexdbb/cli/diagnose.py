@@ -21,6 +21,7 @@ from hexdbb.identifiability import measured_sensitivity, minimal_set
 from hexdbb.ledger import fit_model
 from hexdbb.model import Model, load_model, new_model, save_model
 from hexdbb.samples import Samples
+from hexdbb.samples.places import with_set_up_of
 
 DETERMINED = 1e-4
 """Relative pivot below which `--minimal` holds a value: a record's path leaves its circles by the servos' lag, and what
@@ -69,7 +70,8 @@ def command(
         samples = read_samples(records, messages)
     own = own_effects(effects_path)
     model = load_model(model_path, own) if model_path.exists() else _new_model(samples, model_path, messages)
-    usual = model.with_mounts(samples.mounts).free
+    model = with_set_up_of(samples, model)
+    usual = model.free
     model = choose_free(model, free, fix)
     if minimal:
         model = hold_redundant(samples, model)
@@ -118,7 +120,7 @@ def choose_free(model: Model, free: str | None, fix: str | None) -> Model:
 
 def hold_redundant(samples: Samples, model: Model) -> Model:
     """Hold redundant values at zero, so that the fitted ones are identifiable on their own."""
-    known = model.with_mounts(samples.mounts)
+    known = with_set_up_of(samples, model)
     _, held = minimal_set(measured_sensitivity(samples, known), DETERMINED)
     names = {each.label for each in held}
     redundant = np.array([each.label in names for each in known.parameters()])

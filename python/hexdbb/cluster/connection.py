@@ -87,9 +87,9 @@ def connected(options: ClusterOptions, tell: Tell = lambda _: None) -> Iterator[
 @contextmanager
 def _local_client(distributed: Any, workers: int | None) -> Iterator[Any]:
     """Yield the client of a cluster of processes of one thread each, reached from this computer only."""
-    system = require("distributed.system")  # what this process may use, not what the computer has
-    count = workers or system.CPU_COUNT
-    limit = int(MEMORY_SHARE * system.MEMORY_LIMIT / count)
+    # Cores and memory that this process may use, not those that the computer has.
+    count = workers or require("dask.system").cpu_count()
+    limit = int(MEMORY_SHARE * require("distributed.system").MEMORY_LIMIT / count)
     settings = {
         "distributed.scheduler.allowed-failures": FAILURES_ALLOWED,
         # Nothing is spilled to disk: a task's data are small, and one that is not is to be seen.

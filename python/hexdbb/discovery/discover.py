@@ -35,7 +35,7 @@ from hexdbb.evidence.sufficiency import repeats_but_for_forms
 from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
-from hexdbb.samples.places import with_places_free
+from hexdbb.samples.places import with_set_up_of
 from hexdbb.samples.unmeasured import judged_effects, not_measured_sentences, require_judged, with_judged_free
 from hexdbb.threads import one_thread
 
@@ -89,7 +89,7 @@ def discover(
     """
     _require_enough(samples)
     _require_size(matters_um)
-    known = with_places_free(samples.records, model.with_mounts(samples.mounts))
+    known = with_set_up_of(samples, model)
     names = _asked(samples, known, candidates)
     require_usable_effects(samples, known, names)
     progress("fitting the model as it is")

@@ -20,7 +20,7 @@ from hexdbb.identifiability.structure import Displacements
 from hexdbb.model import Model, MountKey, Parameter, new_term
 from hexdbb.plan import CircleRun, Plan
 from hexdbb.samples import PLANNED, Samples, linearise
-from hexdbb.samples.places import with_places_free, with_planned_places_free
+from hexdbb.samples.places import with_planned_places_free, with_set_up_of
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -134,7 +134,7 @@ def measured_sensitivity(samples: Samples, model: Model) -> Sensitivity:
     InputError
         Where a record is of another machine, or a sample out of the nominal machine's reach.
     """
-    known = with_places_free(samples.records, model.with_mounts(samples.mounts))
+    known = with_set_up_of(samples, model)
     jacobian = _nominal_jacobian(samples, known)
     return Sensitivity(jacobian, float(len(jacobian)), samples, known)
 

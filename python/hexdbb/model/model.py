@@ -303,6 +303,9 @@ class Model:
 
     def _with_columns(self, **columns: NDArray[Any]) -> Model:
         """Replace columns of shape (size,), each cut into the terms' parts."""
+        for name, column in columns.items():
+            if len(column) != len(self.values):
+                raise ValueError(f"{name}: {len(column)} values for a model of {len(self.values)}")
         terms, at = [], 0
         for term in self.terms:
             span = slice(at, at + len(term.values))

@@ -12,6 +12,12 @@ from hexdbb.model import Choice, Model, effect_names
 from hexdbb.plan import places_of
 from hexdbb.record import Record
 from hexdbb.samples.fixings import mount_key
+from hexdbb.samples.table import Samples
+
+
+def with_set_up_of(samples: Samples, model: Model) -> Model:
+    """Return a model that has the mounts of some samples, and what is fitted where the ball has several places."""
+    return with_places_free(samples.records, model.with_mounts(samples.mounts))
 
 
 def with_places_free(records: Sequence[Record], model: Model) -> Model:

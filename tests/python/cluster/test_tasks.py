@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import pyarrow as pa
@@ -27,6 +29,21 @@ def test_rows_do_not_depend_on_the_number_of_workers(two_workers: Cluster, tmp_p
     }
     assert files["one"] == files["two"]
     assert len(files["one"]) < 1 + 3 * 64
+
+
+def test_there_are_as_many_workers_as_cores_where_nothing_is_said() -> None:
+    """A process of its own, which may use one core only: Dask counts cores when it is imported."""
+    lines = (
+        "import os",
+        "from hexdbb.cluster import ClusterOptions, connected",
+        "if __name__ == '__main__':",
+        "    os.sched_setaffinity(0, [min(os.sched_getaffinity(0))])",
+        "    with connected(ClusterOptions()) as cluster:",
+        "        print(cluster.workers)",
+    )
+    program = [sys.executable, "-c", "\n".join(lines)]
+    done = subprocess.run(program, capture_output=True, text=True, timeout=60, check=False)
+    assert done.stdout == "1\n", done.stderr
 
 
 def test_what_is_done_is_not_done_again(two_workers: Cluster, tmp_path: Path) -> None:

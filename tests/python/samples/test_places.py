@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from hexdbb.cli.diagnose import command
 from hexdbb.diagnosis import Diagnosis, diagnose
 from hexdbb.discovery import discover
 from hexdbb.identifiability import plan_sensitivity
-from hexdbb.model import Model, Parameter, new_model
+from hexdbb.model import Model, Parameter, load_model, new_model
 from hexdbb.plan import Plan, ball_places_sentences
-from hexdbb.record import Record
+from hexdbb.record import Record, write_record
 from hexdbb.rig.truth import random_truth
 from hexdbb.samples import Samples
 from hexdbb.samples.places import with_places_free
@@ -95,6 +98,18 @@ def test_what_is_held_stays_held(record: Record, diagnosis: Diagnosis) -> None:
         np.array([each.effect != TURN and is_free for each, is_free in _free(diagnosis.model)])
     )
     assert with_places_free([record], held) is held
+
+
+@pytest.mark.parametrize("options", [(), ("--minimal",), ("--fix", "ball_offset")])
+def test_the_command_writes_a_model_with_the_turn(record: Record, tmp_path: Path, options: tuple[str, ...]) -> None:
+    write_record(record, tmp_path / "record.parquet")
+    line = [str(tmp_path / "record.parquet"), "-m", str(tmp_path / "model.toml"), *options]
+    # The second time the model has the turn already, and what was held by an option is free again.
+    for _ in range(2):
+        assert CliRunner().invoke(command, line, catch_exceptions=False).exit_code == 0
+        model = load_model(tmp_path / "model.toml")
+        assert abs(value(model, "about_z")[0] - TURN_RAD) < 0.1 * TURN_RAD
+        assert model.free[[each.effect in (TURN, "ball_offset") for each in model.parameters()]].all()
 
 
 def _free(model: Model) -> list[tuple[Parameter, bool]]:
