@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import Curve, Form, Space, describe
 from hexdbb.learned.shown import place_words
-from hexdbb.learned.variable import ELAPSED, GROWING
+from hexdbb.learned.variable import BENT, ELAPSED, is_growing
 from hexdbb.machine import MachineFile
 from hexdbb.model import Model
 from hexdbb.samples import PUSH_SHAPES
@@ -104,13 +104,22 @@ def _value(space: Space) -> list[str]:
         if variable.period:
             lines.append(f"x = np.mod(x, {_number(space.period)})")
         lines.append("value = function(x)")
-    if variable.times in GROWING:
+    if is_growing(variable.times):
         lines.append(f'grown = (samples["time_s"] - {_number(space.since_s)}) / {_number(space.span_s)}')
-        lines.append("value = value * " + ("grown" if variable.times == ELAPSED else "4.0 * grown * (1.0 - grown)"))
+        lines.append(f"value = value * {_grown(space)}")
     elif variable.times:
         lines.append(f'times = samples["{variable.times}"]')
         lines.append("value = value * (times[:, element] if times.ndim == 2 else times)")
     return lines
+
+
+def _grown(space: Space) -> str:
+    """Return how far a growing function has grown, as source, by the part of its time that has gone: ``grown``."""
+    times = space.hypothesis.variable.times
+    if times in (ELAPSED, BENT):
+        return "grown" if times == ELAPSED else "4.0 * grown * (1.0 - grown)"
+    spans = _number(space.span_s / float(times.partition("@")[2]))
+    return f"np.expm1(-{spans} * grown) / np.expm1(-{spans})"
 
 
 def _function(space: Space, curve: Curve, form: Form) -> tuple[float, list[str], list[str]]:

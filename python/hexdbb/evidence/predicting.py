@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from hexdbb.evidence.admissible import missed_of
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
@@ -14,12 +18,14 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
 
     A single cause gives way to one of another kind; of several, some may be right. One that is for sure although it
     errs where geometry leads away gives way to nothing that fits worse: what is freer only expects to err more. Known
-    effects that explain nearly all by their formulas do not give way to others that explain less by theirs.
+    effects that explain nearly all by their formulas do not give way to others that explain less by theirs. Nothing
+    gives way to what errs more on the readings left out for which it is doubted: that claims less, and is no better.
     """
     if not is_doubtful(search, node):
         return node
     is_sure = is_for_sure(search, node)
     is_one = len(node.members) == 1
+    doubted = _doubted(search, node)
     others = [
         each
         for each in search.nodes
@@ -31,7 +37,26 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
     ]
     # The best first: what lies behind it need not be held out.
     others.sort(key=lambda each: -each.score)
-    return next((each for each in others if _explains_and_predicts(search, each)), node)
+    found = (e for e in others if _explains_and_predicts(search, e) and _errs_no_more(search, e, doubted))
+    return next(found, node)
+
+
+def _doubted(search: Search, node: Node) -> dict[str, HeldOut]:
+    """Return how a set predicts the groupings in which it misses about as much as all that it explains."""
+    base, criteria = search.root.trial, search.criteria
+    return {
+        grouping: held
+        for grouping, held in search.checked(node).heldout.items()
+        if grouping != ARC and missed_of(held, held.after, node.trial, base, criteria) > criteria.missed_most
+    }
+
+
+def _errs_no_more(search: Search, other: Node, doubted: Mapping[str, HeldOut]) -> bool:
+    """Check that a set errs no more than another in some groupings; what it does not claim it leaves as it was."""
+    own = search.checked(other).heldout
+    return all(
+        (own[grouping].after if grouping in own else held.before) <= held.after for grouping, held in doubted.items()
+    )
 
 
 def _explains_less_by_formulas(search: Search, other: Node, node: Node) -> bool:

@@ -13,10 +13,13 @@ from hexdbb.evidence.refine import refined
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import must_explain
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned, part_of
+from hexdbb.learned.places import members
 
 
 def without_stand_ins(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
-    """Leave out the known effects that the refined functions of the others need no more.
+    """Leave out the hypotheses that the refined functions of the others need no more.
 
     Parameters
     ----------
@@ -32,7 +35,7 @@ def without_stand_ins(search: Search, node: Node, wider: Node) -> tuple[Node, No
         The others, as they were and refined by functions at their own places alone.
     """
     for member in node.members:
-        if node.is_known or not isinstance(member.hypothesis, Known) or needs(search, wider, member):
+        if not _may_stand_in(node, member) or _is_needed(search, wider, member):
             continue
         try:
             others = search.node(node.without(member), near=node)
@@ -42,6 +45,20 @@ def without_stand_ins(search: Search, node: Node, wider: Node) -> tuple[Node, No
         if _says_the_same(search, again, wider):
             node, wider = others, again
     return node, wider
+
+
+def _may_stand_in(node: Node, member: Member) -> bool:
+    """Check for a known effect beside a function, or one that several elements share beside one of some of them."""
+    one = member.hypothesis
+    if isinstance(one, Known):
+        return not node.is_known
+    others = [each.hypothesis for each in node.members if isinstance(each.hypothesis, Learned)]
+    return any(part_of(each) == part_of(one) and {*members(each.element)} < {*members(one.element)} for each in others)
+
+
+def _is_needed(search: Search, wider: Node, member: Member) -> bool:
+    """Check that a known effect is needed beside refined functions; a function describes whatever these would."""
+    return isinstance(member.hypothesis, Known) and needs(search, wider, member)
 
 
 def _says_the_same(search: Search, node: Node, wider: Node) -> bool:

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, along, following
-from hexdbb.learned.variable import ELAPSED, Variable
+from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, SETTLING, along, following
+from hexdbb.learned.variable import ELAPSED, Variable, is_growing
 
 SPLINES = 6
 """Splines of a product: what multiplies sets most of its form already."""
@@ -20,6 +20,9 @@ OVER_TIME = 24
 CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
 """Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
 then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
+GROWTHS_S = (200.0, 800.0)
+"""Time constants of what grows towards an end, at first: thin rails and screws take some minutes to warm, beams half an
+hour; the readings then move them. What takes much longer than a test grows evenly in it."""
 RUN_UPS_DEG = (15.0, 45.0, 135.0)
 """Run-ups to circles that are tried first; the readings then move them. What settles since the start of the motion is
 smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
@@ -41,8 +44,11 @@ FACTORS = {
     "deflection_direction": ("deflection_direction", "sense in which the gauge moves"),
 }
 """What may multiply a function: name, column and words."""
-SLOW = (ELAPSED, FACTORS["warming"][0])
-"""Columns that change over a whole test."""
+
+
+def is_slow(variable: Variable) -> bool:
+    """Whether a variable is a product with what changes over a whole test: time or warmth."""
+    return is_growing(variable.times) or variable.times == FACTORS["warming"][0]
 
 
 def product(factor: str, variable: Variable) -> Variable:
@@ -73,6 +79,7 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
 
 
 SINCE_START = tuple(following(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
+SETTLING_POSITION = tuple(following(v.TIME_POSITION, SETTLING, each) for each in GROWTHS_S)
 WARMING_POSITION = product("warming", v.POSITION)
 PRODUCTS_OF_SLIDER = (
     *(product("velocity", each) for each in (v.POSITION, v.FORCE, v.DRIVE_LOAD)),
@@ -138,6 +145,7 @@ OF_BALL = (
 OF_GUIDEWAY = (
     *(v.POSITION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_POSITION),
     product("leg_force", v.POSITION),
+    *SETTLING_POSITION,
 )
 """Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
 OF_SLIDER_JOINT = (v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD)
@@ -158,11 +166,12 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *PRODUCTS_OF_SLIDER,
         *NEIGHBOURS,
         *_remembered(v.DRIVE_LOAD),
+        *SETTLING_POSITION,
         *SINCE_START,
     ),
-    "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE), *SINCE_START),
-    "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.CARRIAGE_LOAD)),
-    "vertical": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *_remembered(v.CARRIAGE_LOAD)),
+    "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE), *SETTLING_POSITION, *SINCE_START),
+    "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),
+    "vertical": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),
     "guideway": OF_GUIDEWAY,
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,

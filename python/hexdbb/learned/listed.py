@@ -28,7 +28,7 @@ def products() -> Iterator[Learned]:
     for place, variables in further.FURTHER.items():
         for element in single(place):
             every = (Learned(place, element, each) for each in variables if each.times)
-            yield from (each for each in every if not each.is_of_time and each.variable.times not in further.SLOW)
+            yield from (each for each in every if not each.is_of_time and not further.is_slow(each.variable))
 
 
 def grown_with_warmth() -> Iterator[Learned]:

@@ -2,8 +2,9 @@
 
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
-less the same lag), the time since a circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), and a
-vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane).
+less the same lag), what grows towards an end (`time_position_settling@470`, as what warms does), the time since a
+circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), and a vector's part along a direction
+(`acceleration_along@45`, degrees in the base's x-y plane).
 """
 
 from __future__ import annotations
@@ -30,14 +31,15 @@ FOLLOWING_SPLINES = 6
 POSITION_SPLINES = 12
 """Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
 such a bend was taken for a leg's swing."""
-LAGGED, RELAXING, AFTER, ALONG = "lagged", "relaxing", "after", "along"
+LAGGED, RELAXING, SETTLING, AFTER, ALONG = "lagged", "relaxing", "settling", "after", "along"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
     RELAXING: "change of the {} within about {:.3g} s",
+    SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
 }
-"""How a variable may be derived from another one by a number, in words: delayed, high-passed, or counted from the start
-of the run-up."""
+"""How a variable may be derived from another one by a number, in words: delayed, high-passed, growing by the law of a
+first-order lag in place of evenly, or counted from the start of the run-up."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
 DIRECTED = {
@@ -64,8 +66,15 @@ def periodic(column: str, period: float) -> Variable:
 
 
 def following(variable: Variable, how: str, constant: float) -> Variable:
-    """Return the variable of what follows another one: `LAGGED`, `RELAXING` (s) or `AFTER` (degrees)."""
+    """Return the variable of what follows another one: `LAGGED`, `RELAXING`, `SETTLING` (s) or `AFTER` (degrees)."""
     number = f"{constant:.{NUMBER_DIGITS}g}"
+    if how == SETTLING:
+        return replace(
+            variable,
+            name=f"{variable.name}_{how}@{number}",
+            times=f"{variable.times}{OF_MEMORY}{how}@{number}",
+            words=BY_NUMBER[how].format(variable.words, float(number)),
+        )
     return replace(
         variable,
         name=f"{variable.name}_{how}@{number}",

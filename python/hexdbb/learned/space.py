@@ -13,7 +13,7 @@ from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S
 from hexdbb.learned.tables import Table
-from hexdbb.learned.variable import AXES_OF_VECTOR, ELAPSED, GROWING, SCREW_LEAD, SPLINES_MIN, Variable
+from hexdbb.learned.variable import AXES_OF_VECTOR, BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
 
 Floats = NDArray[np.float64]
 
@@ -113,7 +113,7 @@ class Space:
                 low, high = float(argument.min()), float(argument.max())
                 if variable.is_log:
                     low = float(np.quantile(argument, FIRST_PART))
-        if variable.times and variable.times not in GROWING and not np.any(np.nan_to_num(samples[variable.times])):
+        if variable.times and not is_growing(variable.times) and not np.any(np.nan_to_num(samples[variable.times])):
             raise InputError(f"{name}: {variable.times} is zero or unknown in all samples (expected it to vary)")
         time_s = samples["time_s"]
         first, last = float(np.min(time_s)), float(np.max(time_s))
@@ -145,9 +145,8 @@ class Space:
     def design(self, samples: Columns, element: int) -> Floats:
         """Return the functions in every sample for the variable of one element, shape (n, columns)."""
         variable = self.hypothesis.variable
-        if variable.times in GROWING:
-            grown = (samples["time_s"] - self.since_s) / self.span_s
-            weight = grown if variable.times == ELAPSED else 4.0 * grown * (1.0 - grown)
+        if is_growing(variable.times):
+            weight = _grown(variable.times, samples["time_s"] - self.since_s, self.span_s)
         else:
             weight = _times(samples, variable, element) if variable.times else np.ones(len(samples))
         if not variable.column:
@@ -237,6 +236,18 @@ class Space:
 
 def _warped(values: Floats, width: float) -> Floats:
     return np.arcsinh(values / width) if width else values
+
+
+def _grown(times: str, elapsed_s: Floats, span_s: float) -> Floats:
+    """Return how far a growing function has grown, 1 at the end of its time, or in its middle where it ends at 0."""
+    part = elapsed_s / span_s
+    if times == ELAPSED:
+        return part
+    if times == BENT:
+        return 4.0 * part * (1.0 - part)
+    constant_s = float(times.partition("@")[2])
+    found: Floats = np.expm1(-elapsed_s / constant_s) / np.expm1(-span_s / constant_s)
+    return found
 
 
 def _of(samples: Columns, variable: Variable, element: int) -> Floats:

@@ -14,7 +14,7 @@ ELAPSED = "elapsed"
 """Time since the beginning, divided by its span: no column of the samples, since a function's own limits scale it."""
 BENT = "elapsed_bent"
 """Zero at both ends of that time and 1 in its middle: what warms grows fast at first, and then hardly more."""
-GROWING = (ELAPSED, BENT)
+_GROWING = (ELAPSED, BENT)
 SPLINES_MIN = 3
 """A cubic spline has one more function at least."""
 SCREW_LEAD = -1.0
@@ -24,6 +24,11 @@ AXES_OF_VECTOR = 3
 """Numbers of a column that belongs to axes, not to sliders or legs."""
 OF_MEMORY = "."
 """In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
+
+
+def is_growing(times: str) -> bool:
+    """Whether what multiplies a function is no column of the samples but a growth with time."""
+    return times.partition(OF_MEMORY)[0] in _GROWING
 
 
 @dataclass(frozen=True)
@@ -96,7 +101,7 @@ class Variable:
     @property
     def needs(self) -> frozenset[str]:
         """Columns of the samples that its functions follow from."""
-        named = {"time_s" if each in GROWING else each for each in (self.times, self.column)} - {""}
+        named = {"time_s" if is_growing(each) else each for each in (self.times, self.column)} - {""}
         remembered = {"time_s" for each in named if OF_MEMORY in each}
         return frozenset({each.partition(OF_MEMORY)[0] for each in named} | remembered)
 

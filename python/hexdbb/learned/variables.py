@@ -146,6 +146,8 @@ SINCE_TURN = Variable(
     times="deflection_direction",
     is_log=True,
 )
+TURNED = Variable("turned", "turned_rad", "rad", "angle turned since the circle began, with its sign", 10)
+"""A cable that is wound up pulls more with every turn, and the other way round in the other direction."""
 CIRCLE_DIRECTION = Variable("circle_direction", "", "", "direction of the circle", times="direction")
 SPEED = Variable("speed", "speed_mm_s", "mm/s", "speed of the platform", 8)
 FEED = Variable("feed", "feed_mm_s", "mm/s", "feed")
@@ -196,7 +198,7 @@ OF_PLATFORM_JOINT = (
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
-    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN),
+    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""

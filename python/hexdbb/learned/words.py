@@ -8,7 +8,7 @@ import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
 from hexdbb.learned.tables import Curve
-from hexdbb.learned.variable import BENT, ELAPSED
+from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 
 ENOUGH = 0.9
 """Part of a function's variation that a form must explain to be named: what is left is then below a third of it."""
@@ -69,7 +69,7 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
     period : float
         Of its variable; 0 where it is not periodic.
     """
-    turned = TIMES.get(curve.times, "")
+    turned = TIMES.get(curve.times.partition(OF_MEMORY)[0], "")
     values = curve.value_mm - (np.median(curve.value_mm) if len(curve.at) > 2 and not curve.times else 0.0)
     if not np.any(np.abs(values) > CERTAIN * np.nan_to_num(curve.sigma_mm)):
         return Form("nothing", None, "not distinguishable from zero")

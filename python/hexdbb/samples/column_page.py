@@ -24,6 +24,7 @@ OWN = {
     "leg_inclination_rad": ("leg", "rad", "angle of the leg to the vertical, nominal machine"),
     "time_in_sweep_s": ("sample", "s", "time since the first sample of the sweep"),
     "time_since_fixing_s": ("sample", "s", "time since the first sample of the fixing; nan where there is one only"),
+    "turned_rad": ("sample", "rad", "angle turned since the first sample of the sweep, with its sign"),
     "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),

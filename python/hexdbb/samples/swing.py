@@ -1,4 +1,4 @@
-"""Columns that few ask for, computed when they are: the legs' swing, the bar in the platform, times since a beginning.
+"""Columns that few ask for, computed when they are: the legs' swing, the bar in the platform, counts from a beginning.
 
 The swing of a leg is the angle about its guideway at which it stands, from the guideway's own axes; its rate is the
 central difference along the slider's smoothed velocity, so that the encoders' steps do not show in it.
@@ -21,9 +21,9 @@ Pose = tuple[Floats, Floats]
 
 DERIVED = (
     *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad"),
-    *("time_in_sweep_s", "time_since_fixing_s"),
+    *("time_in_sweep_s", "time_since_fixing_s", "turned_rad"),
 )
-DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount")
+DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount", "angle_rad")
 """Columns that these follow from."""
 LEGS = 6
 STEP_S = 1e-3
@@ -34,7 +34,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6) thrice, (n,) three times; rad, rad/s, rad, rad, s and s.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) four times; rad, rad/s, rad, rad, s, s and rad.
 
     Parameters
     ----------
@@ -58,6 +58,7 @@ def derived_columns(
         "bar_angle_rad": _bar_angle(pose, columns["set_up"], set_ups),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
         "time_since_fixing_s": _since_fixing_s(columns["time_s"], columns["mount"]),
+        "turned_rad": _turned_rad(columns["angle_rad"], columns["sweep"]),
     }
 
 
@@ -84,6 +85,13 @@ def _since_fixing_s(time_s: Floats, mount: NDArray[np.integer[Any]]) -> Floats:
     """
     is_one = len(mount) == 0 or mount.min() == mount.max()
     return np.full(len(time_s), np.nan) if is_one else time_s - _begin_s(time_s, mount)
+
+
+def _turned_rad(angle_rad: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
+    """Return the angle turned since the first sample of each sweep, with its sign, shape (n,)."""
+    begins = np.flatnonzero(np.diff(sweep)) + 1
+    ways = (np.unwrap(each) for each in np.split(angle_rad, begins))
+    return np.concatenate([each - each[:1] for each in ways])
 
 
 def _begin_s(time_s: Floats, part: NDArray[np.integer[Any]]) -> Floats:

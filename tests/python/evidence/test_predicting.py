@@ -16,7 +16,10 @@ SEVERAL = {"circle": 0.24, "feed": 0.32, "direction": 0.72, "arc": 0.04}
 
 def node_of(count: int, left: float, errors: dict[str, float], reasons: tuple[str, ...] = ()) -> Any:
     """Return a set of so many hypotheses, and its errors over those without it by what was left out."""
-    heldout = {grouping: SimpleNamespace(as_fitted=30.0 * error, before=30.0) for grouping, error in errors.items()}
+    heldout = {
+        grouping: SimpleNamespace(as_fitted=30.0 * error, after=30.0 * error, before=30.0, expected=1.0)
+        for grouping, error in errors.items()
+    }
     trial = SimpleNamespace(left=left, refused=())
     checked = SimpleNamespace(heldout=heldout, reasons=reasons)
     return SimpleNamespace(members=range(count), trial=trial, score=-left, checked=checked)
@@ -74,6 +77,35 @@ def test_what_is_for_sure_gives_way_to_nothing_that_fits_worse(
         same_kind=lambda one, other: one is other,
     )
     assert predicting.or_another_that_predicts(search, formula) is (function if gives_way else formula)
+
+
+@pytest.mark.parametrize(
+    ("errors", "gives_way"),
+    [
+        (ONE, True),
+        (ONE | {"direction": 0.31}, False),
+        (ONE | {"circle": 0.13}, True),
+        ({"circle": 0.12, "feed": 0.2}, False),
+    ],
+    ids=["errs no more", "errs more where the set misses", "errs more elsewhere", "claims nothing there"],
+)
+def test_nothing_gives_way_to_what_errs_more_where_it_is_doubted(
+    monkeypatch: pytest.MonkeyPatch, errors: dict[str, float], gives_way: bool
+) -> None:
+    """A gauge with hysteresis, 2,000 nats ahead of a joint that only expects to err in the direction left out."""
+    gauge, joint = node_of(1, 1.1, ONE), node_of(1, 9.0, errors)
+    for each in (gauge, joint):
+        each.hypotheses, each.trial.is_free_in_time = (each,), False
+    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: False)
+    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is gauge)
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=101.0)),
+        nodes=[gauge, joint],
+        checked=lambda each: each.checked,
+        same_kind=lambda one, other: one is other,
+    )
+    assert predicting.or_another_that_predicts(search, gauge) is (joint if gives_way else gauge)
 
 
 @pytest.mark.parametrize(

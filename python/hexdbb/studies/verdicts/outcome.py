@@ -37,6 +37,7 @@ VARIABLES = {
     "swing_angle": ("joint_angle",),
     "angle_direction": ("angle", "direction"),
     "bar_angle": ("angle",),
+    "turned": ("angle", "direction"),
     "circle_direction": ("direction",),
     "deflection_direction": ("deflection", "direction"),
     "joint_direction": ("joint_turning",),
