@@ -56,14 +56,19 @@ def test_what_warms_is_said_by_what_grows_and_bends() -> None:
     position_mm = 400.0 + 300.0 * np.sin(0.05 * time_s[:, None] * (1.0 + 0.1 * np.arange(6)))
     columns = Rows({"time_s": time_s, "sliders_mm": position_mm})
     bow = (1.0 - np.exp(-(time_s - time_s[0]) / 900.0)) * (1.0 - ((position_mm[:, 1] - 400.0) / 300.0) ** 2)
-    names = [f"learned:vertical:1:{each}" for each in ("time_position", "time_position_bent")]
-    growing, bending = (Space.of(Learned.parse(name), columns, LEAD_MM).design(columns, 1) for name in names)
-    assert not growing[0].any() and not bending[[0, -1]].any()
+    names = [f"learned:vertical:1:time_position{each}" for each in ("", "_bent", "_settling@900", "_settling@1e6")]
+    every = [Space.of(Learned.parse(name), columns, LEAD_MM).design(columns, 1) for name in names]
+    growing, bending, settling, slow = every
+    assert not growing[0].any() and not bending[[0, -1]].any() and not settling[0].any()
+    assert settling[-1] == pytest.approx(growing[-1])
+    # What takes far longer than the test grows evenly in it.
+    assert slow == pytest.approx(growing, abs=2e-3)
 
     def left(design: np.ndarray) -> float:
         return float(np.std(bow - design @ np.linalg.lstsq(design, bow, rcond=None)[0]) / np.std(bow))
 
     assert left(np.hstack([growing, bending])) < 0.05 < 0.15 < left(growing)
+    assert left(settling) < 0.01
 
 
 @pytest.mark.parametrize("power", [1, 2, 3])
