@@ -165,8 +165,10 @@ def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
 def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:
     """Return other effects that live in the functions of a cause's form, and explain as much with less of a form.
 
-    Few readings hardly tell a gauge that drifts, and is not linear, from one that is linear, but of another gain.
+    Few readings hardly tell a gauge that drifts, and is not linear, from one that is linear, but of another gain. What
+    explains less by its formula than the cause does by its own is no simpler.
     """
+    by_formula = search.left_by_formulas(node.trial)
     return [
         other.trial.names[0]
         for other, _ in _without(search, node, cause)
@@ -178,6 +180,7 @@ def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[
         and other.trial.forms[0] is not None
         and other.trial.forms[0].deviation < form.deviation
         and not search.checked(other).reasons
+        and search.left_by_formulas(other.trial) <= by_formula
     ]
 
 

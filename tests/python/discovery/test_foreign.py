@@ -199,3 +199,11 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
     if "@" in cause:
         assert abs(float(only.choice.partition("@")[2]) - 470.4) < 5.0
     assert all(found.heldout[each].after_um < 0.4 * found.heldout[each].before_um for each in claimed)
+
+
+@pytest.mark.long
+def test_a_gauge_that_drifts_slowly_is_no_gauge_of_another_gain() -> None:
+    """That explains a third by functions of time, its form; the drift explains all by its formula."""
+    found = found_in("gauge-drifts")
+    assert found.verdict == "effect"
+    assert [each.choice for each in found.causes] == ["bar_drift"]
