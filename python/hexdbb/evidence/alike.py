@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.engine import Fitted
-from hexdbb.evidence.form import diagonal
+from hexdbb.evidence.form_functions import diagonal
 from hexdbb.evidence.physical import is_one_sided
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known

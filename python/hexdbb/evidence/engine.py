@@ -194,6 +194,7 @@ class Engine:
             free=[bool(each) for each in model.free],
             hypothesis=True,
             from_minimum=from_minimum,
+            covariance=False,  # that of the linearisation on all rows counts
             prior_scale=prior_scale,
         )
         if not result.usable:

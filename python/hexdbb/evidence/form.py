@@ -6,31 +6,23 @@ a fraction f of the effect's, f half-normal with `Criteria.form_sigma`; f is cho
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import lru_cache, partial
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine, Fitted
+from hexdbb.evidence.form_functions import Beside, FormFunctions, FormsAboutFit
 from hexdbb.evidence.homes import Home, Homes, discrepancy
-from hexdbb.evidence.marginal import Marginal, marginal
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.signatures import Signature, signature_of, varying
-from hexdbb.evidence.sums import Block, Projected, Sums
+from hexdbb.evidence.signatures import varying
 from hexdbb.learned import ALL, Learned
 from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
-KEPT = 48
-"""Signatures kept in memory, of a megabyte or two each: those of an effect's homes are asked for in every trial."""
-
-KEPT_SQUARES = 8192
-"""Products of two of them kept, about ten kilobytes each: they are the same about every fit. An effect at all elements
-needs several thousand; with 1024 they were evicted before they were used again, which took a sixth of a search."""
 
 
 @dataclass(frozen=True)
@@ -45,26 +37,8 @@ class Form:
     functions: tuple[str, ...]
     columns: int = 0
     first: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class Beside:
-    """Functions beside an effect: their spaces, prior, sums, and evidence."""
-
-    spaces: Sequence[Signature]
-    factor: Floats
-    square: Floats
-    projected: Projected
-    found: Marginal
-
-    def columns(self) -> Floats:
-        """Return what they do to the readings, per prior standard deviation at the best size."""
-        at, total = 0, np.zeros((len(self.spaces[0].table), self.factor.shape[1]))
-        for space in self.spaces:
-            width = space.table.shape[1]
-            total += space.table @ (self.factor[at : at + width] * self.found.size)
-            at += width
-        return total
+    coefficients: tuple[tuple[Learned, Floats], ...] = field(default=(), repr=False, compare=False)
+    """Of each function, per prior standard deviation of each direction."""
 
 
 class Forms:
@@ -81,8 +55,7 @@ class Forms:
         self.engine, self.homes, self.criteria = engine, homes, criteria
         self._homes: dict[tuple[str, tuple[float, ...]], dict[tuple[str, str], list[Home]]] = {}
         """Homes of the values of each effect, by its shape: of its elements and names."""
-        self._signature = lru_cache(KEPT)(partial(signature_of, readings=engine.readings))
-        self._square = lru_cache(KEPT_SQUARES)(self._product)
+        self._functions = FormFunctions(engine.readings, criteria)
 
     def beside(self, linear: Linear, fitted: Fitted, known: Known) -> tuple[Linear, Form]:
         """Return a linearisation with the discrepancy of an effect among its own values, and how large it is."""
@@ -90,32 +63,29 @@ class Forms:
         best = self._chosen(linear, groups, size_mm) if groups and size_mm > 0.0 else None
         if best is None:
             return linear, Form(0.0, 0.0, ())
-        spaces, found = best.spaces, best.found
-        functions = tuple(each.hypothesis.name for each in spaces)
-        if found.size <= 0.0:
+        functions, fraction = tuple(each.name for each in best.functions.functions), best.found.size
+        if fraction <= 0.0:
             return linear, Form(0.0, 0.0, functions)
-        at, squares = 0, []
-        for space in spaces:
-            width = space.table.shape[1]
-            squares.append(space.rms_mm(found.coefficients[at : at + width]) ** 2)
-            at += width
-        seen = _seen(found.coefficients, best.projected.information, best.square)
-        deviation = float(np.sqrt(sum(squares) * seen)) / size_mm
+        deviation = best.rms_mm * float(np.sqrt(best.seen)) / size_mm
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())
-        columns = best.columns()
-        form = Form(found.size, deviation, functions, columns.shape[1], linear.own.shape[1])
-        return linear.wider(columns), form
+        coefficients = best.coefficients
+        form = Form(fraction, deviation, functions, best.factor.shape[1], linear.own.shape[1], coefficients)
+        return self.with_columns(linear, form), form
+
+    def with_columns(self, linear: Linear, form: Form) -> Linear:
+        """Return a linearisation with the functions of a form among its own values."""
+        return linear.wider(self._functions.columns(form.coefficients))
 
     def _chosen(self, linear: Linear, groups: Sequence[tuple[Learned, ...]], size_mm: float) -> Beside | None:
         """Choose functions by evidence, a variable at a time: one more only where the readings ask for it."""
-        sums = Sums(linear, self.engine.readings, ())
-        cross = {each: sums.cross(self._signature(each).table) for group in groups for each in group}
+        functions = list(dict.fromkeys(each for group in groups for each in group))
+        about = FormsAboutFit(linear, self._functions, functions)
         left, best = list(groups), None
         chosen: tuple[Learned, ...] = ()
         for _ in range(self.criteria.most_homes):
-            tried = [(group, self._beside(sums, cross, (*chosen, *group), size_mm)) for group in left]
+            tried = [(group, about.beside((*chosen, *group), size_mm)) for group in left]
             seen = [(group, each) for group, each in tried if each is not None]
             if not seen:
                 break
@@ -127,31 +97,6 @@ class Forms:
             if found.found.size <= 0.0:
                 break
         return best
-
-    def _beside(
-        self, sums: Sums, cross: Mapping[Learned, Floats], functions: Sequence[Learned], size_mm: float
-    ) -> Beside | None:
-        """Weigh the evidence for some functions beside an effect; None where nothing of them can be seen.
-
-        `cross` are the sums W'[J y] of each of them.
-        """
-        spaces = [self._signature(each) for each in functions]
-        roughness = self.criteria.roughness[1]
-        parts = [space.prior_factor(roughness if space.hypothesis.variable.is_smooth else 1.0) for space in spaces]
-        factor = diagonal(parts) * (size_mm / np.sqrt(len(spaces)))
-        square = np.block([[self._square(one, other) for other in functions] for one in functions])
-        projected = sums.whole.project(Block(square[None], np.concatenate([cross[each] for each in functions], axis=1)))
-        factor = _visible(factor, projected.information, square, self.criteria.form_visible)
-        if not factor.shape[1]:
-            return None
-        grid = np.array(self.criteria.form_grid)
-        weights = np.exp(-0.5 * (grid / self.criteria.form_sigma) ** 2)  # half-normal
-        found = marginal(projected.information, projected.gradient, [factor], grid, weights / weights.sum())
-        return Beside(spaces, factor, square, projected, found)
-
-    def _product(self, one: Learned, other: Learned) -> Floats:
-        found: Floats = self._signature(one).table.T @ self._signature(other).table
-        return found
 
     def _size(self, fitted: Fitted, known: Known) -> tuple[float, list[tuple[Learned, ...]]]:
         """Return the RMS push (mm) of an effect as fitted, and the functions of its discrepancy by variable."""
@@ -229,36 +174,3 @@ def _by_variable(groups: Sequence[tuple[Learned, ...]]) -> list[tuple[Learned, .
     for group in groups:
         found.setdefault((group[0].place, group[0].variable.name), {}).update(dict.fromkeys(group))
     return [tuple(each) for each in found.values()]
-
-
-def _seen(coefficients: Floats, projected: Floats, whole: Floats) -> float:
-    """Compute the part of functions' mean square that the model's own values do not imitate.
-
-    What the effect itself or geometry could have taken says nothing of the effect's form.
-    """
-    return float((coefficients @ projected @ coefficients) / (coefficients @ whole @ coefficients))
-
-
-def _visible(factor: Floats, projected: Floats, whole: Floats, least: float) -> Floats:
-    """Keep the directions of a discrepancy that the model's own values do not imitate: shape (k, r)."""
-    values, vectors = np.linalg.eigh(factor.T @ whole @ factor)
-    kept = values > 1e-9 * values[-1]
-    white = factor @ (vectors[:, kept] / np.sqrt(values[kept]))
-    shares, turned = np.linalg.eigh(white.T @ projected @ white)
-    # Back in the prior's own scale: a direction's size is what it was before it was whitened.
-    own = np.sqrt(values[kept])[:, None] * turned
-    seen = shares > least
-    axes, _ = np.linalg.qr(own[:, seen]) if seen.any() else (own[:, :0], None)
-    found: Floats = factor @ vectors[:, kept] @ axes
-    return found
-
-
-def diagonal(parts: Sequence[Floats]) -> Floats:
-    """Return the matrix with some matrices along its diagonal."""
-    width = sum(each.shape[0] for each in parts)
-    table, at = np.zeros((width, sum(each.shape[1] for each in parts))), [0, 0]
-    for each in parts:
-        table[at[0] : at[0] + each.shape[0], at[1] : at[1] + each.shape[1]] = each
-        at[0] += each.shape[0]
-        at[1] += each.shape[1]
-    return table

@@ -28,7 +28,11 @@ def left_by_formulas(forms: Iterable[Form | None], linear: Linear) -> float:
     for form in forms:
         if form is not None:
             beside[form.first : form.first + form.columns] = True
-    residual = linear.residual + linear.own[:, beside] @ linear.standing[beside]
-    own, standing = linear.own[:, ~beside], linear.standing[~beside]
-    change = np.linalg.solve(own.T @ own + np.eye(own.shape[1]), own.T @ residual - standing)
-    return float(np.mean((residual - own @ change) ** 2))
+    # Values of which nothing is subtracted are fitted anew; those of the functions become zero. All follows from sums.
+    information, gradient = linear.normal[:-1, :-1], linear.normal[:-1, -1]
+    change = np.where(beside, -linear.standing, 0.0)
+    left = gradient - information @ change
+    square = information[np.ix_(~beside, ~beside)] + np.eye(int(np.sum(~beside)))
+    change[~beside] = np.linalg.solve(square, (left - linear.standing)[~beside])
+    squared = linear.normal[-1, -1] - 2.0 * change @ gradient + change @ information @ change
+    return float(squared / len(linear.residual))

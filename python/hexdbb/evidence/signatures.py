@@ -76,7 +76,8 @@ def signature_of(hypothesis: Learned, readings: Readings, like: Space | None = N
         parts.append(total)
     designs = [state.design(space, element) for element in hypothesis.elements]
     square = sum((np.asarray(each.T @ each, np.float64) for each in designs), np.zeros(2 * designs[0].shape[1:]))
-    return Signature(space, np.hstack(parts), square / (len(designs) * len(readings)))
+    table = parts[0] if len(parts) == 1 else np.hstack(parts)
+    return Signature(space, table, square / (len(designs) * len(readings)))
 
 
 def varying(every: Iterable[Learned], readings: Readings) -> Iterator[Learned]:

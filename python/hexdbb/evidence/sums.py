@@ -55,14 +55,17 @@ class Sums:
         self.linear, self.readings, self.groupings = linear, readings, groupings
         self._cells = readings.cells(groupings)
         self.keys = self._cells.keys
-        self._table = self._of_cells(np.column_stack([linear.own, linear.residual]))
-        """[J y] by cell."""
         whole = len(self.keys) == 1
         self.base: Floats = linear.normal[None] if whole else _of(self._table, self._table)
         """[J y]'[J y] by cell, (cells, p + 1, p + 1)."""
         self.rows = self._cells.counts.astype(np.float64)
         self._without: dict[bytes, Training] = {}
         self._bases: dict[bytes, Floats] = {}
+
+    @cached_property
+    def _table(self) -> ByCell:
+        """[J y] by cell; the sums of all rows together follow from what the linearisation knows."""
+        return self._of_cells(np.column_stack([self.linear.own, self.linear.residual]))
 
     def block(self, signature: Floats) -> Block:
         """Return the sums of a signature, shape (n, k)."""
@@ -161,6 +164,11 @@ class Training:
             gradient=cross[:, -1] - half.T @ self.own,
             cross=half,
         )
+
+    def imitated(self, cross: Floats) -> tuple[Floats, Floats]:
+        """Return what of W'W the model's own values imitate, and b, from W'[J y] of all cells, shape (k, p + 1)."""
+        half = self._half(cross[:, :-1].T)
+        return half.T @ half, cross[:, -1] - half.T @ self.own
 
     def own_values(self, projected: Projected | None = None, coefficients: Floats | None = None) -> Floats:
         """Return the change of the model's own values that goes with a signature's coefficients."""

@@ -164,9 +164,24 @@ class Trials:
         """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
         key = _key(trial.members)
         if key not in self._linear:
-            self._about(trial.members, self.engine.linearised(trial.model))
+            linear = self.engine.linearised(trial.model).linear
+            # Which functions stand beside the effects was decided when they were weighed.
+            for form in sorted((form for form, _ in trial.columns_of_forms()), key=lambda each: each.first):
+                linear = self.forms.with_columns(linear, form)
+            self._keep(key, linear, self._change(linear))
         self._linear.move_to_end(key)
         return self._linear[key]
+
+    def _change(self, linear: Linear) -> Floats:
+        """Return the change of all values that leads to the best of all rows."""
+        return Sums(linear, self.engine.readings, ()).whole.own_values()
+
+    def _keep(self, key: frozenset[str], linear: Linear, change: Floats) -> Linear:
+        """Keep a linearisation, moved to the best values; of too many the one not asked for the longest is dropped."""
+        moved = self._linear[key] = linear.moved(change)
+        if len(self._linear) > KEPT:
+            self._linear.popitem(last=False)
+        return moved
 
     def sums(self, trial: Trial, groupings: tuple[str, ...]) -> Sums:
         """Return the sums of a trial's linearisation; those of the model without hypotheses are kept."""
@@ -233,9 +248,7 @@ class Trials:
         whole = Sums(linear, self.engine.readings, ()).whole
         change = whole.own_values()
         gain = 0.5 * float(whole.own @ whole.own)
-        moved = self._linear[_key(members)] = linear.moved(change)
-        if len(self._linear) > KEPT:
-            self._linear.popitem(last=False)
+        moved = self._keep(_key(members), linear, change)
         alike = gained_alike(moved, fitted, [each.hypothesis for each in members])
         return Trial(
             members=members,
