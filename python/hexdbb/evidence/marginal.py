@@ -68,13 +68,11 @@ def marginal(
     log_weights = np.full(len(sizes), -np.log(len(sizes))) if weights is None else np.log(weights)
     table = np.empty((len(factors), len(sizes)))
     parts = []
-    squares = np.asarray(sizes)[:, None] ** 2
     for row, factor in enumerate(factors):
         values, vectors = np.linalg.eigh(factor.T @ information @ factor / temper)
         values = np.maximum(values, 0.0)
         along = vectors.T @ (factor.T @ gradient) / temper
-        grown = 1.0 + squares * values
-        table[row] = 0.5 * np.sum(squares * along**2 / grown - np.log(grown), axis=1) + log_weights
+        table[row] = _of_sizes(values, along, sizes) + log_weights
         parts.append((values, vectors, along))
     best = divmod(int(np.argmax(table)), len(sizes))
     size = float(sizes[best[1]])
@@ -89,6 +87,33 @@ def marginal(
         axes=factors[best[0]] @ vectors,
         strength=size**2 * values * temper,
     )
+
+
+def log_evidences(information: Floats, gradient: Floats, sizes: Floats, temper: float) -> Floats:
+    """Return the log evidence that `marginal` has for each of many signatures of one prior factor: shape (many,).
+
+    Parameters
+    ----------
+    information, gradient : ndarray, shapes (many, k, k), (many, k)
+        T'A T and T'b.
+    sizes : ndarray, shape (m,)
+        tau, equally probable.
+    temper : float
+        Variance that stands for the noise's one.
+    """
+    values, vectors = np.linalg.eigh(information / temper)
+    along = np.matmul(vectors.transpose(0, 2, 1), gradient[:, :, None])[:, :, 0] / temper
+    table = _of_sizes(np.maximum(values, 0.0), along, sizes) - np.log(len(sizes))
+    found: Floats = np.logaddexp.reduce(table, axis=-1)
+    return found
+
+
+def _of_sizes(values: Floats, along: Floats, sizes: Floats) -> Floats:
+    """Return the log evidence of each size, from the eigenvalues of T'A T and T'b along its axes: shape (..., m)."""
+    squares = np.asarray(sizes)[:, None] ** 2
+    grown = 1.0 + squares * values[..., None, :]
+    found: Floats = 0.5 * np.sum(squares * along[..., None, :] ** 2 / grown - np.log(grown), axis=-1)
+    return found
 
 
 def solved(information: Floats, gradient: Floats, factor: Floats, size: float) -> Floats:

@@ -115,15 +115,7 @@ class Screen:
         return self._scored(hypothesis, block, self._factors(space), self.sizes_mm), block
 
     def _ranked(self, hypotheses: Sequence[Learned]) -> list[Learned]:
-        linear = self.thinned.linear(self.sums.linear)
-        sums = Sums(linear, self.thinned.readings, ())
-        evidence = []
-        for each in hypotheses:
-            signature = self.thinned.signature(each)
-            projected = sums.whole.project(self.thinned.block(each, sums))
-            factors = [signature.prior_factor(self.criteria.ranking_roughness)]
-            found = marginal(projected.information, projected.gradient, factors, self.sizes_mm, temper=self.temper)
-            evidence.append(found.log_evidence)
+        evidence = self.thinned.log_evidences(hypotheses, self.sums.linear, self.sizes_mm, self.temper)
         return [hypotheses[place] for place in np.argsort(evidence)[::-1]]
 
     def _factors(self, space: Signature) -> list[Floats]:

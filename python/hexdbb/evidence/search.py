@@ -31,7 +31,7 @@ from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import in_other_words, screened, screened_further
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, settles
-from hexdbb.evidence.several import or_at_several, with_every_element
+from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
@@ -70,7 +70,8 @@ class Search:
         linear = replace(fitted.linear, own=fitted.linear.own[:, geometry], standing=fitted.linear.standing[geometry])
         readings = self.engine.readings
         self.learnable = Learnable(readings, learns=self.learns)
-        self.thinned = Thinned(readings, self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows)
+        rows = self.criteria.thinned_rows if self.learns else self.criteria.fewest_rows
+        self.thinned = Thinned(readings, rows, self.criteria.ranking_roughness)
         words = (*self.learnable.simple, *self.learnable.products)
         self.homes = Homes(linear, self.thinned, words, self.criteria, self.learnable.of_forms)
         self.trials = Trials(self.engine, self.homes, self.criteria)
@@ -225,19 +226,17 @@ class Search:
     def tried(self, node: Node, every: Sequence[Scored]) -> list[Node]:
         """Fit sets with one more hypothesis each in full."""
         found = []
-        trials = self.trials.each_of((*node.members, self.member(scored)) for scored in every)
-        for scored, fitted in zip(every, trials, strict=True):
+        sets = [as_one_cause(self, (*node.members, self.member(scored))) for scored in every]
+        for fitted in self.trials.each_of(each for each in sets if each is not None):
             try:
                 trial = fitted()
             except RunError:
                 continue
-            if isinstance(scored.hypothesis, Known) and len(scored.hypothesis.elements) > 1:
-                whole = with_every_element(self, trial)
-                if whole is None:
+            if is_of_several(trial.members[-1].hypothesis):
+                if not is_at_most(self, trial):
                     continue
-                trial = whole
             else:
-                trial = with_best_number(self, trial, len(node.members))
+                trial = with_best_number(self, trial, len(trial.members) - 1)
             prior = sum(map(self.log_prior, {each.hypothesis for each in trial.members} - set(node.hypotheses)))
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))

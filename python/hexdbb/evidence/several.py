@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.errors import RunError
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
@@ -147,26 +146,35 @@ def _alike(table: Floats, whose: Sequence[tuple[str, str, str, float]], at: Sequ
     )
 
 
-def with_every_element(search: Search, trial: Trial) -> Trial | None:
-    """Return a trial, its last an effect at several elements, with the effect as one cause at all of them.
+def as_one_cause(search: Search, members: Sequence[Member]) -> tuple[Member, ...] | None:
+    """Return a set, its last an effect at several elements, with the effect as one cause at all of them.
 
     Returns
     -------
-    Trial or None
-        None where forms at the others account for what most of them do, or where the engine cannot fit it.
+    tuple of Member or None
+        The same set where its last is at one element; None where the set does not have the effect at all elements.
     """
-    *before, last = trial.members
+    *before, last = members
+    if not is_of_several(last.hypothesis):
+        return tuple(members)
     effect = _effect_of(last.hypothesis)
     every = tuple(search.engine.base.info(effect).elements)
-    there = {element for each in trial.members if _effect_of(each.hypothesis) == effect for element in _elements(each)}
-    others = [each for each in before if _effect_of(each.hypothesis) != effect]
-    try:
-        whole = search.trials.of((*others, Member(_of_all(search, effect, every))))
-    except RunError:
-        return None
-    least = search.criteria.form_variance * search.trials.size(whole, Known(effect, every))
-    seen = sum(search.trials.size(whole, Known(effect, (each,))) > least for each in every)
-    return whole if there == set(every) and seen >= FEWEST else None
+    there = {element for each in members if _effect_of(each.hypothesis) == effect for element in _elements(each)}
+    others = (each for each in before if _effect_of(each.hypothesis) != effect)
+    return (*others, Member(_of_all(search, effect, every))) if there == set(every) else None
+
+
+def is_at_most(search: Search, trial: Trial) -> bool:
+    """Check that at most elements the last effect of a trial is more than a form of what it is at the others."""
+    effect = _effect_of(trial.members[-1].hypothesis)
+    every = _elements(trial.members[-1])
+    least = search.criteria.form_variance * search.trials.size(trial, Known(effect, every))
+    return sum(search.trials.size(trial, Known(effect, (each,))) > least for each in every) >= FEWEST
+
+
+def is_of_several(hypothesis: Hypothesis) -> bool:
+    """Check for an effect at several elements."""
+    return isinstance(hypothesis, Known) and len(hypothesis.elements) > 1
 
 
 def _effect_of(hypothesis: Hypothesis) -> str:

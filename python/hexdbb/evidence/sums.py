@@ -211,6 +211,14 @@ class Training:
         squared = squared_error(sums, cells, own, None, None) - gradient @ np.linalg.solve(both, gradient)
         return float(squared), float(np.trace(np.linalg.solve(both, spread)))
 
+    def without_own(self, linear: Linear) -> tuple[Floats, Floats]:
+        """Return J L^-T and y less what the model's own values explain: A = W'W - H'H and b = W'y' with H' = W'J L^-T.
+
+        For many signatures of the same rows, whose products with these are taken in one.
+        """
+        own = linear.own @ self._inverse.T
+        return own, linear.residual - own @ self.own
+
     def _half(self, columns: Floats) -> Floats:
         found: Floats = self._inverse @ columns
         return found

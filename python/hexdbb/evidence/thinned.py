@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.marginal import log_evidences
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.signatures import Signature, signature_of
-from hexdbb.evidence.sums import Block, Sums
+from hexdbb.evidence.sums import Sums
 from hexdbb.learned import Learned
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+COLUMNS_AT_ONCE = 512
+"""Columns of signatures that are multiplied at once: their copies, ten megabytes, are no more than a cache or two, and
+more of them gain nothing."""
 
 
 class Thinned:
@@ -24,9 +29,17 @@ class Thinned:
     ----------
     readings : Readings
     count : int
+    roughness : float
+        Of the prior with which learned functions are ranked.
     """
 
-    def __init__(self, readings: Readings, count: int = DEFAULT.thinned_rows) -> None:
+    def __init__(
+        self,
+        readings: Readings,
+        count: int = DEFAULT.thinned_rows,
+        roughness: float = DEFAULT.ranking_roughness,
+    ) -> None:
+        self._roughness = roughness
         whole = len(readings)
         self.rows: Ints = np.unique(np.linspace(0, whole - 1, min(whole, count)).astype(np.intp))
         self.readings = Readings(
@@ -36,7 +49,7 @@ class Thinned:
             readings.ports[self.rows],
         )
         self._kept: dict[Learned, Signature] = {}
-        self._squares: dict[Learned, Floats] = {}
+        self._priors: dict[Learned, tuple[Floats, Floats]] = {}
 
     def linear(self, linear: Linear) -> Linear:
         """Return the rows of a linearisation."""
@@ -49,9 +62,41 @@ class Thinned:
             self._kept[hypothesis] = replace(found, table=found.table.astype(np.float32))
         return self._kept[hypothesis]
 
-    def block(self, hypothesis: Learned, sums: Sums) -> Block:
-        """Return the sums of a hypothesis' signature with a linearisation of these rows; those with itself are kept."""
-        table = self.signature(hypothesis).table.astype(np.float64)
-        if hypothesis not in self._squares:
-            self._squares[hypothesis] = table.T @ table
-        return Block(self._squares[hypothesis][None], sums.cross(table))
+    def log_evidences(self, hypotheses: Sequence[Learned], linear: Linear, sizes_mm: Floats, temper: float) -> Floats:
+        """Return the log evidence of hypotheses on these rows, with one roughness each (`marginal.py`).
+
+        Parameters
+        ----------
+        hypotheses : sequence of Learned
+        linear : Linear
+            Of all rows.
+        sizes_mm : ndarray, shape (m,)
+        temper : float
+        """
+        thin = self.linear(linear)
+        right = np.column_stack(Sums(thin, self.readings, ()).whole.without_own(thin))
+        widths = np.array([each.components * each.variable.columns for each in hypotheses], np.intp)
+        found = np.empty(len(hypotheses))
+        for width in np.unique(widths):
+            same, many = np.flatnonzero(widths == width), max(1, COLUMNS_AT_ONCE // int(width))
+            for places in np.split(same, range(many, len(same), many)):
+                evidence = self._of_one_width([hypotheses[place] for place in places], right, sizes_mm, temper)
+                found[places] = evidence
+        return found
+
+    def _of_one_width(self, some: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
+        """Return the log evidence of hypotheses of as many functions; `right`: [J L^-T y'] (`Training.without_own`)."""
+        tables = np.hstack([self.signature(each).table for each in some]).astype(np.float64)
+        factors, squares = (np.stack(each) for each in zip(*map(self._prior, some), strict=True))
+        cross = np.matmul(factors.transpose(0, 2, 1), (tables.T @ right).reshape(len(some), -1, right.shape[1]))
+        half = cross[:, :, :-1]
+        information = squares - np.matmul(half, half.transpose(0, 2, 1))
+        return log_evidences(information, cross[:, :, -1], sizes_mm, temper)
+
+    def _prior(self, hypothesis: Learned) -> tuple[Floats, Floats]:
+        """Return the prior factor T of a hypothesis' functions, and T'W'W T; kept."""
+        if hypothesis not in self._priors:
+            signature = self.signature(hypothesis)
+            factor, table = signature.prior_factor(self._roughness), signature.table.astype(np.float64)
+            self._priors[hypothesis] = factor, factor.T @ (table.T @ table) @ factor
+        return self._priors[hypothesis]
