@@ -10,7 +10,8 @@ namespace {
 
 FitResult fit_with(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, double noise_mm,
                    std::vector<bool> free, int max_iterations, double robust_mm, const Eigen::VectorXi& sweep,
-                   bool hypothesis, bool from_minimum, bool covariance, const Eigen::VectorXd& prior_scale) {
+                   bool hypothesis, bool from_minimum, bool covariance, const Eigen::VectorXd& prior_scale,
+                   const Eigen::MatrixXd& starts) {
   FitOptions options;
   options.noise_mm = noise_mm;
   options.free = std::move(free);
@@ -21,6 +22,7 @@ FitResult fit_with(const Model& model, const Samples& samples, const Eigen::Vect
   options.from_minimum = from_minimum;
   options.covariance = covariance;
   options.prior_scale = prior_scale;
+  options.starts = starts;
   return fit(model, samples, measured_mm, options);
 }
 
@@ -62,6 +64,7 @@ void bind_diagnosis(py::module_& module) {
              py::arg("noise_mm"), py::arg("free") = std::vector<bool>(), py::arg("max_iterations") = 50,
              py::arg("robust_mm") = 0.0, py::arg("sweep") = Eigen::VectorXi(), py::arg("hypothesis") = false,
              py::arg("from_minimum") = false, py::arg("covariance") = true, py::arg("prior_scale") = Eigen::VectorXd(),
+             py::arg("starts") = Eigen::MatrixXd(),
              py::call_guard<py::gil_scoped_release>(),
              "Fit the free values of a model to readings.\n\n"
              "Parameters\n----------\nmodel : Model\n    Its values are the start.\nsamples : Samples\n"
@@ -73,7 +76,9 @@ void bind_diagnosis(py::module_& module) {
              "hypothesis : bool\n    Full fit of a hypothesis: faster, its covariance to first order.\n"
              "from_minimum : bool\n    Of a hypothesis: the start is the minimum of nearly the same readings.\n"
              "covariance : bool\n    Whether covariance and correlation are wanted; else they are empty and 1.\n"
-             "prior_scale : ndarray, shape (size,), optional\n    Factors on the prior standard deviations.\n\n"
+             "prior_scale : ndarray, shape (size,), optional\n    Factors on the prior standard deviations.\n"
+             "starts : ndarray, shape (size, k), optional\n"
+             "    Of a hypothesis: further values of the model to begin from; the lowest coarse minimum is refined.\n\n"
              "Raises\n------\nValueError\n    Lengths that differ, no readings, nothing free, or a sample without a\n"
              "    solution at the start.");
   module.def("prior_sigmas", &prior_sigmas, py::arg("model"),

@@ -70,6 +70,9 @@ Unknowns make_unknowns(const Model& model, const FitOptions& options) {
   if (is_scaled && (options.prior_scale.size() != model.size() || !(options.prior_scale.array() > 0.0).all())) {
     throw std::invalid_argument("prior_scale: expected " + std::to_string(model.size()) + " factors greater than 0");
   }
+  if (options.starts.cols() > 0 && options.starts.rows() != model.size()) {
+    throw std::invalid_argument("starts: expected " + std::to_string(model.size()) + " rows, one per value");
+  }
   Unknowns out;
   out.start = model.values();
   for (int j = 0; j < model.size(); ++j) {
@@ -206,10 +209,17 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
     return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, {kCoarseFall, kMostCoarse});
   };
   Descent coarse = down_from(start);
-  const Eigen::VectorXd expected = unknowns.scaled_expected();
-  if (expected != start) {
-    Descent other = down_from(expected);
+  const auto or_from = [&](const Eigen::VectorXd& z) {
+    Descent other = down_from(z);
     if (other.is_reachable && other.cost < coarse.cost) coarse = std::move(other);
+  };
+  const Eigen::VectorXd expected = unknowns.scaled_expected();
+  if (expected != start) or_from(expected);
+  for (const auto& values : options.starts.colwise()) {
+    Unknowns further = unknowns;
+    further.start = values;
+    or_from(further.scaled_start());
+    or_from(further.scaled_expected());
   }
   const auto of_all_sums = [&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); };
   // The valley is as narrow and as curved for all readings as for some of them.

@@ -41,6 +41,9 @@ struct FitOptions {
   // Of a hypothesis: the model's values are the minimum of nearly the same readings, as where some circles are held out,
   // and the minimum that a few steps from there lead to is wanted. Makes no difference for few readings.
   bool from_minimum = false;
+  // Of a hypothesis: further values of the whole model from which to begin, a column each, where there may be several
+  // minima, as of a time constant. Coarse descents begin from each; the lowest of their minima is the one refined.
+  Eigen::MatrixXd starts;
   // Number of the capture each sample belongs to; neighbours within one may be correlated. Empty: all independent.
   Eigen::VectorXi sweep;
   // A direction is identifiable where the readings alone determine it to at most this fraction of its prior standard

@@ -121,7 +121,7 @@ class Engine:
                 model = replace(model.knowing_effects([fewer]), terms=terms)
         return model
 
-    def fit(self, model: Model, from_minimum: bool = False) -> Fitted:
+    def fit(self, model: Model, from_minimum: bool = False, starts: Sequence[Floats] = ()) -> Fitted:
         """Fit a model's free values to some of the rows and linearise about the fit.
 
         What the other rows add is first order (`Trials` takes that step); they cost most of a fit's time.
@@ -131,6 +131,8 @@ class Engine:
         model : Model
         from_minimum : bool
             The minimum is near the model's values.
+        starts : sequence of ndarray, shape (size,)
+            Further values from which to begin.
 
         Raises
         ------
@@ -141,7 +143,7 @@ class Engine:
         rounds = self.criteria.shape_rounds if (shaped & model.free).any() else 1
         used = np.ones(len(shaped))
         for _ in range(rounds):
-            model = self._fitted_once(model, shaped, used, from_minimum)
+            model, starts = self._fitted_once(model, shaped, used, from_minimum, starts), ()
         found = self.linearised(model)
         # An effect that turns out larger than expected is fitted again, where its prior no longer pulls at it.
         for _ in range(SCALE_ROUNDS):
@@ -182,10 +184,17 @@ class Engine:
         prediction = _core.predict(*self.plain(self.start))
         return float(np.mean(((self.reading_mm - prediction.reading_mm) / self.row_noise_mm) ** 2))
 
-    def _fitted_once(self, model: Model, shaped: NDArray[np.bool_], prior_scale: Floats, from_minimum: bool) -> Model:
+    def _fitted_once(
+        self,
+        model: Model,
+        shaped: NDArray[np.bool_],
+        prior_scale: Floats,
+        from_minimum: bool,
+        starts: Sequence[Floats] = (),
+    ) -> Model:
         """Fit all free values; shapes of users' effects go one step of Gauss and Newton."""
-        fewer = self._fitted_rows
-        part = self._fitted_part
+        fewer, part = self._fitted_rows, self._fitted_part
+        before = np.where(shaped, model.values, 0.0)  # the engine has the change of these
         result = _core.fit(
             model.engine(partial(self._tabulate, part, self._fitted_state)),
             self._block(part, model),
@@ -196,10 +205,11 @@ class Engine:
             from_minimum=from_minimum,
             covariance=False,  # that of the linearisation on all rows counts
             prior_scale=prior_scale,
+            starts=np.array([each - before for each in starts]).reshape(len(starts), len(before)).T,
         )
         if not result.usable:
             raise RunError(f"{self.samples.name}: the fit did not succeed: {result.termination}")
-        values = result.values + np.where(shaped, model.values, 0.0)
+        values = result.values + before
         for place in np.flatnonzero(shaped):
             domain = model.parameters()[place].shape
             assert domain is not None

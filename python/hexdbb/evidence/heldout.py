@@ -86,7 +86,7 @@ def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
     This is the squared distance between the two sets of values in standard deviations. It is about 1 by chance, even
     where the other groups determine the values badly.
     """
-    numbers, sums = trials.engine.readings.groups[grouping], trials.sums(trial, (grouping,))
+    numbers, sums = trials.engine.readings.groups[grouping], trials.sums(trial, _groupings(trial))
     groups = list(zip(np.unique(numbers), sums.groups(grouping), strict=True))
     found = [
         (*sums.without(cells).contradiction(sums, cells), float(sums.rows[cells].sum()))

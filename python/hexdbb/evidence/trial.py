@@ -18,7 +18,6 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.errors import RunError
 from hexdbb.evidence.alike import gained_alike
 from hexdbb.evidence.axes import LearnedAxes
 from hexdbb.evidence.criteria import Criteria
@@ -114,6 +113,8 @@ class Trials:
         self.present = [Known(*each) for each in engine.present()]
         self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
         self._base: dict[tuple[str, ...], Sums] = {}
+        self._last_sums: tuple[Trial, tuple[str, ...], Sums] | None = None
+        """What a check asks several questions of."""
 
     def of(self, members: Sequence[Member], near: Trial | None = None) -> Trial:
         """Fit a model with hypotheses.
@@ -184,9 +185,12 @@ class Trials:
         return moved
 
     def sums(self, trial: Trial, groupings: tuple[str, ...]) -> Sums:
-        """Return the sums of a trial's linearisation; those of the model without hypotheses are kept."""
+        """Return the sums of a trial's linearisation; those of the model without hypotheses are kept, and the last."""
         if trial.members:
-            return Sums(self.linear(trial), self.engine.readings, groupings)
+            last = self._last_sums
+            if last is None or last[0] is not trial or last[1] != groupings:
+                last = self._last_sums = trial, groupings, Sums(self.linear(trial), self.engine.readings, groupings)
+            return last[2]
         if groupings not in self._base:
             self._base[groupings] = Sums(self.linear(trial), self.engine.readings, groupings)
         return self._base[groupings]
@@ -294,16 +298,9 @@ class Trials:
         if not shapes.any():
             return self.engine.fit(model)
         model = model.with_free(model.free & ~one_for_all)
-        found = []
-        for start in self.criteria.shapes_for_all if one_for_all.any() else self.criteria.shape_starts:
-            values = np.where(shapes, start * model.prior_sigma, model.values)
-            try:
-                found.append(self.engine.fit(model.with_values(values)))
-            except RunError:
-                continue
-        if not found:
-            raise RunError("no start of the fit succeeded")
-        return max(found, key=lambda each: each.linear.log_evidence)
+        starts = self.criteria.shapes_for_all if one_for_all.any() else self.criteria.shape_starts
+        first, *others = (np.where(shapes, start * model.prior_sigma, model.values) for start in starts)
+        return self.engine.fit(model.with_values(first), starts=others)
 
 
 def _from(found: Model, model: Model) -> Model:
