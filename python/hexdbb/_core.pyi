@@ -948,6 +948,7 @@ def fit(
     from_minimum: bool = False,
     covariance: bool = True,
     prior_scale: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"] = ...,
+    starts: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"] = ...,
 ) -> FitResult:
     """
     Fit the free values of a model to readings.
@@ -975,6 +976,8 @@ def fit(
         Whether covariance and correlation are wanted; else they are empty and 1.
     prior_scale : ndarray, shape (size,), optional
         Factors on the prior standard deviations.
+    starts : ndarray, shape (size, k), optional
+        Of a hypothesis: further values of the model to begin from; the lowest coarse minimum is refined.
 
     Raises
     ------

@@ -73,7 +73,7 @@ def _explains_and_predicts(search: Search, node: Node) -> bool:
     if search.root.trial.left - node.trial.left <= search.criteria.form_explains * excess:
         return False
     # A free function of time claims nothing of what was left out, and so predicts nothing of it either.
-    return not (search.checked(node).reasons or is_doubtful(search, node) or node.trial.is_free_in_time)
+    return not (node.trial.is_free_in_time or search.checked(node).reasons or is_doubtful(search, node))
 
 
 def or_one_that_predicts(search: Search, node: Node) -> Node:

@@ -48,7 +48,7 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
 
 
 def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
-    """Screen the known effects beside those of a trial.
+    """Screen the known effects beside those of a trial; what was screened once is kept.
 
     Parameters
     ----------
@@ -57,6 +57,13 @@ def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
     screen : Screen
         Of its linearisation.
     """
+    kept = search.screened_known
+    if id(base) not in kept:
+        kept[id(base)] = _known_beside(search, base, screen)
+    return list(kept[id(base)])
+
+
+def _known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
     absent = search.engine.absent
     kinds = {name for name in search.known if search.is_whole(name)}
     scored = screen.known(*absent.signatures(base.model, search.known), kinds)

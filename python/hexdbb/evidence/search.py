@@ -80,6 +80,8 @@ class Search:
         self._expanded: dict[frozenset[str], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
         self._first_errors: dict[int, float] = {}
+        self.screened_known: dict[int, list[Scored]] = {}
+        """Known effects screened beside trials, by the identity of these, all of which are kept."""
         self._by_formulas: dict[int, float] = {}
 
     @cached_property

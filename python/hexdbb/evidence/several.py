@@ -81,7 +81,13 @@ def _may_be_sure(search: Search, node: Node) -> bool:
 
 
 def _grown(search: Search, node: Node) -> Node:
-    """Add known effects, the best first, until a set explains all."""
+    """Add known effects, the best first, until a set explains all.
+
+    An effect of one sign that comes out with the other at half of its elements stands in for something else: nothing is
+    looked for beside it, since what is added to it hardly turns as many.
+    """
+    if 2 * len(node.trial.refused) >= len(_elements(node.members[-1])):
+        return node
     while len(node.members) < search.criteria.max_effects and not is_complete(search, node):
         tried = search.tried(node, beside(search, node))
         more = [each for each in tried if not each.trial.refused and needs(search, each, each.members[-1])]
