@@ -291,6 +291,9 @@ TEST_F(Diagnosis, ShapesThatDisagreeAreRefused) {
   unscaled.prior_scale = Eigen::VectorXd::Zero(model.size());
   EXPECT_EQ(refusal([&] { fit(model, samples, measured, unscaled); }),
             "prior_scale: expected 40 factors greater than 0");
+  FitOptions begun = options;
+  begun.starts = Eigen::MatrixXd::Zero(3, 2);
+  EXPECT_EQ(refusal([&] { fit(model, samples, measured, begun); }), "starts: expected 40 rows, one per value");
   FitOptions silent = options;
   silent.noise_mm = 0.0;
   EXPECT_THROW(fit(model, samples, measured, silent), std::invalid_argument);
