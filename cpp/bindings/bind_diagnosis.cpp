@@ -64,8 +64,7 @@ void bind_diagnosis(py::module_& module) {
              py::arg("noise_mm"), py::arg("free") = std::vector<bool>(), py::arg("max_iterations") = 50,
              py::arg("robust_mm") = 0.0, py::arg("sweep") = Eigen::VectorXi(), py::arg("hypothesis") = false,
              py::arg("from_minimum") = false, py::arg("covariance") = true, py::arg("prior_scale") = Eigen::VectorXd(),
-             py::arg("starts") = Eigen::MatrixXd(),
-             py::call_guard<py::gil_scoped_release>(),
+             py::arg("starts") = Eigen::MatrixXd(), py::call_guard<py::gil_scoped_release>(),
              "Fit the free values of a model to readings.\n\n"
              "Parameters\n----------\nmodel : Model\n    Its values are the start.\nsamples : Samples\n"
              "measured_mm : ndarray, shape (n,)\nnoise_mm : float\n    Standard deviation of one reading.\n"
