@@ -9,7 +9,8 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_doubtful
+from hexdbb.evidence.settling import explained_by_formulas, is_doubtful
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Member
 
 
@@ -30,12 +31,27 @@ def settled(search: Search, node: Node) -> Node:
         )
         # The best may have one too many, as it was reached; to look at every other so would take as many fits again.
         tried = (*(_all_needed(search, each) for each in better[:1]), *better)
-        admissible = (e for e in tried if is_better(search, e, node) and _is_admissible(search, e))
+        admissible = (
+            each
+            for each in tried
+            if is_better(search, each, node) and _is_admissible(search, each) and not _gives_up(search, node, each)
+        )
         chosen = next(admissible, _all_needed(search, node))
         if chosen is node:
             return node
         node = in_known_words(search, chosen)
     return node
+
+
+def _gives_up(search: Search, node: Node, other: Node) -> bool:
+    """Check that one of known effects, for sure by formulas that explain nearly all, would be given up for a function.
+
+    A function of the time since each circle began says what a slider's reversals do, with a little more evidence than
+    an effect a tenth off its formula.
+    """
+    if not node.is_known or other.is_known or {*node.hypotheses} <= {*other.hypotheses}:
+        return False
+    return explained_by_formulas(search, node) >= search.criteria.form_explains and is_for_sure(search, node)
 
 
 def with_found_beside(search: Search, node: Node) -> Node:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from hexdbb.evidence import known_together
+from hexdbb.evidence import exchange, known_together
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.exchange import settled
 from hexdbb.evidence.form import Form
@@ -146,6 +146,25 @@ def test_an_effect_that_stood_in_for_what_came_later_is_left_out() -> None:
     search, node = searched({(SCREW, DRIFT, GAIN): 1.0, (DRIFT, GAIN): 1.01, (SCREW, GAIN): 5.0, (SCREW, DRIFT): 6.0})
     search.trials._left |= {frozenset((DRIFT,)): 7.0, frozenset((GAIN,)): 7.0}
     assert settled(search, node).members == (DRIFT, GAIN)
+
+
+@pytest.mark.parametrize(
+    ("is_sure", "by_formulas", "stays"),
+    [(True, 1.5, True), (False, 1.5, False), (True, 4.0, False)],
+    ids=["for sure by formulas", "not for sure", "by forms"],
+)
+def test_known_effects_for_sure_by_formulas_are_given_up_for_no_function(
+    monkeypatch: pytest.MonkeyPatch, is_sure: bool, by_formulas: float, stays: bool
+) -> None:
+    """What the reading does since each circle began says what a slider's reversals do, with a little more evidence."""
+    since = Member(Learned.parse("learned:reading:time_in_sweep"))
+    left = {(DRIFT, GAIN): 1.3, (DRIFT, since): 1.0, (DRIFT,): 6.0, (GAIN,): 6.0, (since,): 6.0}
+    search, node = searched(left, by_formulas={(DRIFT, GAIN): by_formulas})
+    search.nodes.append(node_of(search.trials.of((DRIFT, since))))
+    search.same_kind = lambda one, other: one == other
+    monkeypatch.setattr(exchange, "is_for_sure", lambda search, node: is_sure and since not in node.members)
+    monkeypatch.setattr(exchange, "in_known_words", lambda search, node: node)
+    assert settled(search, node).members == ((DRIFT, GAIN) if stays else (DRIFT, since))
 
 
 class BesideLater:
