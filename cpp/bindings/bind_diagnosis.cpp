@@ -77,7 +77,7 @@ void bind_diagnosis(py::module_& module) {
              "covariance : bool\n    Whether covariance and correlation are wanted; else they are empty and 1.\n"
              "prior_scale : ndarray, shape (size,), optional\n    Factors on the prior standard deviations.\n"
              "starts : ndarray, shape (size, k), optional\n"
-             "    Of a hypothesis: further values of the model to begin from; the lowest coarse minimum is refined.\n\n"
+             "    Of a hypothesis: further starts of its free values; the lowest coarse minimum is refined.\n\n"
              "Raises\n------\nValueError\n    Lengths that differ, no readings, nothing free, or a sample without a\n"
              "    solution at the start.");
   module.def("prior_sigmas", &prior_sigmas, py::arg("model"),

@@ -977,7 +977,7 @@ def fit(
     prior_scale : ndarray, shape (size,), optional
         Factors on the prior standard deviations.
     starts : ndarray, shape (size, k), optional
-        Of a hypothesis: further values of the model to begin from; the lowest coarse minimum is refined.
+        Of a hypothesis: further starts of its free values; the lowest coarse minimum is refined.
 
     Raises
     ------

@@ -42,7 +42,8 @@ struct FitOptions {
   // and the minimum that a few steps from there lead to is wanted. Makes no difference for few readings.
   bool from_minimum = false;
   // Of a hypothesis: further values of the whole model from which to begin, a column each, where there may be several
-  // minima, as of a time constant. Coarse descents begin from each; the lowest of their minima is the one refined.
+  // minima, as of a time constant; held ones stay the model's. Coarse descents begin from each; the lowest of their minima
+  // is the one refined.
   Eigen::MatrixXd starts;
   // Number of the capture each sample belongs to; neighbours within one may be correlated. Empty: all independent.
   Eigen::VectorXi sweep;

@@ -132,7 +132,7 @@ class Engine:
         from_minimum : bool
             The minimum is near the model's values.
         starts : sequence of ndarray, shape (size,)
-            Further values from which to begin.
+            Further values from which to begin; those that are held stay the model's.
 
         Raises
         ------

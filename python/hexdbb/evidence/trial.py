@@ -18,6 +18,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.alike import gained_alike
 from hexdbb.evidence.axes import LearnedAxes
 from hexdbb.evidence.criteria import Criteria
@@ -299,8 +300,22 @@ class Trials:
             return self.engine.fit(model)
         model = model.with_free(model.free & ~one_for_all)
         starts = self.criteria.shapes_for_all if one_for_all.any() else self.criteria.shape_starts
-        first, *others = (np.where(shapes, start * model.prior_sigma, model.values) for start in starts)
-        return self.engine.fit(model.with_values(first), starts=others)
+        begun = [np.where(shapes, start * model.prior_sigma, model.values) for start in starts]
+        if one_for_all.any():  # such a shape is held, and each value of it is a fit of its own
+            return self._best_fit(model.with_values(each) for each in begun)
+        return self.engine.fit(model.with_values(begun[0]), starts=begun[1:])
+
+    def _best_fit(self, models: Iterable[Model]) -> Fitted:
+        """Fit several models, and return the fit of most evidence."""
+        found = []
+        for each in models:
+            try:
+                found.append(self.engine.fit(each))
+            except RunError:
+                continue
+        if not found:
+            raise RunError("no start of the fit succeeded")
+        return max(found, key=lambda each: each.linear.log_evidence)
 
 
 def _from(found: Model, model: Model) -> Model:
