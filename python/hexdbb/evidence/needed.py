@@ -104,8 +104,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
         The hypothesis in question.
     """
     criteria, trials = search.criteria, search.trials
-    # From the set's own values: a time constant is not sought anew from several starts for every member left out.
-    others = trials.of(node.without(member), near=node.trial)
+    others = trials.of_fewer(node.without(member), node.trial)
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
     beyond = others.left - node.trial.left
     if gain < criteria.detect_nats:

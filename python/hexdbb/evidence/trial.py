@@ -139,6 +139,11 @@ class Trials:
             )
         return self._known[key]
 
+    def of_fewer(self, members: Sequence[Member], whole: Trial) -> Trial:
+        """Fit what is left of a set, whose time constants are not sought anew from several starts."""
+        known = (each.hypothesis.effect for each in members if isinstance(each.hypothesis, Known))
+        return self.of(members, near=whole if any(map(self.engine.absent.has_shape, known)) else None)
+
     def each_of(self, every: Iterable[Sequence[Member]]) -> Iterator[Callable[[], Trial]]:
         """Fit several models with hypotheses beside each other, as many at once as there are cores.
 

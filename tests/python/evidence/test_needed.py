@@ -35,7 +35,10 @@ class Trialled:
     def has(self, members: tuple[Member, ...]) -> bool:
         return frozenset(members) in self._fitted
 
-    def of(self, members: tuple[Member, ...], near: Any = None) -> Any:
+    def of_fewer(self, members: tuple[Member, ...], _: Any) -> Any:
+        return self.of(members)
+
+    def of(self, members: tuple[Member, ...]) -> Any:
         self.asked.append(frozenset(members))
         left = self._left[frozenset(members)]
         return SimpleNamespace(members=members, left=left, log_evidence=-1000.0 * left, refused=())
