@@ -13,6 +13,7 @@ running        tasks run, those done before left out, those that fail kept as ro
 submitted      calls handed to Dask and taken back as they end
 failures       tasks that failed tried again by themselves, so that one cannot take others with it
 part           what a worker does with some tasks
+worker_process what its process does before: one thread, freed memory kept
 results        the Parquet dataset: parts written whole or not at all, keys of what is done
 storage        files at a URL, local or in a store
 =============  =========================================================================================================

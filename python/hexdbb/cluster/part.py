@@ -12,10 +12,10 @@ from typing import Any
 
 import pyarrow as pa
 
-from hexdbb import _core
 from hexdbb.cluster.environment import Environment, difference, own_environment
 from hexdbb.cluster.options import require
 from hexdbb.cluster.results import TASK
+from hexdbb.cluster.worker_process import prepare_process
 from hexdbb.errors import HexdbbError, InputError
 
 Rows = Sequence[Mapping[str, Any]]
@@ -124,8 +124,8 @@ def _require_version(work: Work) -> None:
 
 @cache
 def _own() -> Environment:
-    """Return the versions of this process, once; from then on the engine uses one thread: a worker has one core."""
-    _core.limit_threads(1)
+    """Return the versions of this process, once, and prepare it for the work."""
+    prepare_process()
     return own_environment()
 
 
