@@ -1,4 +1,5 @@
 #include "bindings.hpp"
+#include "hexdbb/captures.hpp"
 #include "hexdbb/circle_fit.hpp"
 #include "hexdbb/contour_path.hpp"
 #include "hexdbb/harmonics.hpp"
@@ -39,17 +40,22 @@ void bind_contours(py::module_& module) {
   module.def("deviation_at", &deviation_at, py::arg("angle_rad"), py::arg("deviation_mm"), py::arg("at_rad"),
              "Return a path's deviation (mm) at other angles (m,), by periodic linear interpolation.");
   module.def(
-      "mean_path",
-      [](const Numbers& angle_rad, const Numbers& deviation_mm, const Ordinals& turn, double most_gap_rad) {
-        ContourPath found = mean_path(angle_rad, deviation_mm, turn, most_gap_rad);
-        return Pair(std::move(found.angle_rad), std::move(found.deviation_mm));
+      "mean_paths",
+      [](const Numbers& angle_rad, const Numbers& deviation_mm, const Ordinals& turn, const std::vector<Rows>& captures,
+         double most_gap_rad) {
+        std::vector<Pair> out;
+        for (ContourPath& found : mean_paths(angle_rad, deviation_mm, turn, captures, most_gap_rad)) {
+          out.emplace_back(std::move(found.angle_rad), std::move(found.deviation_mm));
+        }
+        return out;
       },
-      py::arg("angle_rad"), py::arg("deviation_mm"), py::arg("turn"), py::arg("most_gap_rad"),
-      "Return angles and deviations, each (m,), of the mean of laps.\n\n"
+      py::arg("angle_rad"), py::arg("deviation_mm"), py::arg("turn"), py::arg("captures"), py::arg("most_gap_rad"),
+      "Return angles and deviations, each (m,), of the mean of each capture's laps.\n\n"
       "Parameters\n----------\nangle_rad, deviation_mm : ndarray, shape (n,)\n"
       "turn : ndarray of int, shape (n,)\n    Lap of each sample.\n"
+      "captures : list of ndarray of int\n    Rows of each.\n"
       "most_gap_rad : float\n    Laps with a longer arc without a sample do not count as long as another one does.\n\n"
-      "Raises\n------\nValueError\n    Lengths that differ, or no samples.");
+      "Raises\n------\nValueError\n    Lengths that differ, a row that is not there, or no samples.");
   module.def(
       "circular_hysteresis_mm",
       [](const Pair& one, const Pair& other) {
@@ -62,15 +68,56 @@ void bind_contours(py::module_& module) {
   module.def("without_harmonics", &without_harmonics, py::arg("angle_rad"), py::arg("values"), py::arg("highest"),
              "Return values (n,) less their mean and their harmonics 1 to highest of angles (n,).");
   module.def(
-      "lap_differences", &lap_differences, py::arg("angle_rad"), py::arg("lap"), py::arg("values"), py::arg("highest"),
-      "Return the differences of each two consecutive laps of a sweep at one angle, in units of one value's noise.\n\n"
+      "lap_differences",
+      py::overload_cast<const Numbers&, const Ordinals&, const Numbers&, const std::vector<Rows>&,
+                        const std::vector<int>&>(&lap_differences),
+      py::arg("angle_rad"), py::arg("lap"), py::arg("values"), py::arg("captures"), py::arg("highest"),
+      "Return the differences of each two consecutive laps of captures at one angle, in units of one value's noise.\n\n"
       "Parameters\n----------\nangle_rad, values : ndarray, shape (n,)\nlap : ndarray of int, shape (n,)\n"
-      "highest : int\n    Harmonics that are removed from the values first.\n\n"
-      "Raises\n------\nValueError\n    Lengths that differ.");
+      "captures : list of ndarray of int\n    Rows of each.\n"
+      "highest : list of int\n    Harmonics that are removed from each capture's values first.\n\n"
+      "Raises\n------\nValueError\n    Lengths that differ, or a row that is not there.");
+  py::class_<CaptureHarmonics>(module, "CaptureHarmonics",
+                               "The lowest harmonics of several captures, fitted to any number of columns.")
+      .def(py::init<const Numbers&, std::vector<Rows>, int>(), py::arg("angle_rad"), py::arg("captures"),
+           py::arg("highest"),
+           "Prepare the harmonics.\n\n"
+           "Parameters\n----------\nangle_rad : ndarray, shape (n,)\n"
+           "captures : list of ndarray of int\n    Rows of each.\nhighest : int\n\n"
+           "Raises\n------\nValueError\n    A row that is not there, or a negative number of harmonics.")
+      .def(
+          "split",
+          [](const CaptureHarmonics& harmonics, const Numbers& values) {
+            CaptureHarmonics::Parts found = harmonics.split(values);
+            return std::pair(std::move(found.taken), std::move(found.left));
+          },
+          py::arg("values"),
+          "Fit a column (n,) by mean and harmonics of each capture.\n\n"
+          "Returns\n-------\ntaken : ndarray, shape (captures, 1 + 2 highest)\n"
+          "    Components along orthonormal columns.\nleft : ndarray, shape (n,)\n"
+          "    What is left; zero in rows of no capture.\n\n"
+          "Raises\n------\nValueError\n    A column of another length.");
   module.def(
-      "orthonormal_harmonics", &orthonormal_harmonics, py::arg("angle_rad"), py::arg("highest"),
-      "Return a constant and harmonics 1 to highest of angles (n,) as orthonormal columns, (n, 1 + 2 highest).\n\n"
-      "Raises\n------\nValueError\n    A negative number of harmonics.");
+      "compare_with_neighbours",
+      [](const Numbers& angle_rad, const Numbers& values, const std::vector<Rows>& captures, double noise,
+         int neighbours, double dense_rad, double doubtful, double alone) {
+        Neighbours found =
+            compare_with_neighbours(angle_rad, values, captures, noise, {neighbours, dense_rad, doubtful, alone});
+        return std::pair(std::move(found.off), std::move(found.alone));
+      },
+      py::arg("angle_rad"), py::arg("values"), py::arg("captures"), py::arg("noise"), py::kw_only(),
+      py::arg("neighbours"), py::arg("dense_rad"), py::arg("doubtful"), py::arg("alone"),
+      "Compare values (n,) with their neighbours in a capture.\n\n"
+      "Parameters\n----------\nnoise : float\n    Least standard deviation of one value.\n"
+      "neighbours : int\n    Values to each side whose median is expected.\n"
+      "dense_rad : float\n    Median angle between values up to which neighbours say what to expect.\n"
+      "doubtful : float\n"
+      "    Standard deviations from the middle of both neighbours from which a value is looked at.\n"
+      "alone : float\n    Standard deviations from the median of all neighbours beyond which it stands alone.\n\n"
+      "Returns\n-------\noff : ndarray, shape (n,)\n"
+      "    Distance from the middle of both neighbours, in standard deviations.\n"
+      "alone : ndarray of bool, shape (n,)\n\n"
+      "Raises\n------\nValueError\n    Lengths that differ, or a row that is not there.");
 }
 
 }  // namespace hexdbb::bindings

@@ -157,8 +157,7 @@ PlanePoints path_points_mm(const Numbers& angle_rad, const Numbers& deviation_mm
 }
 
 Eigen::VectorXd without_harmonics(const Numbers& angle_rad, const Numbers& values, int highest) {
-  const Eigen::MatrixXd basis = orthonormal_harmonics(angle_rad, highest);
-  return values - basis * (basis.transpose() * values);
+  return Harmonics(angle_rad, highest).split(values).left;
 }
 
 std::vector<Eigen::VectorXd> lap_differences(const Numbers& angle_rad, const Ordinals& lap, const Numbers& values,

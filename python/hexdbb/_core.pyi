@@ -13,6 +13,7 @@ import numpy.typing
 
 __all__: list[str] = [
     "CORRECTION_LIMIT",
+    "CaptureHarmonics",
     "CompensationData",
     "CompensationError",
     "CompensationTable",
@@ -38,6 +39,7 @@ __all__: list[str] = [
     "autocorrelation_time",
     "chi_square_tail",
     "circular_hysteresis_mm",
+    "compare_with_neighbours",
     "compensation_of",
     "design_sums",
     "deviation_at",
@@ -61,10 +63,9 @@ __all__: list[str] = [
     "limit_threads",
     "log_normal_below",
     "make_path",
-    "mean_path",
+    "mean_paths",
     "minimum_zone",
     "normal_equations",
-    "orthonormal_harmonics",
     "path_points_mm",
     "platform_joint",
     "port_sensitivity",
@@ -590,6 +591,53 @@ class Zone:
         Radial separation of the two circles.
         """
 
+class CaptureHarmonics:
+    """
+    The lowest harmonics of several captures, fitted to any number of columns.
+    """
+    def __init__(
+        self,
+        angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+        captures: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.int64, "[m, 1]"]],
+        highest: typing.SupportsInt | typing.SupportsIndex,
+    ) -> None:
+        """
+        Prepare the harmonics.
+
+        Parameters
+        ----------
+        angle_rad : ndarray, shape (n,)
+        captures : list of ndarray of int
+            Rows of each.
+        highest : int
+
+        Raises
+        ------
+        ValueError
+            A row that is not there, or a negative number of harmonics.
+        """
+    def split(
+        self, values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]
+    ) -> tuple[
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    ]:
+        """
+        Fit a column (n,) by mean and harmonics of each capture.
+
+        Returns
+        -------
+        taken : ndarray, shape (captures, 1 + 2 highest)
+            Components along orthonormal columns.
+        left : ndarray, shape (n,)
+            What is left; zero in rows of no capture.
+
+        Raises
+        ------
+        ValueError
+            A column of another length.
+        """
+
 class DesignSums:
     """
     Sums of a design W over each group of its rows, with a table T.
@@ -798,6 +846,48 @@ def circular_hysteresis_mm(
 ) -> float:
     """
     Return the largest difference (mm) of two paths, angles and deviations each, at an angle that either has.
+    """
+
+def compare_with_neighbours(
+    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    captures: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.int64, "[m, 1]"]],
+    noise: typing.SupportsFloat | typing.SupportsIndex,
+    *,
+    neighbours: typing.SupportsInt | typing.SupportsIndex,
+    dense_rad: typing.SupportsFloat | typing.SupportsIndex,
+    doubtful: typing.SupportsFloat | typing.SupportsIndex,
+    alone: typing.SupportsFloat | typing.SupportsIndex,
+) -> tuple[
+    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    typing.Annotated[numpy.typing.NDArray[numpy.bool], "[m, 1]"],
+]:
+    """
+    Compare values (n,) with their neighbours in a capture.
+
+    Parameters
+    ----------
+    noise : float
+        Least standard deviation of one value.
+    neighbours : int
+        Values to each side whose median is expected.
+    dense_rad : float
+        Median angle between values up to which neighbours say what to expect.
+    doubtful : float
+        Standard deviations from the middle of both neighbours from which a value is looked at.
+    alone : float
+        Standard deviations from the median of all neighbours beyond which it stands alone.
+
+    Returns
+    -------
+    off : ndarray, shape (n,)
+        Distance from the middle of both neighbours, in standard deviations.
+    alone : ndarray of bool, shape (n,)
+
+    Raises
+    ------
+    ValueError
+        Lengths that differ, or a row that is not there.
     """
 
 def compensation_of(
@@ -1081,22 +1171,25 @@ def lap_differences(
     angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     lap: typing.Annotated[numpy.typing.NDArray[numpy.int64], "[m, 1]"],
     values: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
-    highest: typing.SupportsInt | typing.SupportsIndex,
+    captures: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.int64, "[m, 1]"]],
+    highest: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
 ) -> list[typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]]:
     """
-    Return the differences of each two consecutive laps of a sweep at one angle, in units of one value's noise.
+    Return the differences of each two consecutive laps of captures at one angle, in units of one value's noise.
 
     Parameters
     ----------
     angle_rad, values : ndarray, shape (n,)
     lap : ndarray of int, shape (n,)
-    highest : int
-        Harmonics that are removed from the values first.
+    captures : list of ndarray of int
+        Rows of each.
+    highest : list of int
+        Harmonics that are removed from each capture's values first.
 
     Raises
     ------
     ValueError
-        Lengths that differ.
+        Lengths that differ, or a row that is not there.
     """
 
 def largest_gap_rad(angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"]) -> float:
@@ -1137,30 +1230,35 @@ def make_path(
     Return angles (n,) in [0, 2 pi), rising, and the deviations at them. ValueError where lengths differ.
     """
 
-def mean_path(
+def mean_paths(
     angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     deviation_mm: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
     turn: typing.Annotated[numpy.typing.NDArray[numpy.int64], "[m, 1]"],
+    captures: collections.abc.Sequence[typing.Annotated[numpy.typing.ArrayLike, numpy.int64, "[m, 1]"]],
     most_gap_rad: typing.SupportsFloat | typing.SupportsIndex,
-) -> tuple[
-    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
-    typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+) -> list[
+    tuple[
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+        typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
+    ]
 ]:
     """
-    Return angles and deviations, each (m,), of the mean of laps.
+    Return angles and deviations, each (m,), of the mean of each capture's laps.
 
     Parameters
     ----------
     angle_rad, deviation_mm : ndarray, shape (n,)
     turn : ndarray of int, shape (n,)
         Lap of each sample.
+    captures : list of ndarray of int
+        Rows of each.
     most_gap_rad : float
         Laps with a longer arc without a sample do not count as long as another one does.
 
     Raises
     ------
     ValueError
-        Lengths that differ, or no samples.
+        Lengths that differ, a row that is not there, or no samples.
     """
 
 def minimum_zone(
@@ -1182,19 +1280,6 @@ def normal_equations(
 ) -> NormalEquations:
     """
     Compute the normal equations for all values of a model in one pass. ValueError where lengths differ.
-    """
-
-def orthonormal_harmonics(
-    angle_rad: typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, 1]"],
-    highest: typing.SupportsInt | typing.SupportsIndex,
-) -> typing.Annotated[numpy.typing.NDArray[numpy.float64], "[m, n]"]:
-    """
-    Return a constant and harmonics 1 to highest of angles (n,) as orthonormal columns, (n, 1 + 2 highest).
-
-    Raises
-    ------
-    ValueError
-        A negative number of harmonics.
     """
 
 def path_points_mm(

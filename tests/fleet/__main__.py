@@ -28,6 +28,7 @@ from tests.fleet.made import PACES, Fleet, write_model
 
 from hexdbb import _core
 from hexdbb.cluster import ClusterOptions, Summary
+from hexdbb.cluster.worker_process import prepare_process
 from hexdbb.fleet import fleet_results, judge_records, list_records
 from hexdbb.fleet.judging import judge
 
@@ -108,7 +109,9 @@ def engine_share(fleet: Fleet, folder: Path, model: str) -> Share:
         return call
 
     functions = [(_core, name) for name, each in vars(_core).items() if isinstance(each, BuiltinFunctionType)]
-    functions += [(_core.Samples, name) for name in ("__init__", "derive", "rows")]
+    functions += [(_core.Samples, name) for name in ("__init__", "derive", "rows", "column")]
+    functions += [(_core.CaptureHarmonics, name) for name in ("__init__", "split")]
+    prepare_process()  # as a worker does
     found = []
     with ExitStack() as stack:
         for owner, name in functions:

@@ -1,14 +1,33 @@
-// The lowest harmonics of a sweep's angle as an orthonormal basis: the smooth part of a contour.
+// The lowest harmonics of a sweep's angle: the smooth part of a contour, and what is left without it.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 namespace hexdbb {
 
-/// Return a constant and harmonics 1 to `highest` of some angles as orthonormal columns: 1, cosines, sines, each
-/// orthogonal to those before it. They are nearly orthogonal already over whole turns, so that a Cholesky factor of
-/// their products suffices; where the angles are a short arc they depend on each other to rounding, and the last ones
-/// are shorter than 1. Throws std::invalid_argument for a negative number of harmonics.
-Eigen::MatrixXd orthonormal_harmonics(const Eigen::Ref<const Eigen::VectorXd>& angle_rad, int highest);
+/// A constant and harmonics 1 to `highest` of some angles, to which values are fitted, any number of times.
+///
+/// With B the columns 1, cosines, sines and L L' = B'B (Cholesky), the columns of B L^-T are orthonormal; values y have
+/// the components L^-1 B'y along them. B'B needs no product of columns: cos k t cos l t is half of
+/// cos (k - l) t + cos (k + l) t, so that sums of the harmonics up to twice the highest determine it.
+class Harmonics {
+ public:
+  /// Throws std::invalid_argument for a negative number of harmonics.
+  Harmonics(const Eigen::Ref<const Eigen::VectorXd>& angle_rad, int highest);
+
+  struct Parts {
+    Eigen::VectorXd taken;  // components along orthonormal columns, 1 + 2 highest
+    Eigen::VectorXd left;   // values less their mean and harmonics
+  };
+
+  /// Fit values, one for each angle, by least squares. Where the angles are a short arc, harmonics depend on each other
+  /// to rounding; the last components are then smaller than those of a basis of length one.
+  Parts split(const Eigen::Ref<const Eigen::VectorXd>& values) const;
+
+ private:
+  Eigen::MatrixXd columns_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
 
 }  // namespace hexdbb

@@ -114,8 +114,27 @@ def lap_mean_path(
     InputError
         As `make_path`.
     """
-    angle, deviation = _checked(angle_rad, deviation_mm, nominal_radius_mm)
-    return Path(*_core.mean_path(angle, deviation, turn, MAX_GAP_RAD), float(nominal_radius_mm))
+    whole = np.arange(len(angle_rad))
+    return lap_mean_paths(angle_rad, deviation_mm, turn, [whole], [nominal_radius_mm])[0]
+
+
+def lap_mean_paths(
+    angle_rad: FloatArray,
+    deviation_mm: FloatArray,
+    turn: npt.NDArray[np.int64],
+    captures: Sequence[npt.NDArray[np.intp]],
+    nominal_radius_mm: Sequence[float],
+) -> list[Path]:
+    """Return the `lap_mean_path` of several captures, each by its rows and with its nominal radius.
+
+    Raises
+    ------
+    InputError
+        As `make_path`.
+    """
+    angle, deviation = _checked(angle_rad, deviation_mm, min(nominal_radius_mm))
+    found = _core.mean_paths(angle, deviation, turn, captures, MAX_GAP_RAD)
+    return [Path(*each, float(radius_mm)) for each, radius_mm in zip(found, nominal_radius_mm, strict=True)]
 
 
 def _checked(

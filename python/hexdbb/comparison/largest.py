@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
 
 from hexdbb.comparison.circles import numbered_turns
-from hexdbb.comparison.iso230 import Path, lap_mean_path
+from hexdbb.comparison.iso230 import Path, lap_mean_paths
 from hexdbb.comparison.quantities import QUANTITIES, Quantities, Quantity, evaluate_quantities
 from hexdbb.samples import Samples
-from hexdbb.samples.distinct import distinct_rows, rows_by_number
+from hexdbb.samples.distinct import Ints, distinct_rows, rows_by_number
 
 
 def largest_quantities(samples: Samples, keys: Sequence[str]) -> Quantities:
@@ -38,15 +41,26 @@ def largest_quantities(samples: Samples, keys: Sequence[str]) -> Quantities:
 def _of_circles(samples: Samples, chosen: list[Quantity]) -> Iterator[Quantities]:
     """Yield the quantities of every circle, feed and direction."""
     first, member = distinct_rows(samples["set_up"], samples["feed_mm_s"], samples["direction"])
+    which = [(samples.records[record], circle) for record, circle in _pairs(samples, ("record", "circle"), first)]
+    circles = [record.circle(circle) for record, circle in which]
+    radius_mm = [circle.radius_mm for circle in circles]
+    offset_mm = np.array([record.gauge.bar_length_mm for record, _ in which]) - radius_mm
+    paths = lap_mean_paths(
+        samples["angle_rad"],
+        samples["reading_mm"] + offset_mm[member],
+        numbered_turns(samples["sweep"], samples["lap"]),
+        rows_by_number(member),
+        radius_mm,
+    )
     of_circle: dict[tuple[int, float], dict[int, Path]] = {}
-    columns = [samples[name] for name in ("angle_rad", "reading_mm", "sweep", "lap")]
-    for row, rows in zip(first, rows_by_number(member), strict=True):
-        angle_rad, reading_mm, sweep, lap = (column[rows] for column in columns)
-        record = samples.records[int(samples["record"][row])]
-        circle = record.circle(int(samples["circle"][row]))
-        deviation_mm = reading_mm + (record.gauge.bar_length_mm - circle.radius_mm)
-        path = lap_mean_path(angle_rad, deviation_mm, circle.radius_mm, numbered_turns(sweep, lap))
-        key = int(samples["set_up"][row]), float(samples["feed_mm_s"][row])
-        of_circle.setdefault(key, {})[int(samples["direction"][row])] = path
-    for paths in of_circle.values():
-        yield from evaluate_quantities(paths, chosen).values()
+    keys = _pairs(samples, ("set_up", "feed_mm_s"), first)
+    for key, direction, path in zip(keys, samples["direction"][first].tolist(), paths, strict=True):
+        of_circle.setdefault(key, {})[int(direction)] = path
+    for each in of_circle.values():
+        yield from evaluate_quantities(each, chosen).values()
+
+
+def _pairs(samples: Samples, names: tuple[str, str], rows: Ints) -> list[tuple[Any, Any]]:
+    """Return the values of two columns in some rows."""
+    one, other = (samples[name][rows].tolist() for name in names)
+    return list(zip(one, other, strict=True))

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb import _core
 from hexdbb.samples import Samples
 
 Floats = NDArray[np.float64]
@@ -24,12 +25,9 @@ DENSE_RAD = np.radians(6.0)
 degrees, and three neighbours to each side span 36 then."""
 ALONE = 6.0
 """Standard deviations from that median beyond which a reading is off: one in 10^8 of normal noise."""
-MEDIAN_TO_SIGMA = 1.4826
-"""Standard deviation of a normal variable over the median of its size."""
-OF_DIFFERENCE = np.sqrt(1.5)
-"""Standard deviation of a reading minus the mean of its two neighbours, over that of one reading."""
 AGAIN = 3.0
-"""Standard deviations of that difference at which a reading is looked at, and another of the same place is off too."""
+"""Standard deviations from the middle of its two neighbours at which a reading is looked at, and another of the same
+place is off too: one in 370 of normal noise, of which the next question leaves none."""
 SAME_PLACE_RAD = np.radians(1.0)
 """Angle within which two readings of a circle are of one place: two or three readings of a usual lap; at slower rates
 as far as neighbours are apart, but for spikes at reversals, which are shorter than that."""
@@ -59,18 +57,16 @@ def glitches_in(samples: Samples, residual_mm: Floats, noise_mm: float) -> Mask:
     -------
     ndarray of bool, shape (n,)
     """
-    off = np.zeros(len(residual_mm))
-    alone = np.zeros(len(residual_mm), dtype=np.bool_)
-    angle_rad = samples["angle_rad"]
-    for rows in samples.sweeps():
-        if len(rows) > 2 * NEIGHBOURS and _is_dense(angle_rad[rows]):
-            own_mm = residual_mm[rows]
-            apart, usual_mm = _off_neighbours(own_mm, noise_mm)
-            off[rows] = apart
-            doubtful = np.flatnonzero(np.abs(apart) > AGAIN)
-            if len(doubtful):
-                apart_mm = own_mm[doubtful] - _medians(own_mm, doubtful)
-                alone[rows[doubtful]] = np.abs(apart_mm) > ALONE * usual_mm
+    off, alone = _core.compare_with_neighbours(
+        samples["angle_rad"],
+        residual_mm,
+        samples.sweeps(),
+        noise_mm,
+        neighbours=NEIGHBOURS,
+        dense_rad=DENSE_RAD,
+        doubtful=AGAIN,
+        alone=ALONE,
+    )
     if alone.mean() > HOPELESS:
         return np.zeros_like(alone)
     for row in np.flatnonzero(alone):
@@ -100,41 +96,11 @@ def glitches_sentence(samples: Samples, residual_mm: Floats, found: Mask) -> str
     )
 
 
-def _is_dense(angle_rad: Floats) -> bool:
-    return bool(median(np.abs(_wrapped(angle_rad[1:] - angle_rad[:-1]))) <= DENSE_RAD)
-
-
-def _off_neighbours(residual_mm: Floats, noise_mm: float) -> tuple[Floats, float]:
-    """Return how far each reading of a sweep is from the middle of its two neighbours, in standard deviations.
-
-    The second value is the standard deviation of one reading, as the sweep shows it: the noise at least.
-    """
-    apart_mm = _from_middle(residual_mm)
-    usual_mm = max(noise_mm, MEDIAN_TO_SIGMA * median(np.abs(apart_mm)) / OF_DIFFERENCE)
-    return apart_mm / (OF_DIFFERENCE * usual_mm), usual_mm
-
-
 def _from_middle(values: Floats) -> Floats:
     """Return values less the mean of those before and after, zero at the ends."""
     apart = np.zeros_like(values)
     apart[1:-1] = values[1:-1] - 0.5 * (values[:-2] + values[2:])
     return apart
-
-
-def median(values: Floats) -> float:
-    """Return the median of finite values: `numpy.median` takes ten times longer for some hundreds of them."""
-    half = len(values) // 2
-    if len(values) % 2:
-        return float(np.partition(values, half)[half])
-    ordered = np.partition(values, (half - 1, half))
-    return float(0.5 * (ordered[half - 1] + ordered[half]))
-
-
-def _medians(values: Floats, places: NDArray[np.intp]) -> Floats:
-    """Return the medians of the neighbourhoods of some places."""
-    near = np.clip(places[:, None] + np.arange(-NEIGHBOURS, NEIGHBOURS + 1), 0, len(values) - 1)
-    medians: Floats = np.partition(values[near], NEIGHBOURS, axis=1)[:, NEIGHBOURS]
-    return medians
 
 
 def _is_of_machine(samples: Samples, off: Floats, row: np.intp) -> bool:

@@ -17,17 +17,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
-from hexdbb.diagnosis.harmonics import orthonormal_harmonics
 from hexdbb.diagnosis.lasting_noise import LastingNoise, LowestPower
 from hexdbb.diagnosis.noise import Noise
 from hexdbb.samples import Samples
+from hexdbb.samples.distinct import distinct_rows, rows_by_number
 
 Floats = NDArray[np.float64]
+Rows = NDArray[np.intp]
 
 HARMONICS = 8
 LEAST_ROWS = 40
@@ -37,7 +39,7 @@ WHOLE_LAP = 0.95
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
 """Relative uncertainty of the noise by where it comes from."""
 MAX_PREPARED = 400_000
-"""Rows up to which the bases are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
+"""Rows up to which the harmonics are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
 test, sweep by sweep, so that memory does not grow by them."""
 LEVEL_SIGMAS = 4.0
 SHAPE_P = 1e-4
@@ -77,17 +79,12 @@ class LackOfFit:
         return max(beyond, self.smooth_um)
 
 
-@dataclass
+@dataclass(frozen=True)
 class Part:
     """Sum of squares of a part of a residual, mm², and its degrees of freedom."""
 
-    square: float = 0.0
-    freedom: int = 0
-
-    def add(self, square: float, freedom: int) -> None:
-        """Add what one sweep has."""
-        self.square += square
-        self.freedom += freedom
+    square: float
+    freedom: int
 
     @property
     def variance(self) -> float:
@@ -96,7 +93,7 @@ class Part:
 
 
 class FitTest:
-    """Tests residuals of some records, again and again: up to `MAX_PREPARED` rows, the Fourier bases are prepared once.
+    """Tests residuals of some records, again and again: up to `MAX_PREPARED` rows, harmonics are prepared once.
 
     Parameters
     ----------
@@ -109,8 +106,8 @@ class FitTest:
         self._noise = noise
         self._angle_rad, self._time_s = samples["angle_rad"], samples["time_s"]
         self._sweeps = [rows for rows in samples.sweeps() if len(rows) >= LEAST_ROWS]
-        self._laps = list(_repeated_laps(samples["lap"], self._sweeps))
-        self._prepared = list(self._bases()) if len(samples) <= MAX_PREPARED else None
+        self._laps = list(_repeated_laps(samples["sweep"], samples["lap"]))
+        self._prepared = self._harmonics(self._sweeps) if len(samples) <= MAX_PREPARED else None
 
     def of(self, residual_mm: Floats, fitted_values: int) -> LackOfFit:
         """Test a residual for anything but noise.
@@ -129,28 +126,39 @@ class FitTest:
         shape_p, smooth_mm = self._shape(residual_mm, fitted_values)
         return LackOfFit(rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), shape_p, smooth_mm * 1e3)
 
-    def _bases(self) -> Iterator[Floats]:
-        return (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in self._sweeps)
+    def _harmonics(self, captures: Sequence[Rows]) -> _core.CaptureHarmonics:
+        return _core.CaptureHarmonics(self._angle_rad, captures, HARMONICS)
+
+    def _split(self, residual_mm: Floats) -> tuple[Floats, Floats]:
+        """Return the components of every sweep along its harmonics, shape (k, 17), and what is left, shape (n,)."""
+        if self._prepared is not None:
+            return self._prepared.split(residual_mm)
+        taken, left = np.zeros((len(self._sweeps), 1 + 2 * HARMONICS)), np.zeros_like(residual_mm)
+        for place, rows in enumerate(self._sweeps):
+            own = _core.CaptureHarmonics(self._angle_rad[rows], [np.arange(len(rows))], HARMONICS)
+            taken[place : place + 1], left[rows] = own.split(residual_mm[rows])
+        return taken, left
 
     def _shape(self, residual_mm: Floats, fitted_values: int) -> tuple[float, float]:
-        smooth, rest, lasting = Part(freedom=-fitted_values), Part(), LastingNoise(HARMONICS)
-        for rows, basis in zip(self._sweeps, self._prepared or self._bases(), strict=True):
-            taken = residual_mm[rows] @ basis
-            left = residual_mm[rows] - basis @ taken
-            smooth.add(float(taken @ taken), basis.shape[1])
-            rest.add(float(left @ left), len(rows) - basis.shape[1])
-            if not self._laps:
-                lasting.add(left, _step_s(self._time_s[rows]))
+        taken, left = self._split(residual_mm)
+        smooth = Part(float(np.sum(taken**2)), taken.size - fitted_values)
+        rest = Part(float(left @ left), sum(map(len, self._sweeps)) - taken.size)
         if smooth.freedom <= 0 or rest.freedom <= 0:
             return 1.0, 0.0
         noise = LowestPower(rest.variance, rest.freedom, 1.0)
         if not self._laps and rest.square > 0.0:
-            noise = lasting.lowest_power()
+            noise = self._lasting(left).lowest_power()
         chance = _core.f_tail(smooth.freedom * noise.alike, noise.freedom, smooth.variance / noise.variance)
         if chance < SHAPE_P:
             chance = max(chance, self._shared_by_laps(residual_mm, fitted_values))
         beyond = max(smooth.square - smooth.freedom * noise.variance, 0.0) / len(residual_mm)
         return chance, float(np.sqrt(beyond)) if chance < SHAPE_P else 0.0
+
+    def _lasting(self, left_mm: Floats) -> LastingNoise:
+        lasting = LastingNoise(HARMONICS)
+        for rows in self._sweeps:
+            lasting.add(left_mm[rows], _step_s(self._time_s[rows]))
+        return lasting
 
     def _shared_by_laps(self, residual_mm: Floats, fitted_values: int) -> float:
         """Return the probability of laps so alike by chance; 0 where too few are repeated.
@@ -159,8 +167,10 @@ class FitTest:
         """
         shared, scatter, shared_freedom, scatter_freedom = 0.0, 0.0, -fitted_values, 0
         for laps in self._laps:
-            bases = (orthonormal_harmonics(self._angle_rad[rows], HARMONICS) for rows in laps)
-            parts = np.array([residual_mm[rows] @ basis for rows, basis in zip(laps, bases, strict=True)])
+            together = np.concatenate(laps)
+            ends = np.cumsum([0, *map(len, laps)])
+            own = [np.arange(*each) for each in pairwise(ends)]
+            parts, _ = _core.CaptureHarmonics(self._angle_rad[together], own, HARMONICS).split(residual_mm[together])
             mean = parts.mean(axis=0)
             shared += len(laps) * float(mean @ mean)
             scatter += float(np.sum((parts - mean) ** 2))
@@ -177,12 +187,14 @@ def _step_s(time_s: Floats) -> float:
     return span_s / (len(time_s) - 1) if span_s > 0.0 else 1.0
 
 
-def _repeated_laps(lap: NDArray[np.int64], sweeps: Sequence[NDArray[np.intp]]) -> Iterator[list[NDArray[np.intp]]]:
+def _repeated_laps(sweep: Rows, lap: Rows) -> Iterator[list[Rows]]:
     """Yield the rows of every whole lap, sweep by sweep, where there are two or more of enough rows."""
-    for rows in sweeps:
-        own = lap[rows]
-        laps = [rows[own == each] for each in np.unique(own)]
-        most = max(map(len, laps))
-        whole = [each for each in laps if len(each) >= max(LEAST_ROWS, WHOLE_LAP * most)]
+    first, member = distinct_rows(sweep, lap)
+    of_sweep: dict[int, list[Rows]] = {}
+    for row, rows in zip(first, rows_by_number(member), strict=True):
+        of_sweep.setdefault(int(sweep[row]), []).append(rows)
+    for laps in of_sweep.values():
+        least = max(LEAST_ROWS, WHOLE_LAP * max(map(len, laps)))
+        whole = [each for each in laps if len(each) >= least]
         if len(whole) > 1:
             yield whole

@@ -24,7 +24,7 @@ import numpy as np
 
 from hexdbb import _core
 from hexdbb.model import Model, Parameter
-from hexdbb.samples import Samples, linearise
+from hexdbb.samples import Samples, normal_equations
 from hexdbb.units import readable_unit, shown_factor, shown_unit
 
 CLEAR_OF_ZERO = 2.0
@@ -33,8 +33,8 @@ HARDLY_PREFERRED = 9.0
 """Difference of twice the log-posterior below which neither sign is preferred: three standard deviations, squared."""
 TURNED_BACK = (0.5, 2.0)
 """End of the step from the opposite sign, over the value, between which the readings determine the sign: see above."""
-ROWS = 1000
-"""Evenly spaced readings for that step: 36 for each capture of a plan of seven circles, two directions and two feeds,
+ROWS = 500
+"""Evenly spaced readings for that step: 18 for each capture of a plan of seven circles, two directions and two feeds,
 where set-up values change the readings by the angle's first harmonics."""
 
 Fit = Callable[[Model], tuple[Model, _core.FitResult]]
@@ -106,15 +106,15 @@ def _is_turned_back(some: Samples, stride: int, fitted: Fitted, turned: Model, c
     `some` is every `stride`-th of the samples.
     """
     model, result = fitted
-    there = linearise(some, turned)
-    fitted_mm = some.reading_mm - result.residual_mm[::stride]
     free = result.free_columns
-    scale = model.prior_sigma[free]
-    jacobian = there.jacobian[:, free] * (scale * np.sqrt(stride) / noise_mm)
-    missing = (fitted_mm - there.reading_mm) * (np.sqrt(stride) / noise_mm)
+    there = normal_equations(some, turned, some.reading_mm - result.residual_mm[::stride])
+    if there.failure >= 0:
+        return True  # there the machine reaches no such readings at all
+    scale, weight = model.prior_sigma[free], stride / noise_mm**2
     away = ((model.values - turned.values)[free]) / scale  # the prior's pull, its centre on the solution
-    information = jacobian.T @ jacobian + np.eye(len(free))
-    step = np.linalg.solve(information, jacobian.T @ missing + away)
+    information = weight * np.outer(scale, scale) * there.information[np.ix_(free, free)] + np.eye(len(free))
+    downhill = weight * scale * there.gradient[free] + away
+    step = np.linalg.solve(information, downhill)
     place = list(free).index(column)
     end = turned.values[column] + step[place] * scale[place]
     least, most = TURNED_BACK

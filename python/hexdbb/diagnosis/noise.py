@@ -90,20 +90,31 @@ def stated_noise(samples: Samples) -> Noise | None:
 
 def _repeated_sigma(repeated: Sequence[Floats]) -> float:
     """Return the standard deviation of laps' differences, less the first parts of laps where something settles."""
-    parts = [np.concatenate(each) for each in zip(*(np.array_split(each, PARTS) for each in repeated), strict=True)]
+    whole = np.concatenate(repeated)
+    part = np.concatenate([np.arange(len(each)) * PARTS // len(each) for each in repeated])
+    parts = [whole[part == number] for number in range(PARTS)]
     if min(map(len, parts)) < MIN_REPEATS:
-        return _robust_sigma(np.concatenate(repeated))
-    largest = [float(np.quantile(np.abs(each), 1.0 - MAX_JUMPS)) for each in parts]
+        return _robust_sigma(whole)
+    largest = [_quantile(np.abs(each), 1.0 - MAX_JUMPS) for each in parts]
     usual = SETTLES * float(np.median(largest))
     first = next(place for place, each in enumerate(largest) if each <= usual)
-    return _robust_sigma(np.concatenate(parts[first:] if first else repeated))
+    return _robust_sigma(np.concatenate(parts[first:]) if first else whole)
+
+
+def _quantile(values: Floats, share: float) -> float:
+    """Return a quantile of finite values: `numpy.quantile` takes five times longer for some thousands of them."""
+    place = share * (len(values) - 1)
+    low = int(place)
+    high = min(low + 1, len(values) - 1)
+    ordered = np.partition(values, (low, high))
+    return float(ordered[low] + (place - low) * (ordered[high] - ordered[low]))
 
 
 def _robust_sigma(values: Floats) -> float:
     if not len(values):
         return LEAST_NOISE_MM
     size = np.abs(values)
-    sigma = float(np.quantile(size, 1.0 - MAX_JUMPS)) / NormalDist().inv_cdf(1.0 - MAX_JUMPS / 2.0)
+    sigma = _quantile(size, 1.0 - MAX_JUMPS) / NormalDist().inv_cdf(1.0 - MAX_JUMPS / 2.0)
     if sigma == 0.0:  # coarsely rounded readings are mostly alike
         sigma = float(np.sqrt(np.mean(values**2)))
     for _ in range(ROUNDS):
@@ -125,8 +136,8 @@ def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iter
     """
     whole_mm = samples.reading_mm if residual_mm is None else residual_mm
     angle_rad, lap = samples["angle_rad"], samples["lap"]
-    for rows in samples.sweeps():
-        yield from _core.lap_differences(angle_rad[rows], lap[rows], whole_mm[rows], _highest(len(rows)))
+    sweeps = samples.sweeps()
+    yield from _core.lap_differences(angle_rad, lap, whole_mm, sweeps, [_highest(len(rows)) for rows in sweeps])
 
 
 def _highest(count: int) -> int:

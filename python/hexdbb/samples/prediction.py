@@ -163,9 +163,13 @@ def effect_pushes(samples: Samples, model: Model) -> dict[str, Floats]:
     }
 
 
-def normal_equations(samples: Samples, model: Model) -> _core.NormalEquations:
-    """Return J'J and J'r of all values of a model, r measured minus predicted, engine units."""
-    return _core.normal_equations(samples.engine(model), samples.block(model), samples.reading_mm)
+def normal_equations(samples: Samples, model: Model, reading_mm: Floats | None = None) -> _core.NormalEquations:
+    """Return J'J and J'r of all values of a model, r measured minus predicted, engine units.
+
+    `reading_mm`, shape (n,), are the readings to compare with: those of the samples where not given.
+    """
+    measured_mm = samples.reading_mm if reading_mm is None else reading_mm
+    return _core.normal_equations(samples.engine(model), samples.block(model), measured_mm)
 
 
 def _predicted(samples: Samples, model: Model, want_jacobian: bool) -> _core.Prediction:
