@@ -131,9 +131,13 @@ const Derivation& derivation_of(const std::string& column) {
 }  // namespace
 
 State State::rows(const std::vector<Eigen::Index>& which) const {
-  State out = *this;
+  std::vector<const void*> columns;  // of this state, in the order in which those of the other are visited
+  for_each_column(*this, [&](const ColumnInfo&, const auto& column) { columns.push_back(&column); });
+  State out;
+  auto next = columns.begin();
   for_each_column(out, [&](const ColumnInfo&, auto& column) {
-    if (column.size() > 0) column = column(which, Eigen::all).eval();
+    const auto& whole = *static_cast<const std::decay_t<decltype(column)>*>(*next++);
+    if (whole.size() > 0) column = whole(which, Eigen::all);
   });
   return out;
 }

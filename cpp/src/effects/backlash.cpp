@@ -26,18 +26,25 @@ void derivative(Eigen::Index rows, double size, const double* direction, const d
   }
 }
 
+/// Add the push of a play to a block's column of a slider.
+HEXDBB_MULTIVERSION
+void add_push(Eigen::Index rows, double play, const double* direction, const double* travelled, double* out) noexcept {
+  const double half = 0.5 * play, size = std::abs(play), sign = play < 0.0 ? -1.0 : 1.0;
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const double crossed = travelled[row] < size ? travelled[row] : size;
+    out[row] += direction[row] * (half - sign * crossed);
+  }
+}
+
 class Backlash : public Effect {
  public:
   using Effect::Effect;
 
   void push(const SampleBlock& block, Values values, PortBlock ports) const override {
     for (int k = 0; k < kLegs; ++k) {
-      const double play = values[k];
-      if (play == 0.0) continue;
-      const auto direction = block.of(block.samples.state.travel_direction, k).array();
-      const auto travelled = block.of(block.samples.state.since_reversal_mm, k).array();
-      const double sign = play < 0.0 ? -1.0 : 1.0;
-      ports.col(port::kSlider + k).array() += direction * (0.5 * play - sign * travelled.min(std::abs(play)));
+      if (values[k] == 0.0) continue;
+      add_push(block.count, values[k], block.of(block.samples.state.travel_direction, k).data(),
+               block.of(block.samples.state.since_reversal_mm, k).data(), ports.col(port::kSlider + k).data());
     }
   }
 

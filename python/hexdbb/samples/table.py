@@ -275,7 +275,7 @@ class Samples:
         return f"<p>{len(self)} samples; columns {escape(', '.join(self.column_names))}</p>{html_table(SHOWN, rows)}"
 
     def _require_known(self, model: Model) -> None:
-        for place in np.unique(self["mount"]):
+        for place in np.flatnonzero(np.bincount(self["mount"])):
             key = self.mounts[place]
             if key not in model.mounts:
                 name = self.records[self["record"][self["mount"] == place][0]].name if self.records else self.name

@@ -40,6 +40,8 @@ Columns = dict[str, NDArray[Any]]
 
 STATE = tuple(column.name for column in _core.state_columns() if column.name not in ("sliders_mm", "row"))
 """Columns of the engine's state that a table may have; the engine itself numbers the rows of a part."""
+GIVEN = ("time_s", "sweep", "angle_rad")
+"""Columns of the state from which, with the sliders, all that the engine derives follows."""
 PLANNED = "planned"
 """Takes the place of a record's hash in the mounts of a plan, of which no record exists."""
 
@@ -130,15 +132,27 @@ class Whole:
         return held, block
 
     def _engine(self, mounts: tuple[MountKey, ...], names: Iterable[str]) -> _core.Samples:
+        """Return the engine's form; those of the columns that follow from others are derived in it, not copied there.
+
+        Other columns that are found on the way are kept.
+        """
+        derived = [name for name in names if name in STATE and name not in self.columns and name not in self.pending]
+        given = {*names, *GIVEN}.difference(derived) if derived else names
         place = {key: index for index, key in enumerate(mounts)}
         number = np.array([place.get(key, 0) for key in self.mounts], np.int32)
-        return _core.Samples(
+        block = _core.Samples(
             sliders_mm=self.columns["sliders_mm"],
             set_up=self.columns["set_up"],
             mount=number[self.columns["mount"]],
             set_ups=list(self.set_ups),
-            state={name: column for name in names if (column := self.column(name)) is not None},
+            state={name: column for name in given if (column := self.column(name)) is not None},
         )
+        if derived:
+            block.derive(engine_machine(self.machine), derived)
+            for each in block.known:
+                if each not in self.columns:
+                    self.pending[each] = partial(block.column, each)
+        return block
 
     def _known(self, *names: str) -> list[NDArray[Any]]:
         """Return columns that every table has."""
@@ -151,14 +165,10 @@ class Whole:
         return deflection_mm(self.machine, self.mounts, block, self.columns["reading_mm"], nominal_mm)
 
     def _derived_state(self, name: str) -> Columns:
-        """Return a column of the engine's state that follows from the given ones; what is found on the way is kept."""
-        given = ("time_s", "sweep", "angle_rad")
-        block = self._engine(self.mounts, given)
-        block.derive(engine_machine(self.machine), [name])
-        for each in block.known:
-            if each not in (*given, *self.columns):
-                self.pending[each] = partial(block.column, each)
-        return {name: block.column(name)}
+        """Return a column of the engine's state that follows from the given ones."""
+        column = self._engine(self.mounts, (name,)).column(name)
+        self.pending.pop(name, None)
+        return {name: column}
 
 
 def of_records(records: Sequence[Record]) -> Whole:
