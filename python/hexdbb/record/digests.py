@@ -31,11 +31,15 @@ because a file may store them with another width or time unit."""
 
 def digest(*parts: bytes | memoryview) -> str:
     """Return the digest of parts of bytes; the length of each part in bytes counts."""
-    sha256 = hashlib.sha256()
-    for part in parts:
-        sha256.update(memoryview(part).nbytes.to_bytes(8, "little"))
-        sha256.update(part)
+    *first, last = parts
+    before = b"".join(each for part in first for each in (_length(part), part))
+    sha256 = hashlib.sha256(before + _length(last))
+    sha256.update(last)
     return sha256.hexdigest()[:DIGITS]
+
+
+def _length(part: bytes | memoryview) -> bytes:
+    return memoryview(part).nbytes.to_bytes(8, "little")
 
 
 def column_digest(name: str, values: NDArray[Any]) -> str:
