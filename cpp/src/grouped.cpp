@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "multiversion.hpp"
+
 namespace hexdbb {
 
 namespace {
@@ -14,6 +16,48 @@ std::string shape(Eigen::Index rows, Eigen::Index columns) {
 std::invalid_argument out_of_range(const std::string& where, int value, Eigen::Index count) {
   return std::invalid_argument(where + " is " + std::to_string(value) + ", expected less than " +
                                std::to_string(count));
+}
+
+/// Rows of a design and of a table, and where their sums are added.
+struct Entries {
+  Eigen::Index rows, parts, columns, groups, width;
+  const int* place;
+  Eigen::Index place_stride;
+  const double* weight;
+  Eigen::Index weight_stride;
+  const int* group;
+  const double* table;
+  Eigen::Index table_stride;
+  double* square;
+  double* cross;
+};
+
+/// Add the products of all rows; return the first row with a place or a group out of range, the number of rows where
+/// there is none.
+HEXDBB_MULTIVERSION
+Eigen::Index add_rows(const Entries& of) noexcept {
+  for (Eigen::Index row = 0; row < of.rows; ++row) {
+    if (of.group[row] < 0) continue;
+    if (of.group[row] >= of.groups) return row;
+    const int* const at = of.place + row * of.place_stride;
+    const double* const own = of.weight + row * of.weight_stride;
+    const double* const __restrict values = of.table + row * of.table_stride;
+    double* const square = of.square + of.group[row] * of.columns * of.columns;
+    double* const cross = of.cross + of.group[row] * of.columns * of.width;
+    for (Eigen::Index part = 0; part < of.parts; ++part) {
+      if (at[part] < 0 || at[part] >= of.columns) return row;
+      const double weight = own[part];
+      if (weight == 0.0) continue;  // no entry
+      double* const __restrict sums = cross + at[part] * of.width;
+      for (Eigen::Index k = 0; k < of.width; ++k) sums[k] += weight * values[k];
+      for (Eigen::Index other = 0; other < part; ++other) {
+        square[at[part] * of.columns + at[other]] += weight * own[other];
+        square[at[other] * of.columns + at[part]] += weight * own[other];
+      }
+      square[at[part] * (of.columns + 1)] += weight * weight;
+    }
+  }
+  return of.rows;
 }
 
 }  // namespace
@@ -29,26 +73,13 @@ DesignSums design_sums(const Eigen::Ref<const Places>& place, const Eigen::Ref<c
   }
   DesignSums sums{RowMajorMatrix::Zero(groups * columns, columns),
                   RowMajorMatrix::Zero(groups * columns, table.cols())};
-  const Eigen::Index width = table.cols();
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    if (group[row] < 0) continue;
-    if (group[row] >= groups) throw out_of_range("group[" + std::to_string(row) + "]", group[row], groups);
-    const int* const at = place.data() + row * place.outerStride();
-    const double *const own = weight.data() + row * weight.outerStride(), *const values =
-                                                                              table.data() + row * table.outerStride();
-    double* const square = sums.square.data() + group[row] * columns * columns;
-    double* const cross = sums.cross.data() + group[row] * columns * width;
-    for (Eigen::Index part = 0; part < parts; ++part) {
-      if (at[part] < 0 || at[part] >= columns) {
-        throw out_of_range("place[" + std::to_string(row) + "]", at[part], columns);
-      }
-      for (Eigen::Index k = 0; k < width; ++k) cross[at[part] * width + k] += own[part] * values[k];
-      for (Eigen::Index other = 0; other < part; ++other) {
-        square[at[part] * columns + at[other]] += own[part] * own[other];
-        square[at[other] * columns + at[part]] += own[part] * own[other];
-      }
-      square[at[part] * (columns + 1)] += own[part] * own[part];
-    }
+  const Eigen::Index wrong = add_rows({rows, parts, columns, groups, table.cols(), place.data(), place.outerStride(),
+                                       weight.data(), weight.outerStride(), group.data(), table.data(),
+                                       table.outerStride(), sums.square.data(), sums.cross.data()});
+  if (wrong == rows) return sums;
+  if (group[wrong] >= groups) throw out_of_range("group[" + std::to_string(wrong) + "]", group[wrong], groups);
+  for (const int at : place.row(wrong)) {
+    if (at < 0 || at >= columns) throw out_of_range("place[" + std::to_string(wrong) + "]", at, columns);
   }
   return sums;
 }

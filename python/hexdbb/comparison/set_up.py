@@ -38,7 +38,8 @@ def without_set_up_mm(angle_rad: FloatArray, distance_mm: FloatArray, radius_mm:
     for _ in range(STEPS):
         bar_mm = ball_mm - cup_mm
         length_mm = np.hypot(*bar_mm.T)
-        design = np.column_stack([-bar_mm / length_mm[:, None], np.ones(len(bar_mm))])
-        cup_mm = cup_mm + np.linalg.lstsq(design, distance_mm - length_mm, rcond=None)[0][:2]
+        design = np.vstack([-bar_mm.T / length_mm, np.ones(len(bar_mm))])
+        # By normal equations: columns are nearly orthogonal on a full circle; on an arc the next step repairs rounding.
+        cup_mm = cup_mm + np.linalg.solve(design @ design.T, design @ (distance_mm - length_mm))[:2]
     left_mm: FloatArray = distance_mm - np.hypot(*(ball_mm - cup_mm).T)
     return left_mm

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -61,8 +62,7 @@ class Binned:
 
 def binned(variable: Variable) -> Binned:
     """Divide a variable into bins; samples whose value is not known have an empty row."""
-    every = np.column_stack([values for _, values in variable.parts])
-    weight = np.column_stack([weights for weights, _ in variable.parts])
+    weight, every = (_side_by_side(each) for each in zip(*variable.parts, strict=True))
     count, known = len(every), np.isfinite(every)
     if is_whole := bool(known.all()):
         values = every.ravel()
@@ -87,6 +87,11 @@ def binned(variable: Variable) -> Binned:
         values=values,
         column=place,
     )
+
+
+def _side_by_side(columns: Sequence[FloatArray]) -> FloatArray:
+    """Return columns of shape (n,) as a table; a single one as it is, not copied."""
+    return columns[0][:, None] if len(columns) == 1 else np.column_stack(columns)
 
 
 def _bins(variable: Variable, values: FloatArray, count: int) -> tuple[NDArray[np.intp], int]:

@@ -151,13 +151,14 @@ class CrossValidation:
         """
         return self._share(*self._moments_of_halves(design, is_time))
 
-    def share_and_values(self, design: Design, is_time: bool) -> tuple[float, FloatArray]:
-        """Return the explained share, and the values c fitted to all samples, in mm."""
+    def share_and_values(self, design: Design, is_time: bool) -> tuple[float, FloatArray, FloatArray]:
+        """Return the explained share, the values c fitted to all samples, in mm, and the diagonal of W'W."""
         first, second = self._moments_of_halves(design, is_time)
         whole = Moments(
             first.square + second.square, first.cross + second.cross, first.gradient + second.gradient, self._whole
         )
-        return self._share(first, second), whole.fitted(self._ridge)[0]
+        squares: FloatArray = whole.square.diagonal() * self._noise_mm**2
+        return self._share(first, second), whole.fitted(self._ridge)[0], squares
 
     def fit(self, design: Design) -> FloatArray:
         """Return the values c of a hypothesis fitted to all samples, in mm."""

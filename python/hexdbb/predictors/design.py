@@ -61,11 +61,3 @@ class Design:
             found.square.reshape(groups, self.columns, self.columns),
             found.cross.reshape(groups, self.columns, table.shape[1]),
         )
-
-    @property
-    def squares(self) -> FloatArray:
-        """Sum of squared entries of each column, shape (columns,)."""
-        count = len(self.place)
-        square, _ = self.sums(np.zeros((count, 0)), np.zeros(count, np.int32), 1)
-        squares: FloatArray = square[0].diagonal()
-        return squares

@@ -98,10 +98,10 @@ def main_predictors(found: Sequence[Predictor], most: int) -> list[Predictor]:
 
 def _means(variable: Variable, tested: CrossValidation) -> Predictor:
     cut = binned(variable)
-    share, push_mm = tested.share_and_values(cut.design, variable.is_time)
+    share, push_mm, squares = tested.share_and_values(cut.design, variable.is_time)
     push_um = push_mm * 1e3
     # Of a weight of one this is the mean itself.
-    mean_um = push_um * np.sqrt(cut.design.squares / cut.samples)
+    mean_um = push_um * np.sqrt(squares / cut.samples)
     profiles = tuple(
         Profile(variable.names[each] if variable.names else "", cut.centre[here], mean_um[here])
         for each in np.unique(cut.group)

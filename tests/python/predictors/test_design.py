@@ -30,7 +30,6 @@ def test_sums_are_those_of_the_matrix(parts: int) -> None:
         own = matrix[group == each]
         np.testing.assert_allclose(square[each], own.T @ own, atol=1e-12)
         np.testing.assert_allclose(cross[each], own.T @ table[group == each], atol=1e-12)
-    np.testing.assert_allclose(design.squares, np.sum(matrix**2, axis=0), atol=1e-12)
     values = np.arange(1.0, COLUMNS + 1.0)
     np.testing.assert_allclose(design.times(values), matrix @ values, atol=1e-12)
 
