@@ -1,8 +1,9 @@
 """Times of whole commands, from start to end, as a user waits for them; beside another checkout's on request.
 
 Usage: command_times.py [--before CHECKOUT] [--repetitions N] [--only TEXT]
-CHECKOUT is a tree of the project whose engine is built (python/hexdbb/_core*.so). Every repetition runs both sides one
-after the other, so that what else the computer does meets both; shown are medians and the median of the pairs' ratios.
+CHECKOUT is a tree of the project whose engine is built, or copied there (python/hexdbb/_core*.so). Every repetition
+runs both sides one after the other, so that what else the computer does meets both; shown are medians and the median of
+the pairs' ratios.
 CPU is user and system time of all threads: on a busy computer it says what the wall time hides.
 """
 
@@ -25,8 +26,19 @@ import hexdbb as hx
 from hexdbb_truth.cases import case
 from hexdbb_truth.simulate import Pace
 
+EDITABLE = "ScikitBuildRedirectingFinder"
+"""What finds the modules of an editable installation."""
 RATES_HZ = {20_000: 11.4, 35_000: 20.0}
 """Samples a second that give about so many readings of the seven circles of the standard plan."""
+START = f"""
+import pathlib, runpy, sys
+tree = pathlib.Path(sys.path[1], "hexdbb")
+if any(tree.glob("_core.*.*")):  # else it is installed elsewhere, and found there
+    sys.meta_path[:] = [each for each in sys.meta_path if type(each).__name__ != "{EDITABLE}"]
+sys.argv[0] = "hexdbb"
+runpy.run_module("hexdbb.cli", run_name="__main__")
+"""
+"""Runs a command of the tree that is first in PYTHONPATH: an editable installation would be found before it."""
 FITTED_TO = 8
 """One reading in so many is fitted for the model that commands load: its values only have to be near."""
 REPETITIONS = 5
@@ -90,7 +102,7 @@ class Side:
         """Run a command once; return its wall and CPU time, s."""
         environment = {**os.environ, "PYTHONPATH": str(self.tree / "python"), "PYTHONPYCACHEPREFIX": str(self.bytecode)}
         environment.pop("PYTHONDONTWRITEBYTECODE", None)  # an installed package is not compiled anew at every start
-        program = [sys.executable, "-m", "hexdbb.cli", *arguments]
+        program = [sys.executable, "-c", START, *arguments]
         begin = time.perf_counter()
         running = subprocess.Popen(program, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         assert running.stderr is not None
