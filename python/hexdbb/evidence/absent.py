@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections import OrderedDict
 from collections.abc import Sequence
 from dataclasses import replace
@@ -38,7 +39,8 @@ class Absent:
     """
 
     def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+        # Weakly, since the engine has this: a search's arrays, hundreds of megabytes, go as soon as nobody uses them.
+        self._engine: Engine = weakref.proxy(engine)
         self._ports: dict[str, frozenset[str]] = {}
         self._signatures: OrderedDict[tuple[int, tuple[str, ...], float], tuple[Model, Signatures]] = OrderedDict()
 

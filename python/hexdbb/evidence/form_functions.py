@@ -6,6 +6,7 @@ prior, are kept. About one fit their products with the model's own values are ta
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
@@ -129,9 +130,11 @@ class FormFunctions:
     def __init__(self, readings: Readings, criteria: Criteria) -> None:
         self.readings, self.criteria = readings, criteria
         self.signature = lru_cache(KEPT)(partial(signature_of, readings=readings))
-        self.together = lru_cache(KEPT_SETS)(self._together)
-        self._square = lru_cache(KEPT_SQUARES)(self._product)
-        self._parts = lru_cache(KEPT_SQUARES)(self._prior)
+        # Weakly: what is kept would keep this, and this what is kept, until the next collection of garbage.
+        own: FormFunctions = weakref.proxy(self)
+        self.together = lru_cache(KEPT_SETS)(lambda functions: own._together(functions))
+        self._square = lru_cache(KEPT_SQUARES)(lambda one, other: own._product(one, other))
+        self._parts = lru_cache(KEPT_SQUARES)(lambda function: own._prior(function))
 
     def columns(self, coefficients: Sequence[tuple[Learned, Floats]]) -> Floats:
         """Return what functions do to the readings together, a column for each of their coefficients' columns."""
