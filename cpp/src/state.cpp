@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "hexdbb/prediction.hpp"
@@ -36,14 +37,19 @@ double angle_between(const Vector3& one, const Vector3& other) {
   return std::acos(std::clamp(one.dot(other), -1.0, 1.0));
 }
 
+/// Take a column over unless it was not computed: what is there already stays.
+void take(SliderTable& column, SliderTable& computed) {
+  if (computed.size() > 0) column = std::move(computed);
+}
+
 /// Fill the columns of the sliders' motion, as many derivatives as asked for.
 void fill_motion(Samples& samples, int derivatives) {
   State& state = samples.state;
   Motion slider = std::move(motions(state.time_s, state.sweep, {{samples.sliders_mm, derivatives}}).front());
   state.velocity_mm_s = std::move(slider.velocity_mm_s);
-  state.acceleration_mm_s2 = std::move(slider.acceleration_mm_s2);
-  state.jerk_mm_s3 = std::move(slider.jerk_mm_s3);
-  state.snap_mm_s4 = std::move(slider.snap_mm_s4);
+  take(state.acceleration_mm_s2, slider.acceleration_mm_s2);
+  take(state.jerk_mm_s3, slider.jerk_mm_s3);
+  take(state.snap_mm_s4, slider.snap_mm_s4);
   state.travel_direction = std::move(slider.travel_direction);
   state.since_reversal_s = std::move(slider.since_reversal_s);
   state.since_reversal_mm = std::move(slider.since_reversal_mm);
@@ -202,11 +208,12 @@ void derive(const NominalGeometry& nominal, Samples& samples, const std::vector<
   if (columns.empty()) {
     for (std::size_t each = 0; each < kPartial; ++each) derivations()[each].fill(nominal, samples);
   }
-  std::vector<const Derivation*> wanted;  // each once, whatever of its columns are asked for
-  for (const std::string& column : columns) {
-    const Derivation* const each = &derivation_of(column);
-    if (std::find(wanted.begin(), wanted.end(), each) == wanted.end()) wanted.push_back(each);
-  }
+  std::set<const Derivation*> wanted;  // each once, in the table's order: what fills a part comes behind
+  for (const std::string& column : columns) wanted.insert(&derivation_of(column));
+  const bool has_motion = wanted.count(&derivation_of("acceleration_mm_s2")) > 0;
+  const bool has_poses = wanted.count(&derivation_of("speed_mm_s")) > 0;
+  if (has_motion) wanted.erase(&derivation_of("velocity_mm_s"));
+  if (has_poses) wanted.erase(&derivation_of("position_mm"));
   for (const Derivation* each : wanted) each->fill(nominal, samples);
 }
 

@@ -266,6 +266,25 @@ TEST(State, OnlyWhatIsWantedIsDerived) {
   });
 }
 
+TEST(State, WhatIsDerivedTogetherIsTheSameInWhateverOrderItIsNamed) {
+  const Samples whole = moving_samples(Machine(), {CircleSpec()}, 60);
+  const std::vector<std::vector<std::string>> orders = {{"jerk_mm_s3", "since_reversal_s"},
+                                                        {"since_reversal_s", "jerk_mm_s3"},
+                                                        {"position_mm", "jerk_mm_s3", "speed_mm_s"}};
+  for (const std::vector<std::string>& names : orders) {
+    Samples samples = whole;
+    samples.state = State{};
+    samples.state.time_s = whole.state.time_s;
+    samples.state.sweep = whole.state.sweep;
+    derive(NominalGeometry(Machine()), samples, names);
+    EXPECT_EQ(samples.state.jerk_mm_s3, whole.state.jerk_mm_s3);
+    EXPECT_EQ(samples.state.since_reversal_s, whole.state.since_reversal_s);
+    // Asked for afterwards, a part takes nothing away.
+    derive(NominalGeometry(Machine()), samples, {"travel_direction"});
+    EXPECT_EQ(samples.state.jerk_mm_s3, whole.state.jerk_mm_s3);
+  }
+}
+
 TEST(State, SpeedIsThatOfTheCircle) {
   constexpr double kLap_s = 20.0, kRadius_mm = 100.0;
   const Samples samples = moving_samples(Machine(), {CircleSpec()}, 400, kLap_s);
