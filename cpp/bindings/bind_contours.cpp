@@ -88,7 +88,7 @@ void bind_contours(py::module_& module) {
       .def(
           "split",
           [](const CaptureHarmonics& harmonics, const Numbers& values) {
-            CaptureHarmonics::Parts found = harmonics.split(values);
+            SplitColumn found = harmonics.split(values);
             return std::pair(std::move(found.taken), std::move(found.left));
           },
           py::arg("values"),

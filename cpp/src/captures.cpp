@@ -61,11 +61,11 @@ CaptureHarmonics::CaptureHarmonics(const Numbers& angle_rad, std::vector<Rows> c
   for (const Rows& rows : captures_) harmonics_.emplace_back(angle_rad(rows).eval(), highest);
 }
 
-CaptureHarmonics::Parts CaptureHarmonics::split(const Numbers& values) const {
+SplitColumn CaptureHarmonics::split(const Numbers& values) const {
   require_length("values", values.size(), size_);
-  Parts out{Eigen::MatrixXd(captures_.size(), 1 + 2 * highest_), Eigen::VectorXd::Zero(size_)};
+  SplitColumn out{Eigen::MatrixXd(captures_.size(), 1 + 2 * highest_), Eigen::VectorXd::Zero(size_)};
   for (std::size_t each = 0; each < captures_.size(); ++each) {
-    const Harmonics::Parts parts = harmonics_[each].split(values(captures_[each]).eval());
+    const SplitValues parts = harmonics_[each].split(values(captures_[each]).eval());
     out.taken.row(static_cast<Eigen::Index>(each)) = parts.taken;
     out.left(captures_[each]) = parts.left;
   }

@@ -69,12 +69,12 @@ Harmonics::Harmonics(const Eigen::Ref<const Eigen::VectorXd>& angle_rad, int hig
   factor_.compute(products);
 }
 
-Harmonics::Parts Harmonics::split(const Eigen::Ref<const Eigen::VectorXd>& values) const {
+SplitValues Harmonics::split(const Eigen::Ref<const Eigen::VectorXd>& values) const {
   if (values.size() != columns_.rows()) {
     throw std::invalid_argument("values has " + std::to_string(values.size()) + " rows, expected " +
                                 std::to_string(columns_.rows()) + ", one per angle");
   }
-  Parts out{factor_.matrixL().solve(columns_.transpose() * values), values};
+  SplitValues out{factor_.matrixL().solve(columns_.transpose() * values), values};
   out.left.noalias() -= columns_ * factor_.matrixU().solve(out.taken);
   return out;
 }

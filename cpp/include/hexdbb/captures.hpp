@@ -14,21 +14,21 @@ namespace hexdbb {
 /// Rows of a table.
 using Rows = Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1>;
 
+/// Mean and harmonics of each capture, a row each, along orthonormal columns; and what is left of a column, zero in rows
+/// of no capture.
+struct SplitColumn {
+  Eigen::MatrixXd taken;
+  Eigen::VectorXd left;
+};
+
 /// The lowest harmonics of several captures, fitted to any number of columns.
 class CaptureHarmonics {
  public:
   /// Throws std::invalid_argument for a row that is not there, or a negative number of harmonics.
   CaptureHarmonics(const Numbers& angle_rad, std::vector<Rows> captures, int highest);
 
-  /// Mean and harmonics of each capture, a row each, along orthonormal columns; and what is left of a column, zero in
-  /// rows of no capture.
-  struct Parts {
-    Eigen::MatrixXd taken;
-    Eigen::VectorXd left;
-  };
-
   /// Throws std::invalid_argument for a column of another length.
-  Parts split(const Numbers& values) const;
+  SplitColumn split(const Numbers& values) const;
 
  private:
   Eigen::Index size_;

@@ -6,6 +6,12 @@
 
 namespace hexdbb {
 
+/// Values split into their harmonics and the rest.
+struct SplitValues {
+  Eigen::VectorXd taken;  // components along orthonormal columns, 1 + 2 highest
+  Eigen::VectorXd left;   // values less their mean and harmonics
+};
+
 /// A constant and harmonics 1 to `highest` of some angles, to which values are fitted, any number of times.
 ///
 /// With B the columns 1, cosines, sines and L L' = B'B (Cholesky), the columns of B L^-T are orthonormal; values y have
@@ -16,14 +22,9 @@ class Harmonics {
   /// Throws std::invalid_argument for a negative number of harmonics.
   Harmonics(const Eigen::Ref<const Eigen::VectorXd>& angle_rad, int highest);
 
-  struct Parts {
-    Eigen::VectorXd taken;  // components along orthonormal columns, 1 + 2 highest
-    Eigen::VectorXd left;   // values less their mean and harmonics
-  };
-
   /// Fit values, one for each angle, by least squares. Where the angles are a short arc, harmonics depend on each other
   /// to rounding; the last components are then smaller than those of a basis of length one.
-  Parts split(const Eigen::Ref<const Eigen::VectorXd>& values) const;
+  SplitValues split(const Eigen::Ref<const Eigen::VectorXd>& values) const;
 
  private:
   Eigen::MatrixXd columns_;
