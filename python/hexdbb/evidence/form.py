@@ -38,7 +38,7 @@ class Form:
     columns: int = 0
     first: int = 0
     coefficients: tuple[tuple[Learned, Floats], ...] = field(default=(), repr=False, compare=False)
-    """Of each function, per prior standard deviation of each direction."""
+    """The functions, and their coefficients for one prior standard deviation along each direction (a column each)."""
 
 
 class Forms:
