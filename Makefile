@@ -16,6 +16,13 @@ CPP_BUILD_FILES := CMakeLists.txt cpp/CMakeLists.txt
 CPP_FORMATTED := $(shell find cpp $(wildcard tests/cpp) firmware_interfaces/linuxcnc -name '*.[ch]pp' -o -name '*.[ch]')
 PYTHON_SOURCES := python tests .ci/scripts firmware_interfaces cpp/bench docs/site
 
+# The Python module and the C++ tests hold the same engine, compiled with the same options by the same compiler (scikit-build
+# would choose another name of it): the second time it comes from ccache. Asked for by each recipe, since the first
+# installs it.
+export CXX
+export CMAKE_CXX_COMPILER_LAUNCHER = $(shell command -v ccache)
+export CCACHE_DIR := $(CURDIR)/build/ccache
+
 MAKEFLAGS += --no-print-directory
 .DELETE_ON_ERROR:
 .NOTPARALLEL:

@@ -11,7 +11,7 @@ if ! "$python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null
   exit 2
 fi
 
-packages=(g++ cmake ninja-build libeigen3-dev libceres-dev libgtest-dev libbenchmark-dev)
+packages=(g++ ccache cmake ninja-build libeigen3-dev libceres-dev libgtest-dev libbenchmark-dev)
 # Reports on paper: WeasyPrint draws with Pango.
 packages+=(libpango-1.0-0 libpangoft2-1.0-0 fonts-liberation)
 # The browser that the tests of pages drive. Ubuntu has it as a snap only: the tests are skipped there without one.
