@@ -132,13 +132,18 @@ def write_parquet(record: Record, path: Path, overwrite: bool) -> None:
     metadata = text_keys(table.schema.metadata)
     digests = digests_of(record.columns, metadata, ROWS_PER_GROUP)
     table = table.replace_schema_metadata(metadata | {DIGESTS_KEY: digests.model_dump_json().encode()})
+    measured = [name for name, values in record.columns.items() if values.dtype.kind == "f"]
     with replacing(path) as temporary:
         write_with_copy(
             table,
             temporary,
             ROWS_PER_GROUP,
             compression="zstd",
+            compression_level=3,
             write_page_checksum=True,
-            # Measured values hardly repeat: a dictionary of them would make the file a sixth larger.
-            use_dictionary=[name for name, values in record.columns.items() if values.dtype.kind != "f"],
+            # Measured values hardly repeat: a dictionary of them would make the file a sixth larger. With the first
+            # bytes of all values side by side, then their second ones, it is 3 to 15 % larger and decoded in 0.6 of the
+            # time, which of many records counts more.
+            use_dictionary=[name for name in record.columns if name not in measured],
+            column_encoding=dict.fromkeys(measured, "BYTE_STREAM_SPLIT"),
         )

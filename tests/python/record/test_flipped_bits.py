@@ -68,9 +68,12 @@ def test_no_flipped_bit_of_a_parquet_record_changes_a_value_unnoticed(
     path, rng = tmp_path / "a.parquet", random.Random(1)
     write_record(long_record, path)
     original, content = read_record(path), path.read_bytes()
-    refused = saved = 0
+    pages = first_page(path)  # before it is the copy of the footer, which is only read where the footer is damaged
+    refused = saved = needed = 0
     for _ in range(FLIPS):
-        path.write_bytes(flipped(content, rng))
+        damaged = flipped(content, rng)
+        needed += damaged[pages:] != content[pages:]
+        path.write_bytes(damaged)
         again = read_or_refused(read_record, path)
         if again is not None:
             assert len(again) == len(original)
@@ -85,8 +88,15 @@ def test_no_flipped_bit_of_a_parquet_record_changes_a_value_unnoticed(
             assert not rest.complete
             assert "damaged" in rest.metadata["incomplete_because"]
             assert is_part_of(rest, original)
-    assert refused > FLIPS / 2
+    assert needed > FLIPS / 2
+    assert refused > needed / 2  # the others hit what the footer states beyond what is read, such as extremes
     assert saved > refused / 2
+
+
+def first_page(path: Path) -> int:
+    with pq.ParquetFile(path) as file:
+        first = file.metadata.row_group(0).column(0)
+        return int(first.dictionary_page_offset or first.data_page_offset)
 
 
 def footer_of(content: bytes) -> tuple[int, int]:
