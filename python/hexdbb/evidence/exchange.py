@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from hexdbb.errors import RunError
 from hexdbb.evidence.known_words import in_known_words, known_for
 from hexdbb.evidence.needed import is_better, needs, needs_all
@@ -24,7 +26,7 @@ def settled(search: Search, node: Node) -> Node:
             return node
         for member in node.members:
             others = node.without(member)
-            search.expand(search.node(others, near=node))
+            _look_for_two_beside(search, node, search.expand(search.node(others, near=node)))
         better = sorted(
             (each for each in search.nodes if is_better(search, each, node) and _may_replace(search, each, node)),
             key=lambda each: -each.score,
@@ -41,6 +43,22 @@ def settled(search: Search, node: Node) -> Node:
             return node
         node = in_known_words(search, chosen)
     return node
+
+
+def _look_for_two_beside(search: Search, node: Node, instead: Sequence[Node]) -> None:
+    """Look further beside a known effect that stands in place of another and explains more, form for form.
+
+    One effect may stand in for two: with either of them alone, less is explained, but more by formulas.
+    """
+    if not node.is_known or len(node.members) >= search.criteria.max_effects:
+        return
+    known = [each for each in instead if each.is_known and not each.trial.refused]
+    if not known:
+        return
+    explained = {id(each): explained_by_formulas(search, each) for each in known}
+    best = max(known, key=lambda each: explained[id(each)])
+    if explained[id(best)] > explained_by_formulas(search, node):
+        search.expand(best)
 
 
 def _gives_up(search: Search, node: Node, other: Node) -> bool:

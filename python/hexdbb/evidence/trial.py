@@ -332,7 +332,8 @@ def _from(found: Model, model: Model) -> Model:
         if other is None or len(other.values) != len(term.values):
             return term
         is_same = own.is_like(before) if isinstance(own, LearnedAxes) else own is before
-        return replace(term, values=other.values) if is_same else term
+        # At other elements than the model's the effect was there, and is not now.
+        return replace(term, values=np.where(term.free, other.values, term.values)) if is_same else term
 
     return replace(model, terms=tuple(begun(term) for term in model.terms))
 
