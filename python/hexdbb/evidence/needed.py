@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from hexdbb.evidence.no_form import is_no_form
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import explained, is_complete, is_doubtful, must_explain
+from hexdbb.evidence.settling import explained, is_complete, is_doubtful, must_explain, of_forms, rests_on_form
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -46,25 +46,12 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
     return _instead(search, node, than.trial)
 
 
-def rests_on_form(search: Search, trial: Trial) -> bool:
-    """Check for known effects whose forms explain more than forms may be off.
-
-    Where geometry takes most of an effect its own form may, and so may another effect.
-    """
-    return search.left_by_formulas(trial) - trial.left > of_forms(search, trial)
-
-
 def by_formulas_instead(search: Search, node: Node, fewer: Trial) -> bool:
     """Check that known effects explain by their formulas, all but what forms may, what others do by their forms."""
     if not (node.is_known and rests_on_form(search, fewer)):
         return False
     least, left = of_forms(search, fewer), search.left_by_formulas(node.trial)
     return left - 1.0 < least <= search.left_by_formulas(fewer) - left
-
-
-def of_forms(search: Search, trial: Trial) -> float:
-    """Return what the forms of a set, and of the effects in the model, may explain, in noise variances."""
-    return search.criteria.form_variance * explained(search, trial)
 
 
 def _instead(search: Search, node: Node, fewer: Trial) -> bool:

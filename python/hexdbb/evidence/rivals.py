@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from hexdbb.evidence.by_formulas import explain_by_own_formulas
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.needed import by_formulas_instead, of_forms
+from hexdbb.evidence.needed import by_formulas_instead
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain
+from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain, of_forms
 from hexdbb.evidence.sure import is_for_sure, misses_only_geometry
 from hexdbb.learned import ALL, Learned, part_of
 from hexdbb.learned.places import members

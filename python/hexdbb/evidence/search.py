@@ -25,12 +25,12 @@ from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
 from hexdbb.evidence.learnable import Learnable
-from hexdbb.evidence.needed import best_of, needs, rests_on_form
+from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.screened import in_other_words, screened, screened_further
-from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, settles
+from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form, settles
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums

@@ -53,12 +53,31 @@ def explained(search: Search, trial: Trial) -> float:
 
 
 def settles(search: Search, node: Node) -> bool:
-    """Check that nothing less simple need be looked at: a set explains, and predicts, what is missing."""
+    """Check that nothing less simple need be looked at: a set explains, and predicts, what is missing.
+
+    A free function of time never settles it: it explains whatever drifts, and claims no other time. A platform that
+    warms was called a gauge that drifts beside legs that grow, since a function of time said all but that.
+    """
+    if node.trial.is_of_time:
+        return False
     if node.trial.refused or not is_complete(search, node) or not predicts(search, node):
         return False
-    if leaves_room(search, node) if node.is_known else node.trial.left >= search.criteria.leaves_structure:
+    if leaves_room(search, node) or rests_on_form(search, node.trial) if node.is_known else not leaves_nothing(search, node):
         return False
     return not misses_most(search, node)
+
+
+def rests_on_form(search: Search, trial: Trial) -> bool:
+    """Check for known effects whose forms explain more than forms may be off.
+
+    Where geometry takes most of an effect its own form may, and so may another effect.
+    """
+    return search.left_by_formulas(trial) - trial.left > of_forms(search, trial)
+
+
+def of_forms(search: Search, trial: Trial) -> float:
+    """Return what the forms of a set, and of the effects in the model, may explain, in noise variances."""
+    return search.criteria.form_variance * explained(search, trial)
 
 
 def explained_by_formulas(search: Search, node: Node) -> float:
