@@ -9,7 +9,15 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.needed import best_of, by_formulas_instead, needs, needs_all
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screened import known_sets
-from hexdbb.evidence.settling import explains_all_alone, is_doubtful, leaves_nothing, leaves_room, missed, predicts, rests_on_form
+from hexdbb.evidence.settling import (
+    explains_all_alone,
+    is_doubtful,
+    leaves_nothing,
+    leaves_room,
+    missed,
+    predicts,
+    rests_on_form,
+)
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:

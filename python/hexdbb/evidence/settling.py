@@ -62,9 +62,11 @@ def settles(search: Search, node: Node) -> bool:
         return False
     if node.trial.refused or not is_complete(search, node) or not predicts(search, node):
         return False
-    if leaves_room(search, node) or rests_on_form(search, node.trial) if node.is_known else not leaves_nothing(search, node):
+    if misses_most(search, node):
         return False
-    return not misses_most(search, node)
+    if not node.is_known:
+        return leaves_nothing(search, node)
+    return not (leaves_room(search, node) or rests_on_form(search, node.trial))
 
 
 def rests_on_form(search: Search, trial: Trial) -> bool:
