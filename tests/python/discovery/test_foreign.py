@@ -214,4 +214,9 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
     """Each leaves three times the noise; a lag of all six drives and both spikes explain as much, by their forms."""
     found = found_in("play-and-spikes")
     assert found.verdict == "effect"
-    assert {each.choice for each in found.causes} == {"backlash:1", "backlash:6", "reversal_spike:1", "reversal_spike:6"}
+    assert {each.choice for each in found.causes} == {
+        "backlash:1",
+        "backlash:6",
+        "reversal_spike:1",
+        "reversal_spike:6",
+    }

@@ -1,0 +1,57 @@
+"""What ends a search: nothing less simple is looked at beside it."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.settling import settles
+
+
+def searched(left: float, *, by_formulas: float = 0.0, error: float = 1.0, known: bool = False) -> tuple[Any, Any]:
+    """Return a search in which nine noise variances are missing, and one hypothesis that leaves so much of them.
+
+    Parameters
+    ----------
+    left, by_formulas : float
+        Mean square left, and what formulas alone leave, in noise variances.
+    error : float
+        On circles left out, over what is expected.
+    known : bool
+        Whether it is a known effect.
+    """
+    heldout = {"circle": SimpleNamespace(after=error, expected=1.0, before=9.0)}
+    checked = SimpleNamespace(reasons=(), excused=False, missed=0.1, missed_at_least=0.1, heldout=heldout)
+    search = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=10.0)),
+        trials=SimpleNamespace(explained_before=0.0),
+        checked=lambda node: checked,
+        left_by_formulas=lambda trial: by_formulas or left,
+    )
+    trial = SimpleNamespace(left=left, refused=(), is_of_time=False)
+    return search, SimpleNamespace(trial=trial, members=(0,), is_known=known)
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_what_explains_all_and_predicts_ends_it(known: bool) -> None:
+    assert settles(*searched(1.01, known=known))
+
+
+def test_a_free_function_of_time_never_does() -> None:
+    search, node = searched(1.0)
+    node.trial.is_of_time = True
+    assert not settles(search, node)
+
+
+def test_a_function_does_not_that_errs_more_on_other_circles_than_its_fit_expects() -> None:
+    assert not settles(*searched(1.02, error=1.9))
+    assert settles(*searched(1.02, error=1.9, known=True))
+
+
+def test_an_effect_does_not_that_explains_half_by_its_form() -> None:
+    assert settles(*searched(1.01, by_formulas=1.3, known=True))
+    assert not settles(*searched(1.01, by_formulas=5.0, known=True))
