@@ -1,13 +1,16 @@
 """Noise of the readings: from repeated laps, else the gauge specification, else the readings' own roughness.
 
 Repeated laps: the slider positions of two laps at one angle differ by micrometres only, so the difference of their
-readings is noise, whatever the machine's errors are (pure error, in the terms of regression). The sweep's lowest
+readings is noise, whatever the machine's errors are (pure error, in the terms of regression). What a machine without
+errors reads at the measured slider positions is taken away first: axes that hunt by a micrometre, which their encoders
+show, are no noise, and the rounding of encoders is some. The sweep's lowest
 harmonics are removed from both, so that the contour's curvature between two readings does not count; with the earlier
 lap then interpolated linearly between two readings at part f, white noise s makes differences of variance s^2 (1 +
 f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness: second
 differences of neighbouring readings, harmonics removed as well, cancel what changes smoothly; of white noise s they
 have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in
-either; the variance that this removes from normal noise is restored. Nor do the first parts of laps count where their
+either; the variance that this removes from normal noise is restored. Noise may have longer tails: what lies within
+`TAIL` of these standard deviations counts in the end. Nor do the first parts of laps count where their
 differences are far larger than the usual: what settles after a start is in the first lap alone, and is no noise. A
 median would be robust too, but the readings are rounded, so that it could only be one of few values.
 """
@@ -24,8 +27,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb import _core
+from hexdbb.model import new_model
 from hexdbb.plan import LEAST_NOISE_MM
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]
 
@@ -37,9 +41,10 @@ HARMONICS = 8
 READINGS_PER_VALUE = 5
 """Readings for each harmonic's coefficient at least: fewer harmonics are removed from a shorter sweep."""
 CLIP = 3.0
-"""Standard deviations beyond which a difference is a jump: one in 370 of normal noise, see `KEPT_VARIANCE`."""
-KEPT_VARIANCE = 1.0 - 2.0 * CLIP * NormalDist().pdf(CLIP) / math.erf(CLIP / math.sqrt(2.0))
-"""Variance of a standard normal value given that it is within `CLIP`."""
+"""Standard deviations beyond which a difference is a jump: one in 370 of normal noise."""
+TAIL = 6.0
+"""Standard deviations within which the tail of noise lies, the same from which a reading stands alone (`glitches.py`).
+Of Student's t with five degrees of freedom three say 7 % too little, 4.5 say 3 %, six say 2 %."""
 MAX_JUMPS = 0.1
 """Share of jumps that the start of the iteration stands: more than any gauge seen, far below one half."""
 ROUNDS = 20
@@ -68,8 +73,9 @@ def noise_of(samples: Samples) -> Noise:
     stated = stated_noise(samples)
     if stated is not None:
         return stated
+    beside_mm = beside_encoders_mm(samples)
     rough = [
-        np.diff(_without_contour(samples["angle_rad"][rows], samples.reading_mm[rows]), n=2) / np.sqrt(6.0)
+        np.diff(_without_contour(samples["angle_rad"][rows], beside_mm[rows]), n=2) / np.sqrt(6.0)
         for rows in samples.sweeps()
     ]
     return Noise(_robust_sigma(np.concatenate(rough)), "roughness")
@@ -118,11 +124,17 @@ def _robust_sigma(values: Floats) -> float:
     if sigma == 0.0:  # coarsely rounded readings are mostly alike
         sigma = float(np.sqrt(np.mean(values**2)))
     for _ in range(ROUNDS):
-        kept, before = size[size <= CLIP * sigma], sigma
-        sigma = float(np.sqrt(np.mean(kept**2) / KEPT_VARIANCE)) if len(kept) else 0.0
+        before, sigma = sigma, _within(size, CLIP, sigma)
         if sigma == before:
             break
-    return max(sigma, LEAST_NOISE_MM)
+    return max(_within(size, TAIL, sigma), LEAST_NOISE_MM)
+
+
+def _within(size: Floats, most: float, sigma: float) -> float:
+    """Return the standard deviation of normal noise, of which values up to so many of another one are known."""
+    kept = size[size <= most * sigma]
+    variance = 1.0 - 2.0 * most * NormalDist().pdf(most) / math.erf(most / math.sqrt(2.0))
+    return float(np.sqrt(np.mean(kept**2) / variance)) if len(kept) else 0.0
 
 
 def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iterator[Floats]:
@@ -132,12 +144,17 @@ def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iter
     ----------
     samples : Samples
     residual_mm : ndarray, shape (n,), optional
-        What a model leaves of their readings; the readings themselves where not given.
+        What a model leaves of their readings; what a machine without errors leaves where not given.
     """
-    whole_mm = samples.reading_mm if residual_mm is None else residual_mm
+    whole_mm = beside_encoders_mm(samples) if residual_mm is None else residual_mm
     angle_rad, lap = samples["angle_rad"], samples["lap"]
     sweeps = samples.sweeps()
     yield from _core.lap_differences(angle_rad, lap, whole_mm, sweeps, [_highest(len(rows)) for rows in sweeps])
+
+
+def beside_encoders_mm(samples: Samples) -> Floats:
+    """Return readings less those of a machine without errors at the measured slider positions: shape (n,), mm."""
+    return predict(samples, new_model(samples.machine)).residual_mm
 
 
 def _highest(count: int) -> int:

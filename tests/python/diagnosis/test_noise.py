@@ -10,8 +10,9 @@ import pytest
 
 from hexdbb.diagnosis import noise_of
 from hexdbb.diagnosis.noise import MIN_REPEATS, PARTS, lap_differences
+from hexdbb.model import new_model
 from hexdbb.record import Record
-from hexdbb.samples import Samples
+from hexdbb.samples import Samples, predict
 from hexdbb_truth.cases import case
 
 
@@ -85,10 +86,36 @@ def test_one_lap_has_its_roughness() -> None:
     assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.1)
 
 
-def test_readings_that_never_change_are_as_good_as_a_gauge_can_be() -> None:
+def of_the_machine(record: Record, noise_um: np.ndarray) -> Record:
+    """Return a record as a machine without errors makes it, but for some noise, shape (n,)."""
+    samples = Samples.of([record])
+    reading_um = 1e3 * predict(samples, new_model(samples.machine)).reading_mm + noise_um
+    return replace(record, columns={**record.columns, "reading_um": reading_um})
+
+
+def test_readings_that_are_the_machines_own_are_as_good_as_a_gauge_can_be() -> None:
     record = clean(1)
-    still = replace(record, columns={**record.columns, "reading_um": np.zeros(len(record))})
-    assert noise_of(Samples.of([still])).sigma_mm == 1e-6
+    assert noise_of(Samples.of([of_the_machine(record, np.zeros(len(record)))])).sigma_mm == 1e-6
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_of_long_tails_is_as_large_as_it_is(seed: int) -> None:
+    record = clean(1)
+    drawn = np.random.default_rng(seed).standard_t(5, len(record))
+    found = noise_of(Samples.of([of_the_machine(record, 0.5 * drawn / np.sqrt(5.0 / 3.0))]))
+    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.04)
+
+
+def test_axes_that_hunt_are_no_noise() -> None:
+    """Their encoders show it; so do the readings."""
+    record, draw = clean(1), np.random.default_rng(4)
+    time_s = record.columns["t_s"]
+    columns = dict(record.columns)
+    for slider in range(1, 7):
+        columns[f"s{slider}_mm"] = columns[f"s{slider}_mm"] + 1.5e-3 * np.sin(draw.uniform(20.0, 40.0) * time_s)
+    hunting = replace(record, columns=columns)
+    found = noise_of(Samples.of([of_the_machine(hunting, draw.normal(0.0, 0.5, len(record)))]))
+    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.03)
 
 
 @pytest.mark.parametrize("seed", range(3))
