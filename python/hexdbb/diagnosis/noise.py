@@ -82,9 +82,12 @@ def noise_of(samples: Samples) -> Noise:
 
 
 def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
-    """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated."""
+    """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated.
+
+    Without its tails: where few readings differ from lap to lap, a drift's form is off at times, the others repeat.
+    """
     repeated = list(lap_differences(samples, residual_mm))
-    return _repeated_sigma(repeated) if repeated else float("inf")
+    return _repeated_sigma(repeated, CLIP) if repeated else float("inf")
 
 
 def stated_noise(samples: Samples) -> Noise | None:
@@ -94,17 +97,17 @@ def stated_noise(samples: Samples) -> Noise | None:
     return Noise(max(known), "stated") if known and len(known) == len(stated) else None
 
 
-def _repeated_sigma(repeated: Sequence[Floats]) -> float:
+def _repeated_sigma(repeated: Sequence[Floats], tail: float = TAIL) -> float:
     """Return the standard deviation of laps' differences, less the first parts of laps where something settles."""
     whole = np.concatenate(repeated)
     part = np.concatenate([np.arange(len(each)) * PARTS // len(each) for each in repeated])
     parts = [whole[part == number] for number in range(PARTS)]
     if min(map(len, parts)) < MIN_REPEATS:
-        return _robust_sigma(whole)
+        return _robust_sigma(whole, tail)
     largest = [_quantile(np.abs(each), 1.0 - MAX_JUMPS) for each in parts]
     usual = SETTLES * float(np.median(largest))
     first = next(place for place, each in enumerate(largest) if each <= usual)
-    return _robust_sigma(np.concatenate(parts[first:]) if first else whole)
+    return _robust_sigma(np.concatenate(parts[first:]) if first else whole, tail)
 
 
 def _quantile(values: Floats, share: float) -> float:
@@ -116,7 +119,7 @@ def _quantile(values: Floats, share: float) -> float:
     return float(ordered[low] + (place - low) * (ordered[high] - ordered[low]))
 
 
-def _robust_sigma(values: Floats) -> float:
+def _robust_sigma(values: Floats, tail: float = TAIL) -> float:
     if not len(values):
         return LEAST_NOISE_MM
     size = np.abs(values)
@@ -127,7 +130,7 @@ def _robust_sigma(values: Floats) -> float:
         before, sigma = sigma, _within(size, CLIP, sigma)
         if sigma == before:
             break
-    return max(_within(size, TAIL, sigma), LEAST_NOISE_MM)
+    return max(_within(size, tail, sigma), LEAST_NOISE_MM)
 
 
 def _within(size: Floats, most: float, sigma: float) -> float:
