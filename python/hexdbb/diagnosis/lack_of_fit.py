@@ -37,7 +37,7 @@ LEAST_ROWS = 40
 WHOLE_LAP = 0.95
 """Part of the longest lap's samples that a lap must have: harmonics of an arc are no harmonics of the circle."""
 NOISE_DOUBT = {"repeated laps": 0.01, "stated": 0.03, "roughness": 0.03}
-"""Relative uncertainty of the noise by where it comes from."""
+"""Relative uncertainty of the noise by where it comes from, beside that of its tails (`Noise.tail`)."""
 MAX_PREPARED = 400_000
 """Rows up to which the harmonics are kept: 17 columns of them take 54 MB. Of more readings they are made anew for each
 test, sweep by sweep, so that memory does not grow by them."""
@@ -121,7 +121,7 @@ class FitTest:
         """
         count = len(residual_mm)
         rms_mm = float(np.sqrt(residual_mm @ residual_mm / max(count - fitted_values, 1)))
-        doubt = np.hypot(NOISE_DOUBT[self._noise.source], np.sqrt(0.5 / count))
+        doubt = np.linalg.norm([NOISE_DOUBT[self._noise.source], self._noise.tail, np.sqrt(0.5 / count)])
         level = (rms_mm / self._noise.sigma_mm - 1.0) / doubt
         shape_p, smooth_mm = self._shape(residual_mm, fitted_values)
         return LackOfFit(rms_mm * 1e3, self._noise.sigma_mm * 1e3, float(level), shape_p, smooth_mm * 1e3)

@@ -9,8 +9,9 @@ lap then interpolated linearly between two readings at part f, white noise s mak
 f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness: second
 differences of neighbouring readings, harmonics removed as well, cancel what changes smoothly; of white noise s they
 have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in
-either; the variance that this removes from normal noise is restored. Noise may have longer tails: what lies within
-`TAIL` of these standard deviations counts in the end. Nor do the first parts of laps count where their
+either; the variance that this removes from normal noise is restored. Noise may have longer tails, and laps that meet a
+jump at slightly other angles look as if it had: by as much as what lies within `TAIL` of these standard deviations is
+more, what is called noise is in doubt. Nor do the first parts of laps count where their
 differences are far larger than the usual: what settles after a start is in the first lap alone, and is no noise. A
 median would be robust too, but the readings are rounded, so that it could only be one of few values.
 """
@@ -59,17 +60,18 @@ brakes that are released late made it two to five."""
 
 @dataclass(frozen=True)
 class Noise:
-    """Standard deviation of one reading, and where it comes from."""
+    """Standard deviation of one reading, where it comes from, and by what part of it longer tails make it more."""
 
     sigma_mm: float
     source: Literal["repeated laps", "stated", "roughness"]
+    tail: float = 0.0
 
 
 def noise_of(samples: Samples) -> Noise:
     """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
-        return Noise(_repeated_sigma(repeated), "repeated laps")
+        return _told_by(_steady(repeated), "repeated laps")
     stated = stated_noise(samples)
     if stated is not None:
         return stated
@@ -78,16 +80,13 @@ def noise_of(samples: Samples) -> Noise:
         np.diff(_without_contour(samples["angle_rad"][rows], beside_mm[rows]), n=2) / np.sqrt(6.0)
         for rows in samples.sweeps()
     ]
-    return Noise(_robust_sigma(np.concatenate(rough)), "roughness")
+    return _told_by(np.concatenate(rough), "roughness")
 
 
 def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
-    """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated.
-
-    Without its tails: where few readings differ from lap to lap, a drift's form is off at times, the others repeat.
-    """
+    """Return the noise (mm) of what a model leaves, from repeated laps; infinite where none are repeated."""
     repeated = list(lap_differences(samples, residual_mm))
-    return _repeated_sigma(repeated, CLIP) if repeated else float("inf")
+    return _robust_sigma(_steady(repeated)) if repeated else float("inf")
 
 
 def stated_noise(samples: Samples) -> Noise | None:
@@ -97,17 +96,23 @@ def stated_noise(samples: Samples) -> Noise | None:
     return Noise(max(known), "stated") if known and len(known) == len(stated) else None
 
 
-def _repeated_sigma(repeated: Sequence[Floats], tail: float = TAIL) -> float:
-    """Return the standard deviation of laps' differences, less the first parts of laps where something settles."""
+def _told_by(values: Floats, source: Literal["repeated laps", "roughness"]) -> Noise:
+    """Return the noise that differences tell, in units of one reading's."""
+    sigma = _robust_sigma(values)
+    return Noise(sigma, source, max(_within(np.abs(values), TAIL, sigma) / sigma - 1.0, 0.0))
+
+
+def _steady(repeated: Sequence[Floats]) -> Floats:
+    """Return laps' differences, less those of the first parts of laps where something settles."""
     whole = np.concatenate(repeated)
     part = np.concatenate([np.arange(len(each)) * PARTS // len(each) for each in repeated])
     parts = [whole[part == number] for number in range(PARTS)]
     if min(map(len, parts)) < MIN_REPEATS:
-        return _robust_sigma(whole, tail)
+        return whole
     largest = [_quantile(np.abs(each), 1.0 - MAX_JUMPS) for each in parts]
     usual = SETTLES * float(np.median(largest))
     first = next(place for place, each in enumerate(largest) if each <= usual)
-    return _robust_sigma(np.concatenate(parts[first:]) if first else whole, tail)
+    return np.concatenate(parts[first:]) if first else whole
 
 
 def _quantile(values: Floats, share: float) -> float:
@@ -119,7 +124,7 @@ def _quantile(values: Floats, share: float) -> float:
     return float(ordered[low] + (place - low) * (ordered[high] - ordered[low]))
 
 
-def _robust_sigma(values: Floats, tail: float = TAIL) -> float:
+def _robust_sigma(values: Floats) -> float:
     if not len(values):
         return LEAST_NOISE_MM
     size = np.abs(values)
@@ -130,7 +135,7 @@ def _robust_sigma(values: Floats, tail: float = TAIL) -> float:
         before, sigma = sigma, _within(size, CLIP, sigma)
         if sigma == before:
             break
-    return max(_within(size, tail, sigma), LEAST_NOISE_MM)
+    return max(sigma, LEAST_NOISE_MM)
 
 
 def _within(size: Floats, most: float, sigma: float) -> float:

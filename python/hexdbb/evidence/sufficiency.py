@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.diagnosis import JudgingNoise, Noise, Sufficiency, explains_changes
+from hexdbb.diagnosis import JudgingNoise, Sufficiency, explains_changes
 from hexdbb.diagnosis.lack_of_fit import FitTest
 from hexdbb.diagnosis.noise import residual_repeats_to
 from hexdbb.diagnosis.sufficiency import default_matters_um, explained_um
@@ -58,7 +58,7 @@ def _changes_with(push: Floats, part: float, samples: Samples, residual_mm: Floa
 def left_over(trial: Trial, trials: Trials, criteria: Criteria, matters_um: float | None = None) -> Sufficiency:
     """Judge what a trial leaves."""
     engine, linear = trials.engine, trials.linear(trial)
-    noise = Noise(float(np.mean(engine.row_noise_mm)), engine.noise.source)
+    noise = replace(engine.noise, sigma_mm=float(np.mean(engine.row_noise_mm)))
     strength = np.linalg.eigvalsh(linear.own.T @ linear.own)
     fitted = float(np.sum(strength / (1.0 + strength)))
     lack = FitTest(engine.part, noise).of(linear.residual * engine.row_noise_mm, round(fitted))

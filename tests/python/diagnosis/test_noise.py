@@ -99,11 +99,16 @@ def test_readings_that_are_the_machines_own_are_as_good_as_a_gauge_can_be() -> N
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_noise_of_long_tails_is_as_large_as_it_is(seed: int) -> None:
+def test_noise_of_long_tails_is_in_doubt_by_them(seed: int) -> None:
     record = clean(1)
     drawn = np.random.default_rng(seed).standard_t(5, len(record))
     found = noise_of(Samples.of([of_the_machine(record, 0.5 * drawn / np.sqrt(5.0 / 3.0))]))
-    assert found.sigma_mm * 1e3 == pytest.approx(0.5, rel=0.04)
+    assert found.sigma_mm * 1e3 < 0.48
+    assert found.sigma_mm * (1.0 + found.tail) * 1e3 == pytest.approx(0.5, rel=0.04)
+
+
+def test_normal_noise_has_no_tails() -> None:
+    assert noise_of(Samples.of([clean(1)])).tail < 0.005
 
 
 def test_axes_that_hunt_are_no_noise() -> None:
