@@ -2,18 +2,18 @@
 
 Repeated laps: the slider positions of two laps at one angle differ by micrometres only, so the difference of their
 readings is noise, whatever the machine's errors are (pure error, in the terms of regression). What a machine without
-errors reads at the measured slider positions is taken away first: axes that hunt by a micrometre, which their encoders
-show, are no noise, and the rounding of encoders is some. The sweep's lowest
-harmonics are removed from both, so that the contour's curvature between two readings does not count; with the earlier
-lap then interpolated linearly between two readings at part f, white noise s makes differences of variance s^2 (1 +
-f^2 + (1 - f)^2). Stated: the gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness: second
-differences of neighbouring readings, harmonics removed as well, cancel what changes smoothly; of white noise s they
-have the standard deviation sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in
-either; the variance that this removes from normal noise is restored. Noise may have longer tails, and laps that meet a
-jump at slightly other angles look as if it had: by as much as what lies within `TAIL` of these standard deviations is
-more, what is called noise is in doubt. Nor do the first parts of laps count where their
-differences are far larger than the usual: what settles after a start is in the first lap alone, and is no noise. A
-median would be robust too, but the readings are rounded, so that it could only be one of few values.
+errors reads at the measured slider positions is subtracted first: axes that oscillate by a micrometre, which their
+encoders measure, are not noise; rounding of the encoders is. The sweep's lowest harmonics are removed from both, so
+that the contour's curvature between two readings does not count; with the earlier lap then interpolated linearly
+between two readings at part f, white noise s makes differences of variance s^2 (1 + f^2 + (1 - f)^2). Stated: the
+gauge's standard deviation with its rounding (`hexdbb.plan.Gauge`). Roughness: second differences of neighbouring
+readings, harmonics removed as well, cancel what changes smoothly; of white noise s they have the standard deviation
+sqrt(6) s. Differences beyond `CLIP` standard deviations are jumps and do not count in either; the variance that this
+removes from normal noise is restored. Noise may have longer tails than normal noise, and laps sampled at different
+angles about a jump appear to have them: the relative excess of the standard deviation within `TAIL` is an uncertainty
+of the estimate. Nor do the first parts of laps count where their differences are far larger than the usual: what
+settles after a start is in the first lap alone, and is no noise. A median would be robust too, but the readings are
+rounded, so that it could only be one of few values.
 """
 
 from __future__ import annotations
@@ -60,7 +60,15 @@ brakes that are released late made it two to five."""
 
 @dataclass(frozen=True)
 class Noise:
-    """Standard deviation of one reading, where it comes from, and by what part of it longer tails make it more."""
+    """Standard deviation of one reading, and its source.
+
+    Attributes
+    ----------
+    sigma_mm : float
+    source : str
+    tail : float
+        Relative excess of the standard deviation if longer tails than those of normal noise are included.
+    """
 
     sigma_mm: float
     source: Literal["repeated laps", "stated", "roughness"]
@@ -71,16 +79,16 @@ def noise_of(samples: Samples) -> Noise:
     """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
-        return _told_by(_steady(repeated), "repeated laps")
+        return _estimate_from(_steady(repeated), "repeated laps")
     stated = stated_noise(samples)
     if stated is not None:
         return stated
-    beside_mm = beside_encoders_mm(samples)
+    residual_mm = less_nominal_mm(samples)
     rough = [
-        np.diff(_without_contour(samples["angle_rad"][rows], beside_mm[rows]), n=2) / np.sqrt(6.0)
+        np.diff(_without_contour(samples["angle_rad"][rows], residual_mm[rows]), n=2) / np.sqrt(6.0)
         for rows in samples.sweeps()
     ]
-    return _told_by(np.concatenate(rough), "roughness")
+    return _estimate_from(np.concatenate(rough), "roughness")
 
 
 def residual_repeats_to(samples: Samples, residual_mm: Floats) -> float:
@@ -96,8 +104,8 @@ def stated_noise(samples: Samples) -> Noise | None:
     return Noise(max(known), "stated") if known and len(known) == len(stated) else None
 
 
-def _told_by(values: Floats, source: Literal["repeated laps", "roughness"]) -> Noise:
-    """Return the noise that differences tell, in units of one reading's."""
+def _estimate_from(values: Floats, source: Literal["repeated laps", "roughness"]) -> Noise:
+    """Estimate the noise from differences scaled to the standard deviation of one reading."""
     sigma = _robust_sigma(values)
     return Noise(sigma, source, max(_within(np.abs(values), TAIL, sigma) / sigma - 1.0, 0.0))
 
@@ -139,7 +147,7 @@ def _robust_sigma(values: Floats) -> float:
 
 
 def _within(size: Floats, most: float, sigma: float) -> float:
-    """Return the standard deviation of normal noise, of which values up to so many of another one are known."""
+    """Estimate the standard deviation of normal noise from its values up to `most * sigma`."""
     kept = size[size <= most * sigma]
     variance = 1.0 - 2.0 * most * NormalDist().pdf(most) / math.erf(most / math.sqrt(2.0))
     return float(np.sqrt(np.mean(kept**2) / variance)) if len(kept) else 0.0
@@ -154,14 +162,14 @@ def lap_differences(samples: Samples, residual_mm: Floats | None = None) -> Iter
     residual_mm : ndarray, shape (n,), optional
         What a model leaves of their readings; what a machine without errors leaves where not given.
     """
-    whole_mm = beside_encoders_mm(samples) if residual_mm is None else residual_mm
+    whole_mm = less_nominal_mm(samples) if residual_mm is None else residual_mm
     angle_rad, lap = samples["angle_rad"], samples["lap"]
     sweeps = samples.sweeps()
     yield from _core.lap_differences(angle_rad, lap, whole_mm, sweeps, [_highest(len(rows)) for rows in sweeps])
 
 
-def beside_encoders_mm(samples: Samples) -> Floats:
-    """Return readings less those of a machine without errors at the measured slider positions: shape (n,), mm."""
+def less_nominal_mm(samples: Samples) -> Floats:
+    """Return the readings minus those of the nominal machine at the measured slider positions: shape (n,), mm."""
     return predict(samples, new_model(samples.machine)).residual_mm
 
 

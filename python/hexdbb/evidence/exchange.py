@@ -26,7 +26,7 @@ def settled(search: Search, node: Node) -> Node:
             return node
         for member in node.members:
             others = node.without(member)
-            _look_for_two_beside(search, node, search.expand(search.node(others, near=node)))
+            _expand_better_formulas(search, node, search.expand(search.node(others, near=node)))
         better = sorted(
             (each for each in search.nodes if is_better(search, each, node) and _may_replace(search, each, node)),
             key=lambda each: -each.score,
@@ -45,19 +45,16 @@ def settled(search: Search, node: Node) -> Node:
     return node
 
 
-def _look_for_two_beside(search: Search, node: Node, instead: Sequence[Node]) -> None:
-    """Look further beside a known effect that stands in place of another and explains more, form for form.
+def _expand_better_formulas(search: Search, node: Node, instead: Sequence[Node]) -> None:
+    """Expand the set whose formulas explain most, of those that have another known effect in place of one of a set.
 
-    One effect may stand in for two: with either of them alone, less is explained, but more by formulas.
+    One effect may stand in for two: either of these alone explains less than it does, but more by its formula.
     """
     if not node.is_known or len(node.members) >= search.criteria.max_effects:
         return
     known = [each for each in instead if each.is_known and not each.trial.refused]
-    if not known:
-        return
-    explained = {id(each): explained_by_formulas(search, each) for each in known}
-    best = max(known, key=lambda each: explained[id(each)])
-    if explained[id(best)] > explained_by_formulas(search, node):
+    best = min(known, key=lambda each: search.left_by_formulas(each.trial), default=node)
+    if search.left_by_formulas(best.trial) < search.left_by_formulas(node.trial):
         search.expand(best)
 
 
