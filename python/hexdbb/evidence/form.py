@@ -66,7 +66,7 @@ class Forms:
         functions, fraction = tuple(each.name for each in best.functions.functions), best.found.size
         if fraction <= 0.0:
             return linear, Form(0.0, 0.0, functions)
-        deviation = best.rms_mm * float(np.sqrt(best.seen)) / size_mm
+        deviation = self._functions.rms_mm(best) * float(np.sqrt(best.seen)) / size_mm
         if deviation > self.criteria.form_limit:
             # At hundreds of times the noise no prior holds a discrepancy back: what differs so much is another cause.
             return linear, Form(0.0, 0.0, ())

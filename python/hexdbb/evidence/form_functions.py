@@ -47,22 +47,17 @@ class Functions:
     functions : tuple of Learned
     square : ndarray, shape (k, k)
         W'W.
-    mean_squares : tuple of ndarray
-        c' mean_square c is the mean square of a function, mm^2.
+    ends : list of int
+        Row after the last of each function but the last.
     axes, root : ndarray, shapes (k, r), (r,)
         Directions of their prior that do something to the readings, uncorrelated there, and the size of each there.
     """
 
     functions: tuple[Learned, ...]
     square: Floats
-    mean_squares: tuple[Floats, ...]
+    ends: list[int]
     axes: Floats
     root: Floats
-
-    @property
-    def ends(self) -> list[int]:
-        """Row after the last of each function but the last."""
-        return list(accumulate(len(each) for each in self.mean_squares))[:-1]
 
     def seen(self, projected: Floats, least: float, size_mm: float) -> Floats:
         """Return the prior's directions of which the model's own values imitate all but too little: shape (k, r).
@@ -102,12 +97,6 @@ class Beside:
         return tuple(zip(self.functions.functions, parts, strict=True))
 
     @property
-    def rms_mm(self) -> float:
-        """Root mean square of the functions as they were found."""
-        parts = np.split(self.found.coefficients, self.functions.ends)
-        return float(np.sqrt(sum(c @ square @ c for c, square in zip(parts, self.functions.mean_squares, strict=True))))
-
-    @property
     def seen(self) -> float:
         """Part of the functions' mean square that the model's own values do not imitate.
 
@@ -140,8 +129,29 @@ class FormFunctions:
         """Return what functions do to the readings together, a column for each of their coefficients' columns."""
         return np.asarray(sum(self.signature(each).table @ factor for each, factor in coefficients), np.float64)
 
+    def rms_mm(self, beside: Beside) -> float:
+        """Return the root mean square of functions as they were found: of those that push one thing, of their sum.
+
+        Functions of states that go together, as a position and the load there, may undo each other for the most part.
+        """
+        found = np.split(beside.found.coefficients, beside.functions.ends)
+        there: dict[tuple[str, int], list[tuple[Learned, Floats]]] = {}
+        for function, coefficients in zip(beside.functions.functions, found, strict=True):
+            there.setdefault((function.place, function.element), []).append((function, coefficients))
+        return float(np.sqrt(sum(self._mean_square_mm(each) for each in there.values())))
+
+    def _mean_square_mm(self, functions: Sequence[tuple[Learned, Floats]]) -> float:
+        """Return the mean square of the sum of functions at one place, over rows and elements."""
+        elements, state = functions[0][0].elements, self.readings.state
+        spaces = [(self.signature(each).space, found.reshape(each.components, -1)) for each, found in functions]
+        total = 0.0
+        for element in elements:
+            pushed = sum(state.design(space, element) @ coefficients.T for space, coefficients in spaces)
+            total += float(np.sum(np.square(pushed)))
+        return total / (len(elements) * len(self.readings))
+
     def _together(self, functions: tuple[Learned, ...]) -> Functions:
-        factors, squares = zip(*(self._parts(each) for each in functions), strict=True)
+        factors = [self._parts(each) for each in functions]
         # Each is as probable as the others to hold the whole.
         factor = diagonal(factors) / np.sqrt(len(functions))
         square = np.concatenate(
@@ -149,18 +159,16 @@ class FormFunctions:
         )
         values, vectors = np.linalg.eigh(factor.T @ square @ factor)
         kept = values > LEAST_PRIOR * values[-1]
-        return Functions(functions, square, squares, factor @ vectors[:, kept], np.sqrt(values[kept]))
+        ends = list(accumulate(len(each) for each in factors))[:-1]
+        return Functions(functions, square, ends, factor @ vectors[:, kept], np.sqrt(values[kept]))
 
     def _product(self, one: Learned, other: Learned) -> Floats:
         found: Floats = self.signature(one).table.T @ self.signature(other).table
         return found
 
-    def _prior(self, function: Learned) -> tuple[Floats, Floats]:
-        """Return the prior factor of a function, and its mean square."""
+    def _prior(self, function: Learned) -> Floats:
         signature: Signature = self.signature(function)
-        roughness = self.criteria.roughness[1] if function.variable.is_smooth else 1.0
-        square: Floats = np.kron(np.eye(function.components), signature.square).astype(np.float64)
-        return signature.prior_factor(roughness), square
+        return signature.prior_factor(self.criteria.roughness[1] if function.variable.is_smooth else 1.0)
 
 
 class FormsAboutFit:
