@@ -10,10 +10,10 @@ import numpy as np
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.refine import refined_forms
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import explains_nearly
 
 
 def as_forms(search: Search, node: Node) -> Node | None:

@@ -8,10 +8,9 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.known_words import in_known_words, known_for
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explained_by_formulas, is_doubtful
+from hexdbb.evidence.settling import explained_by_formulas, explains_nearly, is_doubtful
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Member
 

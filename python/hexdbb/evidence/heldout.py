@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.covered import is_covered
+from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.readings import ARC, GROUPINGS, Readings
 from hexdbb.evidence.sums import Sums, squared_error
 from hexdbb.evidence.trial import Trial, Trials
@@ -63,10 +64,11 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
         if not groups:
             continue
         without = error = as_fitted = expected = 0.0
+        with_form = len(trial.members) <= 1 and not _is_its_formula(trial, base, trials)
         for number, cells in groups:
             in_group = numbers == number
             without += _errors(before, base, cells, in_group)[0]
-            least, fitted = _errors(after, trial, cells, in_group)
+            least, fitted = _errors(after, trial, cells, in_group, with_form=with_form)
             error, as_fitted = error + least, as_fitted + fitted
             expected += after.without(cells).expected_error(after, cells)
         share = (without - error) / max(without - rows, 1e-9)
@@ -117,19 +119,30 @@ def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group
     return covered or claimed
 
 
-def _errors(sums: Sums, trial: Trial, cells: NDArray[np.intp], in_group: NDArray[np.bool_]) -> tuple[float, float]:
+def _is_its_formula(trial: Trial, base: Trial, trials: Trials) -> bool:
+    """Check that the formula of what a trial adds explains nearly all: that is what it claims of other readings."""
+    if not trial.members:
+        return False
+    left = left_by_formulas(trial.forms, trials.linear(trial))
+    return base.left - left >= trials.criteria.form_explains * (base.left - 1.0)
+
+
+def _errors(
+    sums: Sums, trial: Trial, cells: NDArray[np.intp], in_group: NDArray[np.bool_], *, with_form: bool = True
+) -> tuple[float, float]:
     """Return the sums of squared errors of a fit to all other cells in the cells of a group: the least, and as fitted.
 
     Of several causes each known effect claims what its formula predicts, or with the functions of its form: other
-    circles hardly say how those of one go on beside the others, and functions that follow them lead away. Alone, and
-    as fitted, they may do so only where hardly any other reading lies in the range of their variable.
+    circles hardly say how those of one go on beside the others, and functions that follow them lead away. So does one
+    whose formula explains nearly all. Else alone (`with_form`), and as fitted, they may do so only where hardly any
+    other reading lies in the range of their variable.
     """
-    training, is_one = sums.without(cells), len(trial.members) <= 1
+    training = sums.without(cells)
     least = fitted = squared_error(sums, cells, training.own_values(), None, None)
     dropped = np.empty(0, np.intp)
     for form, columns in trial.columns_of_forms():
         covers = is_covered((Learned.parse(name) for name in form.functions), sums.readings, in_group)
-        if covers and is_one:
+        if covers and with_form:
             continue
         fewer = np.concatenate([dropped, np.arange(columns.start, columns.stop)])
         alone = squared_error(sums, cells, training.own_values_without(sums, fewer), None, None)

@@ -7,12 +7,11 @@ from itertools import product
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, is_doubtful, misses_most
+from hexdbb.evidence.settling import NOTHING_LEFT, explained_by_formulas, explains_nearly, is_doubtful, misses_most
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import ALL, Learned
 

@@ -41,7 +41,9 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
             return False
     if node.score <= than.score:
         return False
-    if node.faults <= than.faults or than.trial.left - node.trial.left > must_explain(search, than.trial):
+    if node.faults <= than.faults or explained_beyond(search, node.trial, than.trial) > must_explain(
+        search, than.trial
+    ):
         return True
     return _instead(search, node, than.trial)
 
@@ -65,6 +67,11 @@ def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
     if not (node.is_known and in_doubt) or is_doubtful(search, node):
         return False
     return search.checked(node).missed < search.criteria.far_better * missing.missed
+
+
+def explained_beyond(search: Search, trial: Trial, others: Trial) -> float:
+    """Return what a set explains beyond others, in noise variances: of the readings, and of geometry bent for it."""
+    return others.left - trial.left + search.trials.bent(others) - search.trials.bent(trial)
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:
@@ -93,7 +100,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     criteria, trials = search.criteria, search.trials
     others = trials.of_fewer(node.without(member), node.trial)
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
-    beyond = others.left - node.trial.left
+    beyond = explained_beyond(search, node.trial, others)
     if gain < criteria.detect_nats:
         return False
     if _instead(search, node, others):

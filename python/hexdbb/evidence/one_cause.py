@@ -7,6 +7,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import explains_nearly
 from hexdbb.learned import Learned
 
 
@@ -22,11 +23,6 @@ def is_refined(search: Search, node: Node, cause: Hypothesis, learned: Learned) 
     ):
         return True
     return explains_nearly(search, left_without(search, node, learned), left_without(search, node, cause))
-
-
-def explains_nearly(search: Search, one: float, other: float) -> bool:
-    """Check that what leaves so much explains nearly as much as what leaves the other."""
-    return one - other < search.criteria.same_kind_share * _excess(search)
 
 
 def without_borrowed_forms(search: Search, node: Node) -> Node:

@@ -82,4 +82,4 @@ def kin_of(search: Search, cause: Hypothesis) -> list[Learned]:
     if isinstance(cause, Learned):
         return [cause]
     by_name = search.learnable.by_name
-    return [by_name[name] for name in search.kin.get(cause.name, set())]
+    return [by_name[name] for name in search.kin.get(cause.name, set()) if name in by_name]

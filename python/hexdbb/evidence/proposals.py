@@ -51,6 +51,9 @@ def _shifting() -> Iterator[tuple[str, int]]:
     for place in ("slider", "leg"):
         for element in range(1, 7):
             yield place, element
+    for place in ("lateral", "vertical"):
+        for element in range(1, 4):
+            yield place, element
     yield from (("ball", ALL), ("cup", ALL), ("reading", ALL))
 
 
@@ -58,7 +61,9 @@ def _answers(readings: Readings, place: str, element: int) -> Floats:
     """Return what a push at a place does to the readings, a column for each axis."""
     at = Learned(place, element, step([0.0]))
     machine = readings.state.machine
-    return np.column_stack([readings.answer(at.pushes(axis, machine)[0][1]) for axis in range(at.components)])
+    axes = [at.pushes(axis, machine) for axis in range(at.components)]
+    # Both carriages of a guideway shift at once.
+    return np.column_stack([readings.answer([push for _, ports in each for push in ports]) for each in axes])
 
 
 def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:

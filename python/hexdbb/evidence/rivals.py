@@ -13,7 +13,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain, of_forms
+from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, missed, must_explain, of_forms
 from hexdbb.evidence.sure import is_for_sure, misses_only_geometry
 from hexdbb.learned import ALL, Learned, part_of
 from hexdbb.learned.places import members
@@ -51,6 +51,8 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
             continue
         if len(other.members) > len(node.members) and _describe(search, other, cause):
             continue
+        if len(other.members) == 1 and len(node.members) > 1 and _acts_where_they_do(search, other, node):
+            continue
         if is_close:
             (alike if is_known_too else others).append(" + ".join(other.trial.names))
         if not is_known_too:
@@ -80,6 +82,11 @@ def _without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[No
 def _has_effect(other: Node, cause: Hypothesis) -> bool:
     """Check for a known cause's effect in a set, at whatever element."""
     return isinstance(cause, Known) and any(isinstance(e, Known) and e.effect == cause.effect for e in other.hypotheses)
+
+
+def _has_it_elsewhere(other: Node, node: Node, cause: Hypothesis) -> bool:
+    """Check for a set of more causes that has the effect at another element: it says so too, and something besides."""
+    return len(other.members) > len(node.members) and _has_effect(other, cause)
 
 
 def _has_kind(search: Search, other: Node, cause: Hypothesis) -> bool:
@@ -140,6 +147,7 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
         " + ".join(other.trial.names)
         for other in search.nodes
         if not _has_kind(search, other, cause)
+        and not _has_it_elsewhere(other, node, cause)
         and other.trial.left - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
     ]
@@ -148,17 +156,20 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
 def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     """Return what explains enough and errs no more where left out than a cause that errs there by more than all.
 
-    Such a cause is a lead, and no better one than these, however well it fits.
+    Such a cause is a lead, and no better one than these, however well it fits; better than what explains less than its
+    formula alone does.
     """
-    missed, excess = search.checked(node).missed, search.root.trial.left - 1.0
-    if missed <= search.criteria.missed_bent:
+    error, excess = missed(search, node), search.root.trial.left - 1.0
+    if error <= search.criteria.missed_bent:
         return []
+    most = min(search.root.trial.left - search.criteria.explained_min * excess, search.left_by_formulas(node.trial))
     return [
         " + ".join(other.trial.names)
         for other, _ in _without(search, node, cause)
-        if search.root.trial.left - other.trial.left >= search.criteria.explained_min * excess
+        if not _has_it_elsewhere(other, node, cause)
+        and other.trial.left <= most
         and not search.checked(other).reasons
-        and search.checked(other).missed <= missed
+        and search.checked(other).missed <= error
     ]
 
 

@@ -36,7 +36,7 @@ from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
-from hexdbb.learned import ALL, Learned
+from hexdbb.learned import ALL, Learned, settling
 
 Floats = NDArray[np.float64]
 
@@ -91,7 +91,8 @@ class Search:
         found: dict[str, set[str]] = {}
         for (effect, element, _, _), homes in zip(whose, self.homes.of_each(signatures), strict=True):
             name = Known(effect, (element,), self.is_whole(effect)).name
-            found.setdefault(name, set()).update(each.hypothesis.name for each in homes)
+            every = (same for each in homes for same in (each.hypothesis, *settling(each.hypothesis)))
+            found.setdefault(name, set()).update(each.name for each in every)
         return found
 
     @cached_property

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
+
+from hexdbb.evidence.place import homes_of
 
 if TYPE_CHECKING:
     from hexdbb.evidence.node import Node
@@ -27,9 +30,13 @@ def is_complete(search: Search, node: Node) -> bool:
 
 def leaves_nothing(search: Search, node: Node) -> bool:
     """Check that a set explains all, and predicts what is left out to within what its fit expects of itself."""
+    return is_complete(search, node) and errs_as_expected(search, node)
+
+
+def errs_as_expected(search: Search, node: Node) -> bool:
+    """Check that a set predicts what is left out to within what its fit expects of itself."""
     ratio = search.criteria.heldout_ratio * max(node.trial.left, 1.0) ** 0.5
-    heldout = search.checked(node).heldout.values()
-    return is_complete(search, node) and all(held.after <= ratio * held.expected for held in heldout)
+    return all(held.after <= ratio * held.expected for held in search.checked(node).heldout.values())
 
 
 def explains_all_alone(search: Search, node: Node) -> bool:
@@ -91,12 +98,35 @@ def missed(search: Search, node: Node) -> float:
     """Return the error of what was left out, beyond what is expected of it, over what is explained where fitted.
 
     With the functions of forms: an effect whose form leads away is one of which something else may be true. But where
-    the formulas of several explain enough alone, they are what makes them fit, and what they predict counts.
+    the formulas of several explain enough alone, they are what makes them fit, and what they predict counts; that of
+    one, where it explains nearly all and predicts as it is expected to. Where the formula of one explains enough, so
+    does what a function predicts that contains it at its own place, and explains no more: the form is that function's.
     """
-    checked, is_one = search.checked(node), len(node.members) <= 1
-    if is_one or not node.is_known or explained_by_formulas(search, node) < search.criteria.explained_min:
+    checked, by_formulas = search.checked(node), explained_by_formulas(search, node) if node.is_known else 0.0
+    if by_formulas < search.criteria.explained_min:
         return checked.missed
-    return checked.missed_at_least
+    if len(node.members) > 1:
+        return checked.missed_at_least
+    if by_formulas >= search.criteria.form_explains and errs_as_expected(search, node):
+        return checked.missed_at_least
+    same = (search.checked(each).missed for each in _in_its_functions(search, node))
+    return min((checked.missed, *same))
+
+
+def _in_its_functions(search: Search, node: Node) -> Iterator[Node]:
+    """Yield the learned functions tried that contain the one effect of a set at its own place, and explain no more.
+
+    A free function of time predicts nothing.
+    """
+    alone = [each for each in search.nodes if len(each.members) == 1 and not each.trial.is_of_time]
+    as_good = [each for each in alone if explains_nearly(search, node.trial.left, each.trial.left)]
+    homes = homes_of(search, node.hypotheses[0]) if as_good else []
+    yield from (each for each in as_good if each.hypotheses[0] in homes)
+
+
+def explains_nearly(search: Search, one: float, other: float) -> bool:
+    """Check that what leaves so much explains nearly as much as what leaves the other."""
+    return one - other < search.criteria.same_kind_share * (search.root.trial.left - 1.0)
 
 
 def misses_most(search: Search, node: Node) -> bool:

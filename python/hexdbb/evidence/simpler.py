@@ -10,9 +10,8 @@ from collections.abc import Iterator
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_cause import explains_nearly
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import misses_most
+from hexdbb.evidence.settling import explains_nearly, misses_most
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
 

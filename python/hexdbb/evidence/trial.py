@@ -245,6 +245,15 @@ class Trials:
         geometry[: len(free)] = self.engine.geometry_of(model)
         return _beyond(linear.own, linear.standing, own, geometry)
 
+    def bent(self, trial: Trial) -> float:
+        """Mean square, in noise variances, by which geometry is bent beyond its priors.
+
+        What a set leaves to geometry costs evidence as what it leaves unexplained does; a prior standard deviation of
+        each value is what a machine has.
+        """
+        standing = self.linear(trial).standing[: int(trial.model.free.sum())][self.engine.geometry_of(trial.model)]
+        return max(float(standing @ standing) - len(standing), 0.0) / len(self.engine.readings)
+
     def _about(self, members: tuple[Member, ...], fitted: Fitted) -> Trial:
         """Weigh members about their fit, and keep its linearisation."""
         linear = fitted.linear

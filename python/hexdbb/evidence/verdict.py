@@ -10,13 +10,14 @@ from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.one_cause import explains_nearly, is_refined, left_without, without_borrowed_forms
+from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
 from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import explains_nearly
 from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over

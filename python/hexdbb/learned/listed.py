@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
@@ -35,6 +36,12 @@ def grown_with_warmth() -> Iterator[Learned]:
     """Yield growth with warmth along sliders and legs: what grows with time there may follow the temperature."""
     for place in ("slider", "leg"):
         yield from (Learned(place, element, further.WARMING_POSITION) for element in single(place))
+
+
+def settling(learned: Learned) -> Iterator[Learned]:
+    """Yield what grows towards an end where a function grows evenly, by the place: one cause by another law."""
+    if learned.variable == v.TIME_POSITION:
+        yield from (replace(learned, variable=each) for each in further.SETTLING_POSITION)
 
 
 def further_hypotheses() -> Iterator[Learned]:

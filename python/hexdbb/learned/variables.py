@@ -135,6 +135,10 @@ ANGLE_DIRECTION = Variable(
     parts=("circle_direction",),
 )
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
+BAR_ELEVATION = Variable(
+    "bar_elevation", "bar_elevation_rad", "rad", "angle of the bar to the horizontal", 8, least=LEAST_TILT
+)
+"""A bar sags by its own weight where it lies, and a gauge's plunger weighs on its spring where it stands."""
 READ = Variable("reading", "nominal_reading_mm", "mm", "nominal reading", 8, of_forms=True)
 DEFLECTION = Variable("deflection", "deflection_mm", "mm", "predicted deflection of the gauge", 12)
 SINCE_TURN = Variable(
@@ -198,7 +202,7 @@ OF_PLATFORM_JOINT = (
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
-    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED),
+    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""

@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 Pose = tuple[Floats, Floats]
 
 DERIVED = (
-    *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad"),
+    *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "bar_elevation_rad"),
     *("time_in_sweep_s", "time_since_fixing_s", "turned_rad"),
 )
 DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount", "angle_rad")
@@ -34,7 +34,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6) thrice, (n,) four times; rad, rad/s, rad, rad, s, s and rad.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) five times; rad, rad/s, rad, rad, rad, s, s and rad.
 
     Parameters
     ----------
@@ -47,6 +47,7 @@ def derived_columns(
     sliders_mm, way_mm = columns["sliders_mm"], STEP_S * np.nan_to_num(columns["velocity_mm_s"])
     pose = _pose(machine, sliders_mm)
     reach_mm = _reach_mm(machine, sliders_mm, pose)
+    bar_mm = _bar_mm(pose, columns["set_up"], set_ups)
     later, earlier = (
         _swing(machine, _reach_mm(machine, there_mm, _pose(machine, there_mm)))
         for there_mm in (sliders_mm + way_mm, sliders_mm - way_mm)
@@ -55,7 +56,8 @@ def derived_columns(
         "swing_angle_rad": _swing(machine, reach_mm),
         "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
         "leg_inclination_rad": np.arctan2(np.hypot(reach_mm[0], reach_mm[1]), reach_mm[2]),
-        "bar_angle_rad": _bar_angle(pose, columns["set_up"], set_ups),
+        "bar_angle_rad": _bar_angle(bar_mm, pose),
+        "bar_elevation_rad": np.arctan2(bar_mm[:, 2], np.hypot(bar_mm[:, 0], bar_mm[:, 1])),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
         "time_since_fixing_s": _since_fixing_s(columns["time_s"], columns["mount"]),
         "turned_rad": _turned_rad(columns["angle_rad"], columns["sweep"]),
@@ -68,13 +70,19 @@ def _pose(machine: MachineFile, sliders_mm: Floats) -> Pose:
     return position_mm, rotation
 
 
-def _bar_angle(pose: Pose, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_core.SetUp]) -> Floats:
-    """Return the angle of the bar about the platform's z, of the nominal machine; shape (n,)."""
+def _bar_mm(pose: Pose, set_up: NDArray[np.integer[Any]], set_ups: Sequence[_core.SetUp]) -> Floats:
+    """Return the bar from cup to ball in the base frame, of the nominal machine; shape (n, 3)."""
     position_mm, rotation = pose
     cup_mm = np.array([each.cup_mm for each in set_ups])[set_up]
     ball_mm = np.array([each.ball_offset_mm for each in set_ups])[set_up]
-    bar_mm = np.einsum("nij,ni->nj", rotation, position_mm - cup_mm) + ball_mm
-    found: Floats = np.arctan2(bar_mm[:, 1], bar_mm[:, 0])
+    found: Floats = position_mm - cup_mm + np.einsum("nij,nj->ni", rotation, ball_mm)
+    return found
+
+
+def _bar_angle(bar_mm: Floats, pose: Pose) -> Floats:
+    """Return the angle of the bar about the platform's z, shape (n,)."""
+    along = np.einsum("nij,ni->nj", pose[1], bar_mm)
+    found: Floats = np.arctan2(along[:, 1], along[:, 0])
     return found
 
 

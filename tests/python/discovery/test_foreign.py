@@ -220,3 +220,24 @@ def test_play_and_spikes_of_two_sliders_are_told_apart_from_a_lag_of_all() -> No
         "reversal_spike:1",
         "reversal_spike:6",
     }
+
+
+@pytest.mark.parametrize(
+    ("name", "causes"),
+    [
+        ("play-differs", {"backlash:2"}),
+        ("lead-bends", {"lead_error:5"}),
+        ("spike-and-bow", {"reversal_spike:5", "straightness:3"}),
+        pytest.param("two-frictions", {"joint_friction:3", "joint_friction:6"}, marks=pytest.mark.long),
+    ],
+)
+def test_forms_of_their_own_do_not_hide_effects(name: str, causes: set[str]) -> None:
+    """Play that differs by place and load, a lead that bends, stiction by acceleration, friction by load.
+
+    Their forms are up to a fifth off the formulas, and more in what geometry leaves of them.
+    """
+    found = found_in(name)
+    assert found.verdict == "effect"
+    assert {each.choice for each in found.causes} == causes
+    deviations = [each.form_deviation for each in found.causes]
+    assert max(deviations) < 0.25

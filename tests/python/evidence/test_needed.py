@@ -13,7 +13,7 @@ from hexdbb.evidence import exchange, known_together
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.exchange import settled
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.needed import by_formulas_instead, is_better, needs_all, rests_on_form
+from hexdbb.evidence.needed import by_formulas_instead, is_better, needs, needs_all, rests_on_form
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
@@ -31,6 +31,10 @@ class Trialled:
     def __init__(self, left: dict[frozenset[Member], float], fitted: set[frozenset[Member]]) -> None:
         self._left, self._fitted = left, fitted
         self.asked: list[frozenset[Member]] = []
+        self.bends: dict[tuple[Member, ...], float] = {}
+
+    def bent(self, trial: Any) -> float:
+        return self.bends.get(trial.members, 0.0)
 
     def has(self, members: tuple[Member, ...]) -> bool:
         return frozenset(members) in self._fitted
@@ -91,6 +95,16 @@ def test_more_effects_are_better_where_they_explain_more(left: float, expected: 
     than = node_of(search.trials.of((SCREW,)))
     assert is_better(search, wider, than) is expected
     assert not is_better(search, than, wider)
+
+
+@pytest.mark.parametrize(("bent", "expected"), [(0.4, True), (0.01, False)])
+def test_geometry_bent_beyond_its_priors_counts_as_unexplained(bent: float, expected: bool) -> None:
+    """A bow of three times the noise beside spikes left a half of the noise's variance, and geometry far off."""
+    search, wider = searched({(DRIFT, GAIN): 1.05, (DRIFT,): 1.4, (GAIN,): 8.0, (SCREW,): 1.06})
+    search.trials.bends = {(DRIFT,): bent, (SCREW,): bent}
+    search.trials.size = lambda trial, known: 0.2
+    assert needs(search, wider, GAIN) is expected
+    assert is_better(search, wider, node_of(search.trials.of((SCREW,)))) is expected
 
 
 @pytest.mark.parametrize(

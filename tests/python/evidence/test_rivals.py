@@ -9,6 +9,7 @@ import pytest
 
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.rivals import Rivals, rivals_of
 from hexdbb.evidence.screen import Known
@@ -20,12 +21,18 @@ TILT = Learned.parse("learned:ball:pitch")
 SCREW = Learned.parse("learned:slider:6:screw_phase")
 HOME, TURN = Learned.parse("learned:ball:time"), Learned.parse("learned:ball:yaw")
 DRIFT, GAIN = Known("bar_drift", ("bar",), is_whole=True), Known("bar_gain", ("bar",), is_whole=True)
+OTHER_LAG, OTHER_HOME = Known("servo_lag", ("5",)), Learned.parse("learned:slider:5:velocity")
 CIRCLES, FEED = "does not predict other circles", "does not predict the other feed"
+HELD = HeldOut(before=50.0, after=40.0, share=0.9, expected=1.0, as_fitted=40.0)
+ERRS = Checked({"circle": HELD}, 1.0, (), missed=12.0, missed_at_least=12.0)
+"""Of a cause that errs where left out by more than all that it explains."""
 
 
 def node_of(score: float, *hypotheses: Known | Learned, left: float = 1.0) -> Node:
     names, members = tuple(each.name for each in hypotheses), tuple(map(Member, hypotheses))
-    trial: Any = SimpleNamespace(members=members, refused=(), left=left, names=names, forms=(None,) * len(names))
+    trial: Any = SimpleNamespace(
+        members=members, refused=(), left=left, names=names, forms=(None,) * len(names), is_of_time=False
+    )
     return Node(trial, score)
 
 
@@ -54,8 +61,8 @@ def rivalry(
         criteria=DEFAULT,
         checked=lambda each: checks[id(each)],
         same_kind=lambda one, two: one.name in (two.name, home.name),
-        kin={cause.name: {home.name}},
-        learnable=SimpleNamespace(by_name={home.name: home}),
+        kin={cause.name: {home.name}, OTHER_LAG.name: {OTHER_HOME.name}},
+        learnable=SimpleNamespace(by_name={each.name: each for each in (home, OTHER_HOME)}),
         left_by_formulas=lambda trial: formulas.get(id(trial), trial.left),
         left_by_formula=lambda trial, form: by_formula,
         trials=SimpleNamespace(explained_before=0.0, of=lambda members: SimpleNamespace(left=11.0)),
@@ -169,3 +176,29 @@ def test_one_that_leaves_only_noise_is_named_beside_several_that_explain_by_form
     checked = Checked({}, 1.0, (), missed=missed)
     found = rivals(Checked({}, 1.0, ()), checked, other, beside=(Known("backlash", ("3",)),), by_formula=by_formula)
     assert found == ((SCREW.name,) if is_named else ())
+
+
+def test_a_function_that_two_sliders_share_is_no_rival_of_an_effect_of_both() -> None:
+    """Of two drives that lag, with friction besides, it says the same and is free to follow the friction."""
+    home, lag = Learned.parse("learned:slider:6:velocity"), Known("servo_lag", ("6",))
+    shared, other = Learned.parse("learned:slider:5-6:velocity"), Learned.parse("learned:leg:5-6:velocity")
+    checked = Checked({}, 1.0, (), missed=0.6)
+    for function, expected in ((shared, ()), (other, (other.name,))):
+        rival = node_of(50.0, function, left=1.1)
+        assert rivals(checked, checked, rival, lag, home, beside=(OTHER_LAG,), by_formula=5.0) == expected
+
+
+@pytest.mark.parametrize(("of_node", "is_rival"), [(1.5, False), (3.0, True)])
+def test_what_explains_less_than_a_formula_is_no_better_lead(of_node: float, is_rival: bool) -> None:
+    """A cause that errs by more than all that it explains is a lead: what explains less by far is none beside it."""
+    checked, rival = Checked({}, 1.0, (), missed=2.0), node_of(-500.0, TILT, left=2.0)
+    assert bool(rivals(ERRS, checked, rival, by_formulas=(of_node, 2.0))) is is_rival
+
+
+@pytest.mark.parametrize(("effect", "is_rival"), [("ball_eccentricity", False), ("joint_offset", True)])
+def test_the_same_effect_at_another_element_beside_others_is_no_rival_that_errs_less(
+    effect: str, is_rival: bool
+) -> None:
+    """Of two set-ups the ball may sit otherwise in either: the one says what the other does."""
+    checked, rival = Checked({}, 1.0, (), missed=2.0), node_of(-500.0, Known(effect, ("1",)), DRIFT)
+    assert bool(rivals(ERRS, checked, rival)) is is_rival

@@ -90,6 +90,7 @@ def asked(
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        nodes=[],
         trials=SimpleNamespace(explained_before=0.0),
         left_by_formulas=lambda trial: left,
         checked=lambda node: SimpleNamespace(
@@ -182,6 +183,7 @@ def test_an_effect_at_all_elements_explains_most_by_its_formula(left: float, sur
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        nodes=[],
         left_by_formulas=lambda trial: left,
         checked=lambda node: SimpleNamespace(share=1.0, excused=False, missed=0.1, missed_at_least=0.1, heldout={}),
     )
