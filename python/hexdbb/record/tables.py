@@ -82,8 +82,10 @@ def from_columns(columns: Columns, metadata: dict[str, bytes], path: Path) -> Re
     InputError
         As `from_table`.
     """
-    if not {KEY, MEASUREMENT_KEY, MACHINE_KEY} <= metadata.keys():
-        raise InputError(f'{path}: not a record (expected metadata "{KEY}"; bring data of other programs as .csv)')
+    if missing := [each for each in (KEY, MEASUREMENT_KEY, MACHINE_KEY) if each not in metadata]:
+        raise InputError(
+            f'{path}: not a record (expected metadata "{missing[0]}"; bring data of other programs as .csv)'
+        )
     header = read_header(metadata[KEY], path)
     measurement = _file(metadata[MEASUREMENT_KEY], Measurement, f"{path}: measurement")
     return Record(
