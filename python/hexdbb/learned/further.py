@@ -86,11 +86,12 @@ PRODUCTS_OF_SLIDER = (
     product("acceleration", v.POSITION),
     *(product("leg_force", each) for each in (v.POSITION,)),
     *(product("direction", each) for each in (v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.TIME, v.WARMING)),
+    product("direction", v.SCREW_PHASE),
     *(product(each, v.TIME) for each in ("velocity", "leg_force")),
     WARMING_POSITION,
 )
 PRODUCTS_OF_LEG = (
-    *PRODUCTS_OF_SLIDER,
+    *(each for each in PRODUCTS_OF_SLIDER if not each.period),
     *(product("leg_force", each) for each in (v.JOINT_ANGLE, v.SWING_ANGLE)),
     *(product("joint_direction", each) for each in (v.FORCE, v.TIME)),
     *(product("time", each) for each in (v.JOINT_ANGLE,)),

@@ -187,6 +187,8 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("rail-warms", "learned:vertical:2:time_position_settling@", {"circle", "feed", "direction"}),
         # It pulls more with every turn, and the other way round in the other direction.
         ("cable-winds", "learned:reading:turned", {"circle", "feed"}),
+        # A brake disc that rubs once a turn of the screw, against the travel: by no function of either alone.
+        ("brake-rubs", "learned:slider:1:direction_screw_phase", {"circle", "direction", "lap"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
