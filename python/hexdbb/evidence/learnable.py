@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
@@ -16,6 +17,10 @@ from hexdbb.learned.numbered import step
 MOST_CIRCLES = 24
 """Beginnings of circles, from which on what sits otherwise in each is left to functions of time: these have no more
 values (`homes.MOST_COLUMNS`)."""
+
+ALIKE = 1e-3
+"""Part of the variance of the platform's position that its angle may leave where functions of either are the same: of what
+is three times the noise that is a tenth of it, some fifty nats in 10,000 readings, and with more they are told apart."""
 
 
 def by_circle(readings: Readings) -> list[Learned]:
@@ -74,8 +79,16 @@ class Learnable:
         return self._further
 
     def _is_angle(self, learned: Learned) -> bool:
-        """Check for a function of the platform's position where all circles are about one cup: that is their angle."""
-        return "position_mm" in learned.variable.needs and len(np.unique(self._readings.state["mount"])) < 2
+        """Check for a function of the platform's position where all circles are alike: that is of their angle."""
+        return "position_mm" in learned.variable.needs and self._are_circles_alike
+
+    @cached_property
+    def _are_circles_alike(self) -> bool:
+        """Whether the platform's position in the x-y plane follows from the angle: one centre, radius and plane."""
+        angle, position = self._readings.state["angle_rad"], self._readings.state["position_mm"][:, :2]
+        waves = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
+        left = position - waves @ np.linalg.lstsq(waves, position, rcond=None)[0]
+        return float(np.var(left)) < ALIKE * float(np.var(position))
 
     def is_further(self, hypothesis: Hypothesis) -> bool:
         """Check whether a hypothesis is one of those that are looked at where no simple one settles."""

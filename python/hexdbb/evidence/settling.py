@@ -72,7 +72,7 @@ def settles(search: Search, node: Node) -> bool:
     if misses_most(search, node):
         return False
     if not node.is_known:
-        return leaves_nothing(search, node)
+        return leaves_nothing(search, node) and node.trial.left < search.criteria.leaves_structure
     return not (leaves_room(search, node) or rests_on_form(search, node.trial))
 
 
