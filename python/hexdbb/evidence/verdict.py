@@ -8,6 +8,7 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
+from hexdbb.evidence.fine_enough import or_one_fine_enough
 from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
@@ -23,6 +24,7 @@ from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.sure import Grade, graded
 from hexdbb.evidence.tuned import with_tuned_numbers
+from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
 
 
@@ -114,7 +116,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         return Verdict("none", (), node, None, before, refined_forms(search))
     node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, node))
-    node = with_tuned_numbers(search, node)
+    node = or_one_fine_enough(search, with_turning(search, with_tuned_numbers(search, node)))
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)

@@ -3,8 +3,9 @@
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
 less the same lag), what grows towards an end (`time_position_settling@470`, as what warms does), the time since a
-circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), and a vector's part along a direction
-(`acceleration_along@45`, degrees in the base's x-y plane).
+circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), a vector's part along a direction
+(`acceleration_along@45`, degrees in the base's x-y plane), and what turns over with a direction, but gradually
+(`direction_position_turning@0.5`, within so many mm/s or rad/s).
 """
 
 from __future__ import annotations
@@ -31,15 +32,18 @@ FOLLOWING_SPLINES = 6
 POSITION_SPLINES = 12
 """Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
 such a bend was taken for a leg's swing."""
-LAGGED, RELAXING, SETTLING, AFTER, ALONG = "lagged", "relaxing", "settling", "after", "along"
+LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
     RELAXING: "change of the {} within about {:.3g} s",
     SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
+    TURNING: "{}, which turns over within about {:.3g} {unit}",
 }
 """How a variable may be derived from another one by a number, in words: delayed, high-passed, growing by the law of a
-first-order lag in place of evenly, or counted from the start of the run-up."""
+first-order lag in place of evenly, counted from the start of the run-up, or turning over gradually."""
+RATES = {"travel_direction": ("velocity_mm_s", "mm/s"), "slider_joint_direction": ("slider_joint_rate_rad_s", "rad/s")}
+"""Of columns that are a direction: the rate of which it is the sign, and its unit."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
 DIRECTED = {
@@ -66,8 +70,26 @@ def periodic(column: str, period: float) -> Variable:
 
 
 def following(variable: Variable, how: str, constant: float) -> Variable:
-    """Return the variable of what follows another one: `LAGGED`, `RELAXING`, `SETTLING` (s) or `AFTER` (degrees)."""
+    """Return the variable of what follows another one.
+
+    Parameters
+    ----------
+    variable : Variable
+        For `TURNING` one that a direction of `RATES` multiplies.
+    how : str
+        `LAGGED`, `RELAXING`, `SETTLING`, `AFTER` or `TURNING`.
+    constant : float
+        s; of `AFTER` degrees; of `TURNING` mm/s or rad/s.
+    """
     number = f"{constant:.{NUMBER_DIGITS}g}"
+    if how == TURNING:
+        rate, unit = RATES[variable.times]
+        return replace(
+            variable,
+            name=f"{variable.name}_{how}@{number}",
+            times=f"{rate}{OF_MEMORY}{how}@{number}",
+            words=BY_NUMBER[how].format(variable.words, float(number), unit=unit),
+        )
     if how == SETTLING:
         return replace(
             variable,
@@ -83,6 +105,23 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
         count=variable.count if how == AFTER else FOLLOWING_SPLINES,
         signed=False,
     )
+
+
+def turns_with(variable: Variable) -> str | None:
+    """Return the rate with whose sign a variable's functions turn over at once; None where they do not."""
+    return RATES[variable.times][0] if variable.times in RATES else None
+
+
+def turning(variable: Variable, rate: float) -> Variable:
+    """Return the same variable turning over gradually, within a rate (mm/s, rad/s)."""
+    return following(variable, TURNING, rate)
+
+
+def at_once(times: str) -> str:
+    """Return the direction whose rate turns a column over gradually; other columns as they are."""
+    rate, _, how = times.partition(OF_MEMORY)
+    directions = {of: direction for direction, (of, _) in RATES.items()}
+    return directions[rate] if how.startswith(TURNING) else times
 
 
 def along(vector: str, direction_deg: float) -> Variable:
@@ -147,4 +186,6 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
     if how == ALONG:
         return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None
     known = {each.name: each for each in variables}
-    return following(known[of], how, values[0]) if how in BY_NUMBER and of in known else None
+    if how not in BY_NUMBER or of not in known or (how == TURNING and known[of].times not in RATES):
+        return None
+    return following(known[of], how, values[0])

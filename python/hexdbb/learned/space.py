@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
-from hexdbb.learned.numbered import INSTANT_S
+from hexdbb.learned.numbered import INSTANT_S, at_once
 from hexdbb.learned.tables import Table
 from hexdbb.learned.variable import AXES_OF_VECTOR, BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
 
@@ -217,14 +217,17 @@ class Space:
         return np.bincount(np.searchsorted(edges, values), minlength=len(points)).astype(np.float64)
 
     def tables(self, coefficients: Floats, machine: Directed) -> tuple[Table, ...]:
-        """Return the functions of some coefficients (mm), shape (size,), as a compensation needs them."""
+        """Return the functions of some coefficients (mm), shape (size,), as a compensation needs them.
+
+        Controllers know directions, not how gradually something turns over with them: in a table it does so at once.
+        """
         found, points, variable = [], self.points(), self.hypothesis.variable
         basis = self.functions(points)
         for component, part in enumerate(coefficients.reshape(self.hypothesis.components, -1)):
             table = Table(
                 port=self.hypothesis.port,
                 column=variable.column,
-                times=variable.times,
+                times=at_once(variable.times),
                 period=self.period,
                 pushes=self.hypothesis.pushes(component, machine),
                 knots=tuple(map(float, points)),

@@ -5,7 +5,8 @@ first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y
 sweeps no record says: it is taken to have run out along the circle and up along the next one, as it came round in other
 laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
 degrees is one to which is added what these take at the rate at which the circle is driven. What is `along` so many
-degrees is a vector's part along that direction in the base's x-y plane.
+degrees is a vector's part along that direction in the base's x-y plane. What is `turning` is the sign of a rate, which
+turns over gradually: tanh(rate / number).
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along)@(?P<constant>[0-9.e+-]+)")
+NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along|turning)@(?P<constant>[0-9.e+-]+)")
 RUN_UP_RAD = np.pi / 4.0
 """Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 LONGEST = 30.0
@@ -46,9 +47,9 @@ def remembered_column(
     Parameters
     ----------
     how : str
-        `lagged`, `relaxing`, `after` or `along`.
+        `lagged`, `relaxing`, `after`, `along` or `turning`.
     constant : float
-        Its time constant, s; of `after` the run-up, of `along` the direction, degrees.
+        Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `turning` a rate.
     column : ndarray, shape (n,) or (n, k)
     time_s, angle_rad : ndarray, shape (n,)
         Times rise within a sweep; polar angles with or without their turns.
@@ -57,6 +58,8 @@ def remembered_column(
     values = np.asarray(column, np.float64).reshape(len(column), -1)
     if how == "along":
         return np.asarray(values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))]))
+    if how == "turning":
+        return np.asarray(np.tanh(values / constant).reshape(column.shape))
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
     sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
     if how == "after":

@@ -1,0 +1,82 @@
+"""Functions that turn over with a direction of motion, but gradually: within how fast a motion is told by the readings.
+
+Friction is not the same on both sides of a reversal from one reading to the next: grease shears, what is pressed turns
+round first. A function times a direction then leaves most where its own motion is slow, at every reversal by another
+amount, which no function of the way since the reversal describes beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.number import with_best_number
+from hexdbb.evidence.readings import Readings
+from hexdbb.evidence.screen import Screen
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.trial import Member
+from hexdbb.evidence.tuned import around
+from hexdbb.learned import Learned, turning, turns_with
+
+PARTS = (0.01, 0.03, 0.1, 0.3)
+"""Rates within which a function may turn over, at first, in parts of the rate's root mean square: below the first, hardly
+a reading of a circle's thousand is taken meanwhile; above the last it is a function of the rate. They are a factor of
+three apart, of which tuning passes the half (`number.py`)."""
+
+
+def with_turning(search: Search, node: Node) -> Node:
+    """Return a set whose functions turn over as gradually as the readings ask for; the same set where they ask not.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+    """
+    for place, member in enumerate(node.members):
+        if node.trial.left < search.criteria.refined_to:
+            break
+        node = _turned(search, node, place, member)
+    return node
+
+
+def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
+    found = max(_scored(search, node, member), key=lambda each: each[0], default=None)
+    if found is None or found[0] < search.criteria.detect_nats:
+        return node
+    turned = replace(member, hypothesis=found[1])
+    try:
+        trial = search.trials.of((*node.members[:place], turned, *node.members[place + 1 :]))
+    except RunError:
+        return node
+    search.count_as(found[1], member.hypothesis)
+    trial = with_best_number(search, trial, place)
+    gain = trial.log_evidence - node.trial.log_evidence
+    if gain < search.criteria.detect_nats or trial.refused:
+        return node
+    better = Node(trial, node.score + gain)
+    search.nodes.append(better)
+    return better
+
+
+def _scored(search: Search, node: Node, member: Member) -> Iterator[tuple[float, Learned]]:
+    """Yield a member's function as it turns over within some rates, with what it gains about the fit of the set."""
+    hypothesis, readings = member.hypothesis, search.engine.readings
+    if not isinstance(hypothesis, Learned) or (rate := turns_with(hypothesis.variable)) is None:
+        return
+    sums = Sums(around(search, node, member), readings, ("circle",))
+    screen = Screen(sums, search.criteria, search.thinned, search.criteria.tuned_penalties, node.trial.left - 1.0)
+    sharp = screen.scored(hypothesis).log_evidence
+    for part in PARTS:
+        variable = turning(hypothesis.variable, part * _rms(readings, rate, hypothesis))
+        yield screen.scored(replace(hypothesis, variable=variable)).log_evidence - sharp, replace(hypothesis, variable=variable)
+
+
+def _rms(readings: Readings, rate: str, hypothesis: Learned) -> float:
+    values = readings.state[rate]
+    mine = values[:, hypothesis.element - 1] if 0 < hypothesis.element <= values.shape[1] else values
+    return float(np.sqrt(np.mean(np.square(mine))))
