@@ -1,9 +1,9 @@
 """One learned function, fine enough, in place of others or of several causes.
 
-A search ranks functions, and adds causes, with the splines and the turning over that they are first tried with. What the
-true one leaves at tens of times the noise, since it bends or turns over within less, others describe as well: that of the
-other leg of a pair, or friction there beside it. The few that explain most alone are therefore tuned, each by itself, and
-one of them is named where it then has more evidence than what was found.
+A search ranks functions, and adds causes, with the splines and the turning over that they are first tried with. What
+the true one leaves at tens of times the noise, since it bends or turns over within less, others describe as well: that
+of the other leg of a pair, or friction there beside it. The few that explain most alone are therefore tuned, each by
+itself, and one of them is named where it then has more evidence than what was found.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.refine import retuned
+from hexdbb.evidence.refine import with_best_splines
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import predicts
 from hexdbb.evidence.tuned import with_tuned_numbers
@@ -47,4 +47,4 @@ def _tuned(search: Search) -> Iterator[Node]:
     )
     by_name = {each.hypotheses[0].name: each for each in reversed(list(most))}
     for each in list(reversed(by_name.values()))[:TRIED]:
-        yield with_turning(search, with_tuned_numbers(search, retuned(search, with_turning(search, each))))
+        yield with_turning(search, with_tuned_numbers(search, with_best_splines(search, with_turning(search, each))))

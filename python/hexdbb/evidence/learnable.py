@@ -19,8 +19,9 @@ MOST_CIRCLES = 24
 values (`homes.MOST_COLUMNS`)."""
 
 ALIKE = 1e-3
-"""Part of the variance of the platform's position that its angle may leave where functions of either are the same: of what
-is three times the noise that is a tenth of it, some fifty nats in 10,000 readings, and with more they are told apart."""
+"""Part of the variance of the platform's position that its angle may leave where functions of either are
+the same: of what is three times the noise that is a tenth of it, some fifty nats in 10,000 readings, and with more
+they are told apart."""
 
 
 def by_circle(readings: Readings) -> list[Learned]:

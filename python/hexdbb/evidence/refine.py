@@ -37,7 +37,7 @@ def refined(search: Search, node: Node) -> Node:
     for _ in range(search.criteria.refinement_rounds):
         before = node
         if not _is_fine(search, node):
-            node = _widened(search, with_tuned_numbers(search, retuned(search, node)))
+            node = _widened(search, with_tuned_numbers(search, with_best_splines(search, node)))
         if node is before:
             break
     return node
@@ -63,7 +63,7 @@ def _error(search: Search, node: Node) -> float:
     return search.first_error(node.trial)
 
 
-def retuned(search: Search, node: Node) -> Node:
+def with_best_splines(search: Search, node: Node) -> Node:
     """Return a set whose learned functions have other splines or smoothness, where that gains and predicts well."""
     for place, member in enumerate(node.members):
         for tuned in islice(retunings(search, node, member), TRIED):

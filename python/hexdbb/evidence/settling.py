@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.place import homes_of
+from hexdbb.learned import ALL, Learned
+from hexdbb.learned.places import SHARED
 
 if TYPE_CHECKING:
     from hexdbb.evidence.node import Node
@@ -72,8 +74,18 @@ def settles(search: Search, node: Node) -> bool:
     if misses_most(search, node):
         return False
     if not node.is_known:
-        return leaves_nothing(search, node) and node.trial.left < search.criteria.leaves_structure
+        return leaves_nothing(search, node) and (_leaves_no_structure(search, node) or _is_shared(node))
     return not (leaves_room(search, node) or rests_on_form(search, node.trial))
+
+
+def _leaves_no_structure(search: Search, node: Node) -> bool:
+    """Check that a set leaves too little to tell what else bends, or turns over, as its functions do."""
+    return node.trial.left < search.criteria.leaves_structure
+
+
+def _is_shared(node: Node) -> bool:
+    """Check for a function that all elements share: what it leaves is how they differ (`refine.py`)."""
+    return any(isinstance(each, Learned) and each.element == ALL and each.place in SHARED for each in node.hypotheses)
 
 
 def rests_on_form(search: Search, trial: Trial) -> bool:

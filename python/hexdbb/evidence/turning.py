@@ -15,7 +15,6 @@ import numpy as np
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
-from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Screen
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sums import Sums
@@ -24,9 +23,9 @@ from hexdbb.evidence.tuned import around
 from hexdbb.learned import Learned, turning, turns_with
 
 PARTS = (0.01, 0.03, 0.1, 0.3)
-"""Rates within which a function may turn over, at first, in parts of the rate's root mean square: below the first, hardly
-a reading of a circle's thousand is taken meanwhile; above the last it is a function of the rate. They are a factor of
-three apart, of which tuning passes the half (`number.py`)."""
+"""Rates within which a function may turn over, at first, in parts of the rate's root
+mean square: below the first, hardly a reading of a circle's thousand is taken meanwhile; above the last it is a
+function of the rate. They are a factor of three apart, of which tuning passes the half (`number.py`)."""
 
 
 def with_turning(search: Search, node: Node) -> Node:
@@ -45,6 +44,8 @@ def with_turning(search: Search, node: Node) -> Node:
 
 
 def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
+    if not isinstance(member.hypothesis, Learned):
+        return node
     found = max(_scored(search, node, member), key=lambda each: each[0], default=None)
     if found is None or found[0] < search.criteria.detect_nats:
         return node
@@ -66,17 +67,14 @@ def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
 def _scored(search: Search, node: Node, member: Member) -> Iterator[tuple[float, Learned]]:
     """Yield a member's function as it turns over within some rates, with what it gains about the fit of the set."""
     hypothesis, readings = member.hypothesis, search.engine.readings
-    if not isinstance(hypothesis, Learned) or (rate := turns_with(hypothesis.variable)) is None:
+    assert isinstance(hypothesis, Learned)
+    rate = turns_with(hypothesis.variable)
+    if rate is None:
         return
     sums = Sums(around(search, node, member), readings, ("circle",))
     screen = Screen(sums, search.criteria, search.thinned, search.criteria.tuned_penalties, node.trial.left - 1.0)
     sharp = screen.scored(hypothesis).log_evidence
+    rms = float(np.sqrt(np.mean(np.square(readings.state[rate]))))
     for part in PARTS:
-        variable = turning(hypothesis.variable, part * _rms(readings, rate, hypothesis))
-        yield screen.scored(replace(hypothesis, variable=variable)).log_evidence - sharp, replace(hypothesis, variable=variable)
-
-
-def _rms(readings: Readings, rate: str, hypothesis: Learned) -> float:
-    values = readings.state[rate]
-    mine = values[:, hypothesis.element - 1] if 0 < hypothesis.element <= values.shape[1] else values
-    return float(np.sqrt(np.mean(np.square(mine))))
+        gradual = replace(hypothesis, variable=turning(hypothesis.variable, part * rms))
+        yield screen.scored(gradual).log_evidence - sharp, gradual

@@ -215,7 +215,7 @@ TABLE: dict[str, Outside] = {
     "carriage_nods": Outside("um", 15.0, 300.0, ("position",), _carriage_nods),
     "leg_yields_late": Outside("um", 20.0, 600.0, ("leg_force",), _leg_yields_late),
     "pair_joint_hangs_back": Outside("um", 10.0, 300.0, ("direction", "angle"), _pair_joint_hangs_back),
-    "stand_tips": Outside("um", 15.0, 500.0, ("angle",), _stand_tips),
+    "stand_tips": Outside("um", 15.0, 500.0, ("position", "angle"), _stand_tips),
     "ball_is_dragged_round": Outside("um", 15.0, 300.0, ("time", "angle"), _ball_is_dragged_round),
     "gain_swings": Outside("%", 1.0, 10.0, ("deflection", "time"), _gain_swings, "varied"),
 }

@@ -22,8 +22,8 @@ from hexdbb_truth.forms.cases import case
     [
         # A seal that runs in drags by the sign of its velocity, turned over within 0.2 mm/s.
         ("seal_runs_in-d0-x30-calibrate-s46", "learned:slider:6:direction_time_turning", 0.2, 0.01),
-        # A joint that binds near one angle, within 0.005 rad/s: the other leg of the pair, sharp, has more evidence than
-        # this leg, sharp, and friction there describes what it leaves.
+        # A joint that binds near one angle, within 0.005 rad/s: at once, the other leg of the pair has more evidence
+        # than this leg, and friction there describes what it leaves.
         ("joint_sticks-d0-x30-calibrate-s46", "learned:leg:2:joint_angle_direction_turning", 0.005, 0.0003),
         # The circles are of one cup and nearly concentric: functions of their angle explain 97 %.
         ("stand_tips-d0-x10-calibrate-s47", "learned:cup:position_along", 29.0, 2.0),
@@ -32,7 +32,9 @@ from hexdbb_truth.forms.cases import case
 def test_the_number_is_found_and_other_circles_predicted(name: str, cause: str, number: float, within: float) -> None:
     samples = Samples.of([case(name).record()])
     model = new_model(samples.machine).with_mounts(samples.mounts)
-    verdict = judge(Search(Engine(samples, model, judging_noise(samples).noise), _core.effect_names("catalogue"), DEFAULT))
+    verdict = judge(
+        Search(Engine(samples, model, judging_noise(samples).noise), _core.effect_names("catalogue"), DEFAULT)
+    )
     (found,) = verdict.found
     learned = found.hypothesis
     assert isinstance(learned, Learned)

@@ -67,5 +67,7 @@ def test_words_say_so_and_a_controller_turns_it_over_at_once() -> None:
     assert (table.column, table.times) == ("sliders_mm", "travel_direction")
     at = space.points()
     known = np.full(len(at), 1e-9)
-    curve = Curve("position", "mm", "sliders_mm", learned.variable.times, at, space.functions(at) @ values, known, known)
+    curve = Curve(
+        "position", "mm", "sliders_mm", learned.variable.times, at, space.functions(at) @ values, known, known
+    )
     assert describe(curve).text.endswith("its sign turning over gradually with the motion")
