@@ -75,19 +75,20 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     Parameters
     ----------
     variable : Variable
-        For `TURNING` one that a direction of `RATES` multiplies.
+        For `TURNING` one that a direction of `RATES` multiplies, or with a step where its column changes sign.
     how : str
         `LAGGED`, `RELAXING`, `SETTLING`, `AFTER` or `TURNING`.
     constant : float
-        s; of `AFTER` degrees; of `TURNING` mm/s or rad/s.
+        s; of `AFTER` degrees; of `TURNING` a rate, in its own unit.
     """
     number = f"{constant:.{NUMBER_DIGITS}g}"
     if how == TURNING:
-        rate, unit = RATES[variable.times]
+        rate, unit = (variable.column, variable.unit) if variable.signed else RATES[variable.times]
         return replace(
             variable,
             name=f"{variable.name}_{how}@{number}",
-            times=f"{rate}{OF_MEMORY}{how}@{number}",
+            times="" if variable.signed else f"{rate}{OF_MEMORY}{how}@{number}",
+            turns_within=float(number) if variable.signed else 0.0,
             words=BY_NUMBER[how].format(variable.words, float(number), unit=unit),
         )
     if how == SETTLING:
@@ -108,8 +109,10 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
 
 
 def turns_with(variable: Variable) -> str | None:
-    """Return the rate with whose sign a variable's functions turn over at once; None where they do not."""
-    return RATES[variable.times][0] if variable.times in RATES else None
+    """Return the column with whose sign a variable's functions turn over at once; None where they do not."""
+    if variable.turns_within:
+        return None
+    return variable.column if variable.signed else RATES[variable.times][0] if variable.times in RATES else None
 
 
 def turning(variable: Variable, rate: float) -> Variable:
@@ -186,6 +189,6 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
     if how == ALONG:
         return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None
     known = {each.name: each for each in variables}
-    if how not in BY_NUMBER or of not in known or (how == TURNING and known[of].times not in RATES):
+    if how not in BY_NUMBER or of not in known or (how == TURNING and turns_with(known[of]) is None):
         return None
     return following(known[of], how, values[0])

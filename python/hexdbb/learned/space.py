@@ -107,7 +107,8 @@ class Space:
                 raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
             if variable.signed:
                 rms = float(np.sqrt(np.mean(known**2)))
-                sign_width, warp_width = SIGN_PART * rms, 0.0 if variable.is_even else WARP_PART * rms
+                sign_width = variable.turns_within or SIGN_PART * rms
+                warp_width = 0.0 if variable.is_even else sign_width * WARP_PART / SIGN_PART
             if not period:
                 argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else _warped(known, warp_width)
                 low, high = float(argument.min()), float(argument.max())

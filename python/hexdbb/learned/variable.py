@@ -52,6 +52,8 @@ class Variable:
         Of the column, in its unit; 0 where it is not periodic, `SCREW_LEAD` where the machine's screws set it.
     signed : bool
         Whether a step with the column's sign belongs to it, and its splines are dense about zero.
+    turns_within : float
+        Range of the column over which such a step is smeared; 0: a small part of what it has in the readings.
     is_even : bool
         Whether its splines lie evenly all the same: what grows with a velocity or with its square bends nowhere.
     from_start : bool
@@ -82,6 +84,7 @@ class Variable:
     times: str = ""
     period: float = 0.0
     signed: bool = False
+    turns_within: float = 0.0
     is_even: bool = False
     from_start: bool = False
     of_neighbour: bool = False
