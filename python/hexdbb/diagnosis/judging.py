@@ -7,7 +7,7 @@ with the next: then what is stated counts, and whatever else is found, not all i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,9 @@ from hexdbb.samples import Samples
 
 UNSTEADY = 1.25
 """Noise of repeated laps over the gauge's stated noise beyond which the machine does not repeat."""
+QUIETER = 0.7
+"""Noise of what a model leaves over that of the laps from which the laps' own differences were no noise: half its
+variance. Functions free enough to follow noise take a tenth of it."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +30,19 @@ class JudgingNoise:
     noise: Noise
     remark: str | None = None
     is_steady: bool = True
+
+    def beside(self, samples: Samples, residual_mm: NDArray[np.float64]) -> JudgingNoise:
+        """Return the noise of what a model leaves, where that repeats much better than the laps do; else the same.
+
+        Noise is told by laps that repeat each other, less what the nominal machine reads. What changes faster than
+        that, or from lap to lap, is in it until a model explains it: the pitch error of a screw that turns by more than
+        its lead between two readings, a gauge that wanders.
+        """
+        if self.noise.source != "repeated laps":
+            return self
+        sigma_mm = residual_repeats_to(samples, residual_mm)
+        is_quieter = sigma_mm < QUIETER * self.noise.sigma_mm
+        return replace(self, noise=replace(self.noise, sigma_mm=sigma_mm)) if is_quieter else self
 
 
 def explains_changes(samples: Samples, residual_mm: NDArray[np.float64], judging: JudgingNoise) -> bool:

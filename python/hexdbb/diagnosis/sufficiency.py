@@ -131,7 +131,10 @@ def assess_sufficiency(
     judged = noise or judging_noise(samples)
     found = glitches_in(samples, residual_mm, judged.noise.sigma_mm) if alone is None else alone
     left_mm = bridged(samples, residual_mm, found)
-    lack = (test or FitTest(samples, judged.noise)).of(left_mm, int(model.free.sum()))
+    count = int(model.free.sum())
+    lack = (test or FitTest(samples, judged.noise)).of(left_mm, count)
+    if not lack.is_significant and (quieter := judged.beside(samples, left_mm)) is not judged:
+        judged, lack = quieter, FitTest(samples, quieter.noise).of(left_mm, count)
     if matters_um is None:
         matters_um = default_matters_um(judged.noise.sigma_mm * 1e3, explained_um(samples, model, residual_mm))
     return Sufficiency(lack, matters_um, judged.is_steady)

@@ -30,6 +30,7 @@ from hexdbb.discovery.words import NOTHING
 from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.quieter import judged_again
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sufficiency import repeats_but_for_forms
 from hexdbb.evidence.verdict import judge
@@ -94,18 +95,18 @@ def discover(
     require_usable_effects(samples, known, names)
     progress("fitting the model as it is")
     begun = _begun(samples, with_judged_free(samples.unmeasured, known), criteria)
-    engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
-    test = FitTest(samples, noise)
-
-    def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
-        return assess_sufficiency(samples, fitted, residual_mm, noise=begun.judging, matters_um=matters_um, test=test)
-
-    enough = judged(engine.base, engine.residual_mm)
+    judged = begun.judge(matters_um)
+    enough = judged(begun.engine.base, begun.engine.residual_mm)
     if not enough.matters:
-        return _with_remarks(_nothing(engine, enough), begun)
+        return _with_remarks(_nothing(begun.engine, enough), begun)
     progress("screening all hypotheses, fitting the best")
-    search = Search(engine, names, criteria, learns=not known_only)
-    verdict = judge(search, enough.matters_um)
+    first = Search(begun.engine, names, criteria, learns=not known_only)
+    search, verdict = judged_again(first, judge(first, enough.matters_um), enough.matters_um)
+    if search is not first:
+        begun = begun.by_noise_of(search.engine)
+        judged = begun.judge(matters_um)
+        enough = judged(begun.engine.base, begun.engine.residual_mm)
+    engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
     outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
     repeats = verdict.grade == "none" and repeats_but_for_forms(search.root.trial, search.trials, begun.judging)
     if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
@@ -123,17 +124,36 @@ class _Begun:
     judging: JudgingNoise
     left_out: str | None
 
+    def by_noise_of(self, engine: Engine) -> _Begun:
+        """Return the same readings judged by the noise of another engine of them."""
+        return replace(self, engine=engine, judging=replace(self.judging, noise=engine.noise))
+
+    def judge(self, matters_um: float | None) -> Callable[[Model, np.ndarray], Sufficiency]:
+        """Return what tells whether a model, and what it leaves, is sufficient."""
+        samples = self.engine.samples
+        test = FitTest(samples, self.judging.noise)
+
+        def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
+            return assess_sufficiency(
+                samples, fitted, residual_mm, noise=self.judging, matters_um=matters_um, test=test
+            )
+
+        return judged
+
 
 def _begun(samples: Samples, model: Model, criteria: Criteria) -> _Begun:
     judging = judging_noise(samples)
     engine = Engine(samples, model, judging.noise, criteria)
     alone = glitches_in(samples, engine.residual_mm, judging.noise.sigma_mm)
-    if not alone.any():
-        return _Begun(engine, judging, None)
-    kept = samples.part(~alone)
-    judging = judging_noise(kept)
-    left_out = glitches_sentence(samples, engine.residual_mm, alone)
-    return _Begun(Engine(kept, model, judging.noise, criteria), judging, left_out)
+    kept, left_out = samples, None
+    if alone.any():
+        kept = samples.part(~alone)
+        judging = judging_noise(kept)
+        left_out = glitches_sentence(samples, engine.residual_mm, alone)
+    quieter = judging.beside(kept, engine.residual_mm[~alone])
+    if left_out is not None or quieter is not judging:
+        engine = Engine(kept, model, quieter.noise, criteria)
+    return _Begun(engine, quieter, left_out)
 
 
 def absent_effects(model: Model) -> list[str]:

@@ -8,13 +8,18 @@ from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import is_complete
+from hexdbb.evidence.settling import explained_by_formulas, is_complete
 from hexdbb.evidence.trial import Member
 
 
 def explain_by_own_formulas(search: Search, node: Node) -> bool:
-    """Check for known effects that each explain by their own formula nearly all that the others leave."""
-    return node.is_known and all(
+    """Check for known effects that each explain by their own formula nearly all that they do, and together nearly all.
+
+    Of what the others leave each explains enough: the rest of it may be what the others' formulas leave.
+    """
+    if not node.is_known or explained_by_formulas(search, node) < search.criteria.form_explains:
+        return False
+    return all(
         _explains_by_its_own(search, node, member, form)
         for member, form in zip(node.members, node.trial.forms, strict=True)
     )
@@ -25,8 +30,9 @@ def _explains_by_its_own(search: Search, node: Node, member: Member, form: Form 
         others = search.trials.of(node.without(member)).left
     except RunError:
         return False
-    left = search.left_by_formula(node.trial, form)
-    return others - left >= search.criteria.form_explains * (others - 1.0)
+    explains = others - search.left_by_formula(node.trial, form)
+    is_enough = explains >= search.criteria.explained_min * (others - 1.0)
+    return is_enough and explains >= search.criteria.form_explains * (others - node.trial.left)
 
 
 def err_by_geometry(search: Search, node: Node) -> bool:

@@ -18,6 +18,7 @@ from hexdbb.diagnosis import judging_noise
 from hexdbb.discovery import discover
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.quieter import judged_again
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.verdict import Verdict, judge
 from hexdbb.ledger import add_effect
@@ -128,8 +129,8 @@ def line_of(case: forms.Case, withheld: Sequence[str]) -> dict[str, Any]:
     model = new_model(record.machine).with_mounts(samples.mounts)
     effects = [each for each in _core.effect_names("catalogue") if each not in withheld]
     began = time.process_time()
-    search = Search(Engine(samples, model, judging_noise(samples).noise), effects, DEFAULT)
-    verdict = judge(search)
+    first = Search(Engine(samples, model, judging_noise(samples).noise), effects, DEFAULT)
+    search, verdict = judged_again(first, judge(first))
     seconds = time.process_time() - began
     found = [Named(each.hypothesis.name, each.grade, each.rivals, each.alike) for each in verdict.found]
     outcome = outcome_of(verdict.grade, found, labels, withheld)
