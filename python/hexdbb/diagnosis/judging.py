@@ -1,8 +1,9 @@
 """The noise that a model of some records is judged by, and what is to be said of it.
 
-Repeated laps tell it best, where they are as steady as the gauge is stated to be. Where they repeat much worse, either
-the gauge is noisier than stated, and what differs from lap to lap is white; or something is missing that no lap shares
-with the next: then what is stated counts, and whatever else is found, not all is well.
+Repeated laps tell it best, where they are as steady as the gauge is stated to be, or as neighbouring readings are.
+Where they repeat much worse, either the gauge is noisier than stated, and what differs from lap to lap is white; or
+something is missing that no lap shares with the next: then what is stated, or what neighbouring readings do not share,
+counts, and whatever else is found, not all is well.
 """
 
 from __future__ import annotations
@@ -21,6 +22,12 @@ UNSTEADY = 1.25
 QUIETER = 0.7
 """Noise of what a model leaves over that of the laps from which the laps' own differences were no noise: half its
 variance. Functions free enough to follow noise take a tenth of it."""
+
+
+ROUGH = 5.0
+"""Noise of repeated laps over that of neighbouring readings beyond which laps differ by something slower than noise:
+that which keeps nineteen twentieths from one reading to the next has 4.5. Axes that hunt, and floors that shake, have
+more."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +69,9 @@ def judging_noise(samples: Samples, estimated: Noise | None = None) -> JudgingNo
         As `noise_of` estimates it, where that is known already.
     """
     repeated, stated = estimated or noise_of(samples), stated_noise(samples)
-    if stated is None or repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
+    if stated is None:
+        return _beside_neighbours(repeated)
+    if repeated.sigma_mm < UNSTEADY * stated.sigma_mm:
         return JudgingNoise(repeated)
     sizes = (
         f"laps repeat to {repeated.sigma_mm * 1e3:.2f} µm only,"
@@ -71,3 +80,14 @@ def judging_noise(samples: Samples, estimated: Noise | None = None) -> JudgingNo
     if is_white(list(lap_differences(samples))):
         return JudgingNoise(repeated, f"{sizes}: it is noisier than stated")
     return JudgingNoise(stated, f"{sizes}: something changes from lap to lap", is_steady=False)
+
+
+def _beside_neighbours(repeated: Noise) -> JudgingNoise:
+    """Return the noise of repeated laps; that of neighbouring readings where laps differ by far more."""
+    if repeated.sigma_mm < ROUGH * repeated.rough_mm:
+        return JudgingNoise(repeated)
+    sizes = (
+        f"laps repeat to {repeated.sigma_mm * 1e3:.2f} µm only,"
+        f" neighbouring readings to {repeated.rough_mm * 1e3:.2f} µm: something changes from lap to lap"
+    )
+    return JudgingNoise(Noise(repeated.rough_mm, "roughness"), sizes, is_steady=False)

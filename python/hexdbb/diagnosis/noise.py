@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import NormalDist
 from typing import Literal
 
@@ -68,18 +68,22 @@ class Noise:
     source : str
     tail : float
         Relative excess of the standard deviation if longer tails than those of normal noise are included.
+    rough_mm : float
+        Of laps' differences, what neighbours do not share: less where noise lasts, all of it where it is white.
     """
 
     sigma_mm: float
     source: Literal["repeated laps", "stated", "roughness"]
     tail: float = 0.0
+    rough_mm: float = float("inf")
 
 
 def noise_of(samples: Samples) -> Noise:
     """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
-        return _estimate_from(_steady(repeated), "repeated laps")
+        rough = np.concatenate([np.diff(each, n=2) / np.sqrt(6.0) for each in repeated])
+        return replace(_estimate_from(_steady(repeated), "repeated laps"), rough_mm=_robust_sigma(rough))
     stated = stated_noise(samples)
     if stated is not None:
         return stated

@@ -37,7 +37,7 @@ def with_turning(search: Search, node: Node) -> Node:
     node : Node
     """
     for place, member in enumerate(node.members):
-        if node.trial.left < search.criteria.refined_to:
+        if node.trial.left < search.criteria.leaves_structure:
             break
         node = _turned(search, node, place, member)
     return node

@@ -113,10 +113,10 @@ PRODUCTS_OF_READING = (
 NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
 OF_PAIR_OF_SLIDERS = (
     *(v.POSITION, v.FINE_POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.FORCE),
-    *(v.TIME, v.TIME_POSITION, v.WARMING, v.SCREW_PHASE),
+    *(v.TIME, v.TIME_POSITION, v.WARMING, v.SCREW_PHASE, v.GAP),
 )
 OF_PAIR_OF_LEGS = (
-    *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE)),
+    *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE, v.GAP)),
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
 ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
@@ -165,6 +165,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider": (
         v.DRIVE_LOAD,
         v.CARRIAGE_LOAD,
+        v.GAP,
         *PRODUCTS_OF_SLIDER,
         *NEIGHBOURS,
         *_remembered(v.DRIVE_LOAD),

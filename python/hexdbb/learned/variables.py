@@ -52,6 +52,8 @@ NEIGHBOUR_VELOCITY = Variable(
     signed=True,
     of_neighbour=True,
 )
+GAP = Variable("gap", "gap_mm", "mm", "distance from the other slider on the guideway", 12)
+"""Bellows and covers between two carriages push them apart, each by the same function of its own distance."""
 ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12, signed=True)
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)

@@ -29,6 +29,7 @@ from hexdbb.samples.deflection import (
 )
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
+from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
@@ -75,7 +76,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -105,6 +106,8 @@ class Whole:
         elif name == REACTION:
             (acceleration,) = self._known(REACTION_FROM)
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
+        elif name == GAP:
+            self.columns[name] = gaps_mm(*self._known(GAP_FROM))
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
         elif name == SCALE:

@@ -7,8 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
-from hexdbb.diagnosis import noise_of
+from hexdbb.diagnosis import JudgingNoise, judging_noise, noise_of
 from hexdbb.diagnosis.noise import MIN_REPEATS, PARTS, lap_differences
 from hexdbb.model import new_model
 from hexdbb.record import Record
@@ -129,3 +130,43 @@ def test_a_contour_sampled_sparsely_and_unevenly_is_no_noise(seed: int) -> None:
     draw = np.random.default_rng(seed)
     sparse = record.part(draw.random(len(record)) < 0.3)
     assert noise_of(Samples.of([sparse])).sigma_mm * 1e3 == pytest.approx(0.5, rel=0.05)
+
+
+def test_laps_that_differ_by_what_neighbours_share_are_no_noise() -> None:
+    """An axis that hunts by 8 µm, its phase wandering, beside noise of half a micrometre: no gauge is so noisy."""
+    record, draw = clean(1), np.random.default_rng(5)
+    time_s = record.columns["t_s"]
+    phase = 2.0 * np.pi * 0.43 * time_s + np.cumsum(draw.normal(0.0, 0.05, len(record)))
+    reading_um = of_the_machine(record, draw.normal(0.0, 0.5, len(record))).columns["reading_um"] + 8.0 * np.sin(phase)
+    samples = Samples.of([unstated(replace(record, columns={**record.columns, "reading_um": reading_um}))])
+    judging = judging_noise(samples)
+    assert not judging.is_steady and judging.remark is not None
+    assert "something changes from lap to lap" in judging.remark
+    assert judging.noise.sigma_mm * 1e3 < 2.5 < noise_of(samples).sigma_mm * 1e3
+
+
+def test_noise_that_lasts_is_steady() -> None:
+    """Nine tenths of it are kept from one reading to the next."""
+    record, draw = clean(1), np.random.default_rng(6)
+    kept = 0.9
+    lasting = lfilter([np.sqrt(1.0 - kept**2)], [1.0, -kept], draw.normal(0.0, 0.5, len(record)))
+    assert judging_noise(Samples.of([unstated(of_the_machine(record, lasting))])).is_steady
+
+
+def test_what_a_model_explains_was_no_noise() -> None:
+    record = clean(1)
+    samples = Samples.of([of_the_machine(record, np.random.default_rng(7).normal(0.0, 0.5, len(record)))])
+    left_mm = predict(samples, new_model(samples.machine)).residual_mm
+    noise = noise_of(samples)
+    assert JudgingNoise(noise).beside(samples, left_mm).noise is noise
+    noisy = JudgingNoise(
+        replace(noise, sigma_mm=3.0 * noise.sigma_mm)
+    )  # a pitch error that no lap shares with the next
+    assert noisy.beside(samples, left_mm).noise.sigma_mm == pytest.approx(noise.sigma_mm, rel=0.01)
+    stated = JudgingNoise(replace(noisy.noise, source="stated"))
+    assert stated.beside(samples, left_mm) is stated
+
+
+def unstated(record: Record) -> Record:
+    """Return a record whose gauge states no noise."""
+    return replace(record, gauge=record.gauge.model_copy(update={"noise_um": None}))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from hexdbb.diagnosis import judging_noise
@@ -12,9 +13,11 @@ from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case
 
 
-@pytest.mark.parametrize(("plan", "is_asked"), [("standard", False), ("varied", True)])
-def test_about_one_cup_the_platform_s_position_is_the_angle(plan: str, is_asked: bool) -> None:
-    samples = Samples.of([case(f"none-calibrate-s1@{plan}").record()])
+@pytest.mark.parametrize(("circles", "is_asked"), [((0, 5, 6), False), ((0, 1, 2, 3), True)])
+def test_on_concentric_circles_the_platform_s_position_is_the_angle(circles: tuple[int, ...], is_asked: bool) -> None:
+    """Circles 1 to 4 of the standard plan stand an eighth of their radius off the middle, 0, 5 and 6 on it."""
+    record = case("none-calibrate-s1@standard").record()
+    samples = Samples.of([record.part(np.isin(record.columns["circle"], circles))])
     model = new_model(samples.machine).with_mounts(samples.mounts)
     readings = Engine(samples, model, judging_noise(samples).noise).readings
     further = Learnable(readings, learns=True).further

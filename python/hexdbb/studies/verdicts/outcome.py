@@ -24,6 +24,7 @@ PLACES = {"lateral": "guideway", "vertical": "guideway", "platform": "platform_j
 VARIABLES = {
     "fine_position": ("position",),
     "screw_phase": ("position",),
+    "gap": ("position",),
     "direction": ("direction",),
     "direction_position": ("direction", "position"),
     "since_reversal_time": ("since_reversal", "direction"),

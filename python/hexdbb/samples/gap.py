@@ -1,0 +1,18 @@
+"""How far the two carriages of a guideway are apart: bellows, covers and cables between them push them by that."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+GAP = "gap_mm"
+GAP_FROM = "sliders_mm"
+"""Column that it follows from."""
+
+
+def gaps_mm(sliders_mm: Floats) -> Floats:
+    """Return each slider's coordinate less that of the other one on its guideway, shape (n, 6)."""
+    neighbours = np.arange(sliders_mm.shape[1]) ^ 1
+    return np.asarray(sliders_mm - sliders_mm[:, neighbours])
