@@ -82,8 +82,8 @@ def noise_of(samples: Samples) -> Noise:
     """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
-        rough = np.concatenate([np.diff(each, n=2) / np.sqrt(6.0) for each in repeated])
-        return replace(_estimate_from(_steady(repeated), "repeated laps"), rough_mm=_robust_sigma(rough))
+        apart = np.concatenate([np.diff(each, n=2) / np.sqrt(6.0) for each in repeated])
+        return replace(_estimate_from(_steady(repeated), "repeated laps"), rough_mm=_robust_sigma(apart))
     stated = stated_noise(samples)
     if stated is not None:
         return stated

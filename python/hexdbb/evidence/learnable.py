@@ -13,15 +13,28 @@ from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying
 from hexdbb.learned import ALL, Learned, further_hypotheses, grown_with_warmth, products
 from hexdbb.learned.numbered import step
+from hexdbb.learned.variables import BAR_AZIMUTH
 
 MOST_CIRCLES = 24
 """Beginnings of circles, from which on what sits otherwise in each is left to functions of time: these have no more
 values (`homes.MOST_COLUMNS`)."""
 
+SAME_ANGLE = 1e-3
+"""Mean of one less the cosine of what two angles differ by, below which they are the same: 2.6 degrees, a sixth of what a
+spline over them is wide."""
 ALIKE = 1e-3
 """Part of the variance of the platform's position that its angle may leave where functions of either are
 the same: of what is three times the noise that is a tenth of it, some fifty nats in 10,000 readings, and with more
 they are told apart."""
+
+
+def _is_said_already(learned: Learned, readings: Readings) -> bool:
+    """Check for a function of the bar's angle in the base where that is the circle's own, or that in the platform."""
+    if learned.variable != BAR_AZIMUTH:
+        return False
+    state = readings.state
+    apart = (state["bar_azimuth_rad"] - state[other] for other in ("angle_rad", "bar_angle_rad"))
+    return any(float(np.mean(1.0 - np.cos(each))) < SAME_ANGLE for each in apart)
 
 
 def by_circle(readings: Readings) -> list[Learned]:
@@ -65,7 +78,7 @@ class Learnable:
 
     def __init__(self, readings: Readings, *, learns: bool) -> None:
         self._readings = readings
-        self.simple = all_varying(readings)
+        self.simple = [each for each in all_varying(readings) if not _is_said_already(each, readings)]
         self.products = list(varying(products(), readings)) if learns else []
         self.of_forms = _of_forms(readings) if learns else []
         self._further: dict[str, Learned] = {}

@@ -19,7 +19,8 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
     A single cause gives way to one of another kind; of several, some may be right. One that is for sure although it
     errs where geometry leads away gives way to nothing that fits worse: what is freer only expects to err more. Known
     effects that explain nearly all by their formulas do not give way to others that explain less by theirs. Nothing
-    gives way to what errs more on the readings left out for which it is doubted: that claims less, and is no better.
+    gives way to what errs more on the readings left out for which it is doubted: that claims less, and is no better. A
+    function that leaves no structure gives way to nothing that leaves some: what errs is geometry.
     """
     if not is_doubtful(search, node):
         return node
@@ -34,6 +35,7 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
         and not (is_one and any(search.same_kind(one, other) for one in each.hypotheses for other in node.hypotheses))
         and not (is_sure and each.score < node.score - search.criteria.margin_nats)
         and not _explains_less_by_formulas(search, each, node)
+        and not _leaves_structure_where(search, each, node)
     ]
     # The best first: what lies behind it need not be held out.
     others.sort(key=lambda each: -each.score)
@@ -57,6 +59,12 @@ def _errs_no_more(search: Search, other: Node, doubted: Mapping[str, HeldOut]) -
     return all(
         (own[grouping].after if grouping in own else held.before) <= held.after for grouping, held in doubted.items()
     )
+
+
+def _leaves_structure_where(search: Search, other: Node, node: Node) -> bool:
+    """Check for a set that leaves structure, where another, of one learned function, leaves none."""
+    is_function = len(node.members) == 1 and not node.is_known
+    return is_function and node.trial.left < search.criteria.leaves_structure <= other.trial.left
 
 
 def _explains_less_by_formulas(search: Search, other: Node, node: Node) -> bool:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear
-from hexdbb.evidence.screen import Known, Scored, Screen
+from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.shortlist import better_shaped
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.together import KnownSets, Together
@@ -85,13 +85,21 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
         Of its linearisation.
     """
     present = {each.hypothesis for each in base.members}
-    every = [each for each in search.learnable.further.values() if each not in present]
+    along = {_directed(each) for each in present} - {None}
+    every = [e for e in search.learnable.further.values() if e not in present and _directed(e) not in along]
     # Those products that lend no functions to a known effect's form may still say the same as one, and so may those
     # that push in both directions of a guideway.
     others = [each for each in every if each.variable.times or each.components > 1]
     others = [each for each in others if each not in search.learnable.products]
     _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
     return screen.learned(every)
+
+
+def _directed(hypothesis: Hypothesis) -> tuple[str, str] | None:
+    """Return the place and the vector of a function along a direction: along two directions it is one cause."""
+    if isinstance(hypothesis, Known) or not hypothesis.variable.is_directed:
+        return None
+    return hypothesis.place, hypothesis.variable.name.partition("@")[0]
 
 
 def in_other_words(search: Search, known: list[Scored], learned: list[Scored], chosen: list[Scored]) -> list[Scored]:

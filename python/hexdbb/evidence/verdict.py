@@ -116,7 +116,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         return Verdict("none", (), node, None, before, refined_forms(search))
     node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, node))
-    node = or_one_fine_enough(search, with_turning(search, with_tuned_numbers(search, node)))
+    node = with_turning(search, with_tuned_numbers(search, node))
+    fine = or_one_fine_enough(search, node)
+    node = node if fine is node else in_known_words(search, fine)
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)

@@ -137,6 +137,8 @@ ANGLE_DIRECTION = Variable(
     parts=("circle_direction",),
 )
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
+BAR_AZIMUTH = Variable("bar_azimuth", "bar_azimuth_rad", "rad", "angle of the bar in the base", 24, period=TURN)
+"""A chip in the cup lifts the bar's ball where it lies towards it, however the platform is turned."""
 BAR_ELEVATION = Variable(
     "bar_elevation", "bar_elevation_rad", "rad", "angle of the bar to the horizontal", 8, least=LEAST_TILT
 )
@@ -204,7 +206,7 @@ OF_PLATFORM_JOINT = (
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
-    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION),
+    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION, BAR_AZIMUTH),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""

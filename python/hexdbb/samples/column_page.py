@@ -32,6 +32,7 @@ OWN = {
     "course": ("axis", "1", "direction in which the platform moves, a unit vector in the base frame; 0: it stands"),
     "course_in_platform": ("axis", "1", "the same in the platform frame"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
+    "bar_azimuth_rad": ("sample", "rad", "angle of the bar about the base's z, nominal machine"),
     "bar_elevation_rad": ("sample", "rad", "angle of the bar to the horizontal, nominal machine"),
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
     "gauge_scale_mm": ("sample", "mm", "where the gauge stands on its scale: the measured reading, nominal if planned"),

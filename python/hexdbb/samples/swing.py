@@ -20,7 +20,8 @@ Floats = NDArray[np.float64]
 Pose = tuple[Floats, Floats]
 
 DERIVED = (
-    *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "bar_elevation_rad"),
+    *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "bar_azimuth_rad"),
+    "bar_elevation_rad",
     *("time_in_sweep_s", "time_since_fixing_s", "turned_rad"),
 )
 DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount", "angle_rad")
@@ -34,7 +35,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6) thrice, (n,) five times; rad, rad/s, rad, rad, rad, s, s and rad.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) six times; rad, rad/s, rad, rad, rad, rad, s, s, rad.
 
     Parameters
     ----------
@@ -57,6 +58,7 @@ def derived_columns(
         "swing_rate_rad_s": (later - earlier) / (2.0 * STEP_S),
         "leg_inclination_rad": np.arctan2(np.hypot(reach_mm[0], reach_mm[1]), reach_mm[2]),
         "bar_angle_rad": _bar_angle(bar_mm, pose),
+        "bar_azimuth_rad": np.arctan2(bar_mm[:, 1], bar_mm[:, 0]),
         "bar_elevation_rad": np.arctan2(bar_mm[:, 2], np.hypot(bar_mm[:, 0], bar_mm[:, 1])),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
         "time_since_fixing_s": _since_fixing_s(columns["time_s"], columns["mount"]),

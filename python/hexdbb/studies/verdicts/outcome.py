@@ -38,6 +38,7 @@ VARIABLES = {
     "swing_angle": ("joint_angle",),
     "angle_direction": ("angle", "direction"),
     "bar_angle": ("angle",),
+    "bar_azimuth": ("angle",),
     "turned": ("angle", "direction"),
     "circle_direction": ("direction",),
     "deflection_direction": ("deflection", "direction"),
