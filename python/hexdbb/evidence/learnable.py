@@ -20,8 +20,8 @@ MOST_CIRCLES = 24
 values (`homes.MOST_COLUMNS`)."""
 
 SAME_ANGLE = 1e-3
-"""Mean of one less the cosine of what two angles differ by, below which they are the same: 2.6 degrees, a sixth of what a
-spline over them is wide."""
+"""Mean of one less the cosine of what two angles differ by, below which they are the same: 2.6 degrees, a sixth of
+what a spline over them is wide."""
 ALIKE = 1e-3
 """Part of the variance of the platform's position that its angle may leave where functions of either are
 the same: of what is three times the noise that is a tenth of it, some fifty nats in 10,000 readings, and with more

@@ -22,7 +22,7 @@ def node_of(count: int, left: float, errors: dict[str, float], reasons: tuple[st
     }
     trial = SimpleNamespace(left=left, refused=())
     checked = SimpleNamespace(heldout=heldout, reasons=reasons)
-    return SimpleNamespace(members=range(count), trial=trial, score=-left, checked=checked)
+    return SimpleNamespace(members=range(count), trial=trial, score=-left, checked=checked, is_known=True)
 
 
 def answered(monkeypatch: pytest.MonkeyPatch, one: Any, several: Any, *, for_sure: bool = False) -> Any:
@@ -106,6 +106,31 @@ def test_nothing_gives_way_to_what_errs_more_where_it_is_doubted(
         same_kind=lambda one, other: one is other,
     )
     assert predicting.or_another_that_predicts(search, gauge) is (joint if gives_way else gauge)
+
+
+@pytest.mark.parametrize(
+    ("left", "left_by_other", "is_known", "gives_way"),
+    [(1.2, 9.0, False, False), (1.2, 9.0, True, True), (1.2, 1.25, False, True), (4.0, 9.0, False, True)],
+    ids=["leaves none", "a known effect by its form", "neither leaves any", "leaves some itself"],
+)
+def test_a_function_that_leaves_no_structure_gives_way_to_nothing_that_leaves_some(
+    monkeypatch: pytest.MonkeyPatch, left: float, left_by_other: float, is_known: bool, gives_way: bool
+) -> None:
+    """A slider that lags, on circles that hardly hold geometry, and its leg, which leaves three times the noise."""
+    slider, leg = node_of(1, left, ONE), node_of(1, left_by_other, ONE)
+    slider.is_known = is_known
+    for each in (slider, leg):
+        each.hypotheses, each.trial.is_free_in_time = (each,), False
+    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: False)
+    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is slider)
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=185.0)),
+        nodes=[slider, leg],
+        checked=lambda each: each.checked,
+        same_kind=lambda one, other: one is other,
+    )
+    assert predicting.or_another_that_predicts(search, slider) is (leg if gives_way else slider)
 
 
 @pytest.mark.parametrize(
