@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hexdbb.diagnosis import judging_noise
 from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.learnable import Learnable
+from hexdbb.evidence.readings import State
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
 from hexdbb_truth.forms.cases import case
@@ -34,3 +37,33 @@ def test_forms_alone_are_of_joints_that_reverse_of_warmth_and_of_circles() -> No
     # A function of the reading can describe any error of the gauge, circle by circle.
     assert "learned:reading:reading" not in names
     assert names.isdisjoint(each.name for each in (*learnable.simple, *learnable.products))
+
+
+@pytest.mark.parametrize(
+    ("from_circle", "from_platform", "is_asked"),
+    [(0.0, 0.3, False), (0.3, 0.0, False), (0.3, 0.2, True)],
+    ids=["level circles", "a platform that is not turned", "neither"],
+)
+def test_the_bars_angle_in_the_base_is_asked_where_it_says_more(
+    from_circle: float, from_platform: float, is_asked: bool
+) -> None:
+    record = case("none-calibrate-s1@standard").record()
+    samples = Samples.of([record.part(record.columns["circle"] == 0)])
+    model = new_model(samples.machine).with_mounts(samples.mounts)
+    readings = Engine(samples, model, judging_noise(samples).noise).readings
+    state = _Turned(readings.state, from_circle, from_platform)
+    names = {each.name for each in Learnable(replace(readings, state=state), learns=True).simple}
+    assert ("learned:reading:bar_azimuth" in names) is is_asked
+
+
+class _Turned(State):
+    """A state whose bar's angle in the base is another than those of the circle and in the platform."""
+
+    def __init__(self, state: State, from_circle: float, from_platform: float) -> None:
+        super().__init__(state, state.machine, state.unmeasured)
+        angle = state["angle_rad"]
+        wave = np.sqrt(2.0) * np.sin(3.0 * angle)
+        self._known |= {
+            "bar_azimuth_rad": angle + from_circle * wave,
+            "bar_angle_rad": angle + (from_circle - from_platform) * wave,
+        }
