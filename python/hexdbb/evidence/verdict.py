@@ -18,7 +18,7 @@ from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explains_nearly
+from hexdbb.evidence.settling import explains_nearly, of_forms
 from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over
@@ -131,7 +131,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         if cause is not None and each.name not in known:
             refinements[cause.name] = (*refinements.get(cause.name, ()), each.name)
     found = tuple(
-        _found(search, node, cause, refinements.get(cause.name, ()), is_lead=_is_lead(search, causes, cause))
+        _found(search, node, cause, refinements.get(cause.name, ()), is_lead=_is_lead(search, node, causes, cause))
         for cause in causes
     )
     grades = [each.grade for each in found]
@@ -170,9 +170,14 @@ def _in_order(search: Search, node: Node, learned: list[Learned]) -> list[Learne
     return sorted(learned, key=place)
 
 
-def _is_lead(search: Search, causes: list[Hypothesis], cause: Hypothesis) -> bool:
-    others = (each for each in causes if isinstance(each, Learned))
-    return isinstance(cause, Known) and any(at_a_place_of_its_kin(search, cause, each) for each in others)
+def _is_lead(search: Search, node: Node, causes: list[Hypothesis], cause: Hypothesis) -> bool:
+    """Check for a known effect beside learned functions that one of them may say, or leave by being no more exact."""
+    others = [each for each in causes if isinstance(each, Learned)]
+    if not isinstance(cause, Known) or not others:
+        return False
+    if any(at_a_place_of_its_kin(search, cause, each) for each in others):
+        return True
+    return left_without(search, node, cause) - node.trial.left < of_forms(search, node.trial)
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...], *, is_lead: bool) -> Found:

@@ -18,15 +18,30 @@ GIVES = Learned.parse("learned:leg:3:leg_force")
 ELSEWHERE = Learned.parse("learned:slider:5:velocity")
 
 
-@pytest.mark.parametrize(("beside", "grade"), [(GIVES, "unknown"), (ELSEWHERE, "effect"), (PLAY, "effect")])
-def test_it_is_a_lead_where_a_function_of_its_place_is_a_cause(beside: Known | Learned, grade: str) -> None:
+@pytest.mark.parametrize(
+    ("beside", "left_without", "grade"),
+    [
+        (GIVES, 50.0, "unknown"),
+        (ELSEWHERE, 50.0, "effect"),
+        (ELSEWHERE, 10.0, "unknown"),
+        (PLAY, 50.0, "effect"),
+        (PLAY, 10.0, "effect"),
+    ],
+    ids=["at its place", "elsewhere", "elsewhere, which leaves as much", "known", "known, which leaves as much"],
+)
+def test_it_is_a_lead_beside_a_function_of_its_place_or_one_that_may_leave_as_much(
+    monkeypatch: pytest.MonkeyPatch, beside: Known | Learned, left_without: float, grade: str
+) -> None:
+    monkeypatch.setattr(verdict, "left_without", lambda search, node, each: left_without)
+    monkeypatch.setattr(verdict, "of_forms", lambda search, trial: 20.0)
+    node: Any = SimpleNamespace(trial=SimpleNamespace(left=1.0))
     by_name: dict[str, Any] = {each.name: each for each in (GIVES, ELSEWHERE)}
     search: Any = SimpleNamespace(
         learnable=SimpleNamespace(by_name=by_name), kin={PLAY.name: {GIVES.name}, GIVES.name: set()}
     )
-    is_lead = verdict._is_lead(search, [PLAY, beside], PLAY)
+    is_lead = verdict._is_lead(search, node, [PLAY, beside], PLAY)
     assert Found(PLAY, (), 0.0, is_lead=is_lead).grade == grade
-    assert not verdict._is_lead(search, [PLAY, GIVES], GIVES)
+    assert not verdict._is_lead(search, node, [PLAY, GIVES], GIVES)
 
 
 @pytest.mark.parametrize(
