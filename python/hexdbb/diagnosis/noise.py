@@ -69,7 +69,8 @@ class Noise:
     tail : float
         Relative excess of the standard deviation if longer tails than those of normal noise are included.
     rough_mm : float
-        Of laps' differences, what neighbours do not share: less where noise lasts, all of it where it is white.
+        Of laps' differences, what neighbours do not share: less where noise lasts, all of it where it is white. Asked
+        where no gauge states its noise; infinite else.
     """
 
     sigma_mm: float
@@ -82,8 +83,8 @@ def noise_of(samples: Samples) -> Noise:
     """Estimate the noise of the readings of some samples; of several gauges the noisiest counts."""
     repeated = list(lap_differences(samples))
     if sum(map(len, repeated)) >= MIN_REPEATS:
-        apart = np.concatenate([np.diff(each, n=2) / np.sqrt(6.0) for each in repeated])
-        return replace(_estimate_from(_steady(repeated), "repeated laps"), rough_mm=_robust_sigma(apart))
+        found = _estimate_from(_steady(repeated), "repeated laps")
+        return found if stated_noise(samples) is not None else replace(found, rough_mm=_roughness(repeated))
     stated = stated_noise(samples)
     if stated is not None:
         return stated
@@ -106,6 +107,10 @@ def stated_noise(samples: Samples) -> Noise | None:
     stated = [samples.records[each].gauge.stated_noise_mm for each in np.unique(samples["record"])]
     known = [each for each in stated if each is not None]
     return Noise(max(known), "stated") if known and len(known) == len(stated) else None
+
+
+def _roughness(repeated: Sequence[Floats]) -> float:
+    return _robust_sigma(np.concatenate([np.diff(each, n=2) / np.sqrt(6.0) for each in repeated]))
 
 
 def _estimate_from(values: Floats, source: Literal["repeated laps", "roughness"]) -> Noise:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from hexdbb.studies.verdicts import page
 from hexdbb.studies.verdicts.outcome import Named, outcome_of
 from hexdbb_truth.forms import cases as forms
 
@@ -44,3 +45,15 @@ def test_an_ambiguous_verdict_names_the_truth_or_misses_it() -> None:
     rivals = [f"backlash:{truth.elements[0]}", "bar_gain"]
     assert outcome_of("ambiguous", [Named("bar_drift", "ambiguous", rivals)], LABELS) == "ambiguous"
     assert outcome_of("ambiguous", [Named("bar_drift", "ambiguous", rivals[1:])], LABELS) == "missed"
+
+
+@pytest.mark.parametrize(
+    ("claimed", "expected", "counts"),
+    [(["circle"], 1.2, True), (["circle"], 5.4, False), ([], 5.4, True), (["arc", "circle"], 5.4, True)],
+    ids=["held", "hardly held", "claims none", "claims arcs first"],
+)
+def test_only_where_circles_hold_geometry_can_others_be_predicted(
+    claimed: list[str], expected: float, counts: bool
+) -> None:
+    heldout = {"circle": {"expected": expected, "after": 1.0}, "arc": {"expected": 1.0, "after": 1.0}}
+    assert page._can_predict({"claimed": claimed, "heldout": heldout}) is counts

@@ -125,6 +125,8 @@ def _by_size(lines: Sequence[Line]) -> Iterator[tuple[str, str, list[Line], Call
     """Yield the rows of held-out error by size, and what the fits to the rest expect of themselves at all sizes."""
     for times in forms.TIMES_NOISE[1:]:
         yield f"- of these at {times:g} × noise", "", [each for each in lines if times_of(each) == times], _predicts
+    held = [each for each in lines if _can_predict(each)]
+    yield "- of those where the fit to the other circles expects no more of itself", "", held, _predicts
     yield "- of these no more than half beyond what the fit expects", "", list(lines), _as_expected
 
 
@@ -214,6 +216,11 @@ def _is_false(line: Line) -> bool:
 def _predicts(line: Line) -> bool:
     """Check the first grouping that the causes claim to predict: circles, for free functions of time arcs of them."""
     return any(line["heldout"][name]["after"] <= HELD_OUT_GOAL for name in line["claimed"][:1])
+
+
+def _can_predict(line: Line) -> bool:
+    """Check that the other circles hold geometry so well that the true cause would be within the goal, or none found."""
+    return not any(line["heldout"][name]["expected"] > HELD_OUT_GOAL for name in line["claimed"][:1])
 
 
 def _as_expected(line: Line) -> bool:
