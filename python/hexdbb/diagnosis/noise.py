@@ -70,7 +70,7 @@ class Noise:
         Relative excess of the standard deviation if longer tails than those of normal noise are included.
     rough_mm : float
         Of laps' differences, what neighbours do not share: less where noise lasts, all of it where it is white. Asked
-        where no gauge states its noise; infinite else.
+        where a gauge states no noise; infinite else.
     """
 
     sigma_mm: float
