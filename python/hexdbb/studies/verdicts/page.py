@@ -219,7 +219,7 @@ def _predicts(line: Line) -> bool:
 
 
 def _can_predict(line: Line) -> bool:
-    """Check that the other circles hold geometry so well that the true cause would be within the goal, or none found."""
+    """Check that the other circles hold geometry so well that the true cause would be within the goal."""
     return not any(line["heldout"][name]["expected"] > HELD_OUT_GOAL for name in line["claimed"][:1])
 
 
