@@ -129,14 +129,8 @@ LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& o
   LastSteps out = settle_kinks(of_all, few, best, bound, limits);
   out.steps += straight.steps;
   if (out.is_at_rest) return out;
-  const auto with_part = [&](const Eigen::VectorXd& at) {  // J'J of the part: how far to step, not where to
-    Posterior out = of_all(at, Sums::kGradient);
-    const Posterior part = few.at(at);
-    out.is_reachable &= part.is_reachable;
-    out.information = part.information;
-    return out;
-  };
-  const Descent down = descend(with_part, few, best, bound, {kDescended, kMost});
+  const auto of_all_sums = [&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); };
+  const Descent down = descend(of_all_sums, few, best, bound, {kDescended, kMost});
   if (!down.is_reachable) return out;
   const int before = out.steps + down.steps;
   out = settle_kinks(of_all, few, down.z, bound, limits);

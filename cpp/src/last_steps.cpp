@@ -34,8 +34,8 @@ Eigen::VectorXd mixed(const BoundedStep& step, const Point& last, const Point& n
   return ((now.z + out).cwiseAbs().array() > bound.array()).any() ? step.step() : out;
 }
 
-/// Bend a step along the geodesic (valley.hpp): the first leads over several standard deviations, and where a value's
-/// effect is nearly even the next ones are as long as the value itself.
+/// Bend the first step along the geodesic (valley.hpp): it leads over several standard deviations, the others over small
+/// parts of one.
 Eigen::VectorXd bent(const BoundedStep& step, FewReadings& few, const Eigen::VectorXd& z,
                      const Eigen::VectorXd& bound) {
   const Eigen::VectorXd acceleration = -step.solve(few.curvature(z, step.step()));
@@ -89,7 +89,7 @@ LastSteps take_last_steps(const std::function<Posterior(const Eigen::VectorXd&, 
       break;
     }
     is_near_end = is_end_near(last, now, end);
-    z += now.fall > kLinearFall ? bent(step, few, z, bound) : mixed(step, last, now, bound);
+    z += std::isinf(last.fall) ? bent(step, few, z, bound) : mixed(step, last, now, bound);
     last = std::move(now);
   }
   return out;
