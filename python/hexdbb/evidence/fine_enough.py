@@ -29,9 +29,10 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Returned as it is where it leaves no structure, or is of known effects alone.
+        Returned as it is where it is one function that leaves no structure, or of known effects alone.
     """
-    if node.trial.left < search.criteria.leaves_structure or node.is_known:
+    leaves_none = node.trial.left < search.criteria.leaves_structure
+    if node.is_known or (leaves_none and len(node.members) == 1):
         return node
     return max((node, *(each for each in _tuned(search) if predicts(search, each))), key=lambda each: each.score)
 
