@@ -181,7 +181,10 @@ class Space:
                 basis = basis - splines.design(np.array([low]), low, high, variable.count)
         if not variable.signed:
             return basis
-        return np.column_stack([basis, np.tanh(np.nan_to_num(at) / self.sign_width)])
+        known = np.nan_to_num(at)
+        if variable.turns_within:
+            return np.column_stack([basis, known / np.hypot(known, self.sign_width)])
+        return np.column_stack([basis, np.tanh(known / self.sign_width)])
 
     def points(self) -> Floats:
         """Return the places of the function's table, in the column's unit; shape (m,)."""

@@ -46,7 +46,11 @@ OWN = {
         "1",
         "part of the vector `NAME` along the direction of `D` degrees in the base's x-y plane",
     ),
-    "NAME.turning@R": ("sample", "1", "sign of the rate `NAME`, which turns over within a rate of `R`: tanh(NAME / R)"),
+    "NAME.turning@R": (
+        "sample",
+        "1",
+        "sign of the rate `NAME`, which turns over within a rate of `R`: NAME / sqrt(NAME² + R²)",
+    ),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}

@@ -6,7 +6,7 @@ sweeps no record says: it is taken to have run out along the circle and up along
 laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
 degrees is one to which is added what these take at the rate at which the circle is driven. What is `along` so many
 degrees is a vector's part along that direction in the base's x-y plane. What is `turning` is the sign of a rate, which
-turns over gradually: tanh(rate / number).
+turns over gradually: rate / sqrt(rate² + number²), the regularised law of Coulomb.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def remembered_column(
     if how == "along":
         return np.asarray(values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))]))
     if how == "turning":
-        return np.asarray(np.tanh(values / constant).reshape(column.shape))
+        return np.asarray((values / np.hypot(values, constant)).reshape(column.shape))
     begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
     sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
     if how == "after":

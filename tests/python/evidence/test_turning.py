@@ -20,11 +20,11 @@ from hexdbb_truth.forms.cases import case
 @pytest.mark.parametrize(
     ("name", "cause", "number", "within"),
     [
-        # A seal that runs in drags by the sign of its velocity, turned over within 0.2 mm/s.
-        ("seal_runs_in-d0-x30-calibrate-s46", "learned:slider:6:direction_time_turning", 0.2, 0.01),
+        # A seal that runs in drags by tanh of its velocity over 0.2 mm/s, a law that the estimator does not have.
+        ("seal_runs_in-d0-x30-calibrate-s46", "learned:slider:6:direction_time_turning", 0.2, 0.06),
         # A joint that binds near one angle, within 0.005 rad/s: at once, the other leg of the pair has more evidence
         # than this leg, and friction there describes what it leaves.
-        ("joint_sticks-d0-x30-calibrate-s46", "learned:leg:2:joint_angle_direction_turning", 0.005, 0.0003),
+        ("joint_sticks-d0-x30-calibrate-s46", "learned:leg:2:joint_angle_direction_turning", 0.005, 0.0015),
         # The circles are of one cup and nearly concentric: functions of their angle explain 97 %.
         ("stand_tips-d0-x10-calibrate-s47", "learned:cup:position_along", 29.0, 2.0),
     ],
