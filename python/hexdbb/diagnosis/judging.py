@@ -22,8 +22,6 @@ UNSTEADY = 1.25
 QUIETER = 0.7
 """Noise of what a model leaves over that of the laps from which the laps' own differences were no noise: half its
 variance. Functions free enough to follow noise take a tenth of it."""
-
-
 ROUGH = 5.0
 """Noise of repeated laps over that of neighbouring readings beyond which laps differ by something slower than noise:
 that which keeps nineteen twentieths from one reading to the next has 4.5. Axes that hunt, and floors that shake, have

@@ -30,10 +30,9 @@ from hexdbb.discovery.words import NOTHING
 from hexdbb.errors import InputError
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.quieter import judged_again
+from hexdbb.evidence.quieter import judged
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.sufficiency import repeats_but_for_forms
-from hexdbb.evidence.verdict import judge
 from hexdbb.model import Model
 from hexdbb.samples import Samples, predict
 from hexdbb.samples.places import with_set_up_of
@@ -95,19 +94,19 @@ def discover(
     require_usable_effects(samples, known, names)
     progress("fitting the model as it is")
     begun = _begun(samples, with_judged_free(samples.unmeasured, known), criteria)
-    judged = begun.judge(matters_um)
-    enough = judged(begun.engine.base, begun.engine.residual_mm)
+    suffices = begun.suffices(matters_um)
+    enough = suffices(begun.engine.base, begun.engine.residual_mm)
     if not enough.matters:
         return _with_remarks(_nothing(begun.engine, enough), begun)
     progress("screening all hypotheses, fitting the best")
     first = Search(begun.engine, names, criteria, learns=not known_only)
-    search, verdict = judged_again(first, judge(first, enough.matters_um), enough.matters_um)
+    search, verdict = judged(first, enough.matters_um)
     if search is not first:
         begun = begun.by_noise_of(search.engine)
-        judged = begun.judge(matters_um)
-        enough = judged(begun.engine.base, begun.engine.residual_mm)
+        suffices = begun.suffices(matters_um)
+        enough = suffices(begun.engine.base, begun.engine.residual_mm)
     engine, samples, noise = begun.engine, begun.engine.samples, begun.judging.noise
-    outcome = _outcome(told(search, verdict, judged, enough.matters_um, with_tables), engine, enough)
+    outcome = _outcome(told(search, verdict, suffices, enough.matters_um, with_tables), engine, enough)
     repeats = verdict.grade == "none" and repeats_but_for_forms(search.root.trial, search.trials, begun.judging)
     if with_tables and outcome.verdict != "none" and (outcome.remaining or enough).matters:
         residual_mm = predict(samples, outcome.model).residual_mm
@@ -128,17 +127,17 @@ class _Begun:
         """Return the same readings judged by the noise of another engine of them."""
         return replace(self, engine=engine, judging=replace(self.judging, noise=engine.noise))
 
-    def judge(self, matters_um: float | None) -> Callable[[Model, np.ndarray], Sufficiency]:
+    def suffices(self, matters_um: float | None) -> Callable[[Model, np.ndarray], Sufficiency]:
         """Return what tells whether a model, and what it leaves, is sufficient."""
         samples = self.engine.samples
         test = FitTest(samples, self.judging.noise)
 
-        def judged(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
+        def sufficiency(fitted: Model, residual_mm: np.ndarray) -> Sufficiency:
             return assess_sufficiency(
                 samples, fitted, residual_mm, noise=self.judging, matters_um=matters_um, test=test
             )
 
-        return judged
+        return sufficiency
 
 
 def _begun(samples: Samples, model: Model, criteria: Criteria) -> _Begun:

@@ -134,7 +134,9 @@ class Criteria:
     complete : float
         Part of what was unexplained that may be left where the search for a further cause is not widened.
     leaves_structure : float
-        Mean square (noise variances) left from which a hypothesis' remainder bends geometry.
+        Mean square (noise variances) left from which a hypothesis' remainder bends geometry, and from which a learned
+        function settles nothing: it may be too coarse, turn over too sharply, or be another's. Its root is the 1.14
+        times the noise that is left of a goal of 1.3 where other circles are predicted.
     form_explains : float
         Part of the unexplained from which an effect that does not predict circles left out may still be the cause with
         another form: a form 20 % off, the largest that the calibration has, leaves 4 % of it, twice that where no

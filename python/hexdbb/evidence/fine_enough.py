@@ -9,11 +9,12 @@ itself, and one of them is named where it then has more evidence than what was f
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import with_best_splines
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import predicts
+from hexdbb.evidence.settling import leaves_no_structure, predicts
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
@@ -31,8 +32,7 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
     node : Node
         Returned as it is where it is one function that leaves no structure, or of known effects alone.
     """
-    leaves_none = node.trial.left < search.criteria.leaves_structure
-    if node.is_known or (leaves_none and len(node.members) == 1):
+    if node.is_known or (len(node.members) == 1 and leaves_no_structure(search, node)):
         return node
     return max((node, *(each for each in _tuned(search) if predicts(search, each))), key=lambda each: each.score)
 
@@ -41,11 +41,9 @@ def _tuned(search: Search) -> Iterator[Node]:
     """Yield the functions that explain most of what is missing, tuned."""
     excess = search.root.trial.left - 1.0
     alone = [each for each in search.nodes if len(each.members) == 1 and isinstance(each.hypotheses[0], Learned)]
-    most = (
-        each
-        for each in sorted(alone, key=lambda each: -each.score)
-        if search.root.trial.left - each.trial.left >= search.criteria.explained_min * excess
-    )
-    by_name = {each.hypotheses[0].name: each for each in reversed(list(most))}
-    for each in list(reversed(by_name.values()))[:TRIED]:
+    best: dict[str, Node] = {}
+    for each in sorted(alone, key=lambda each: -each.score):
+        if search.root.trial.left - each.trial.left >= search.criteria.explained_min * excess:
+            best.setdefault(each.hypotheses[0].name, each)
+    for each in islice(best.values(), TRIED):
         yield with_turning(search, with_tuned_numbers(search, with_best_splines(search, with_turning(search, each))))

@@ -9,7 +9,7 @@ from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explained_by_formulas, is_doubtful
+from hexdbb.evidence.settling import explained_by_formulas, is_doubtful, leaves_no_structure
 from hexdbb.evidence.sure import is_for_sure
 
 
@@ -64,7 +64,7 @@ def _errs_no_more(search: Search, other: Node, doubted: Mapping[str, HeldOut]) -
 def _leaves_structure_where(search: Search, other: Node, node: Node) -> bool:
     """Check for a set that leaves structure, where another, of one learned function, leaves none."""
     is_function = len(node.members) == 1 and not node.is_known
-    return is_function and node.trial.left < search.criteria.leaves_structure <= other.trial.left
+    return is_function and leaves_no_structure(search, node) and not leaves_no_structure(search, other)
 
 
 def _explains_less_by_formulas(search: Search, other: Node, node: Node) -> bool:

@@ -20,17 +20,16 @@ from hexdbb.evidence.verdict import Verdict, judge
 Floats = NDArray[np.float64]
 
 
-def judged_again(search: Search, verdict: Verdict, matters_um: float | None = None) -> tuple[Search, Verdict]:
-    """Return a search and its verdict, both made anew by the noise of what is left where that is much less.
+def judged(search: Search, matters_um: float | None = None) -> tuple[Search, Verdict]:
+    """Return a search and its verdict (`judge`), both made anew by the noise of what is left where that is much less.
 
     Parameters
     ----------
     search : Search
-    verdict : Verdict
-        Of it.
     matters_um : float, optional
         As for `judge`.
     """
+    verdict = judge(search, matters_um)
     judging = JudgingNoise(search.engine.noise)
     quieter = judging.beside(search.engine.part, _left_mm(search, verdict.node.trial)) if verdict.found else judging
     if quieter is judging:

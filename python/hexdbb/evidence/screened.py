@@ -16,7 +16,7 @@ from hexdbb.evidence.shortlist import better_shaped
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.together import KnownSets, Together
 from hexdbb.evidence.trial import Trial
-from hexdbb.learned import Learned
+from hexdbb.learned import Learned, is_directed
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -97,7 +97,7 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
 
 def _directed(hypothesis: Hypothesis) -> tuple[str, str] | None:
     """Return the place and the vector of a function along a direction: along two directions it is one cause."""
-    if isinstance(hypothesis, Known) or not hypothesis.variable.is_directed:
+    if isinstance(hypothesis, Known) or not is_directed(hypothesis.variable):
         return None
     return hypothesis.place, hypothesis.variable.name.partition("@")[0]
 

@@ -74,11 +74,11 @@ def settles(search: Search, node: Node) -> bool:
     if misses_most(search, node):
         return False
     if not node.is_known:
-        return leaves_nothing(search, node) and (_leaves_no_structure(search, node) or _is_shared(node))
+        return leaves_nothing(search, node) and (leaves_no_structure(search, node) or _is_shared(node))
     return not (leaves_room(search, node) or rests_on_form(search, node.trial))
 
 
-def _leaves_no_structure(search: Search, node: Node) -> bool:
+def leaves_no_structure(search: Search, node: Node) -> bool:
     """Check that a set leaves too little to tell what else bends, or turns over, as its functions do."""
     return node.trial.left < search.criteria.leaves_structure
 

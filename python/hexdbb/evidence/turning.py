@@ -17,6 +17,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Screen
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import leaves_no_structure
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import around
@@ -37,24 +38,25 @@ def with_turning(search: Search, node: Node) -> Node:
     node : Node
     """
     for place, member in enumerate(node.members):
-        if node.trial.left < search.criteria.leaves_structure:
+        if not isinstance(member.hypothesis, Learned) or turns_with(member.hypothesis.variable) is None:
+            continue
+        if leaves_no_structure(search, node):
             break
         node = _turned(search, node, place, member)
     return node
 
 
 def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
-    if not isinstance(member.hypothesis, Learned):
+    assert isinstance(member.hypothesis, Learned)
+    gained, gradual = max(_scored(search, node, member, member.hypothesis), key=lambda each: each[0])
+    if gained < search.criteria.detect_nats:
         return node
-    found = max(_scored(search, node, member), key=lambda each: each[0], default=None)
-    if found is None or found[0] < search.criteria.detect_nats:
-        return node
-    turned = replace(member, hypothesis=found[1])
+    turned = replace(member, hypothesis=gradual)
     try:
         trial = search.trials.of((*node.members[:place], turned, *node.members[place + 1 :]))
     except RunError:
         return node
-    search.count_as(found[1], member.hypothesis)
+    search.count_as(gradual, member.hypothesis)
     trial = with_best_number(search, trial, place)
     gain = trial.log_evidence - node.trial.log_evidence
     if gain < search.criteria.detect_nats or trial.refused:
@@ -64,13 +66,10 @@ def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
     return better
 
 
-def _scored(search: Search, node: Node, member: Member) -> Iterator[tuple[float, Learned]]:
+def _scored(search: Search, node: Node, member: Member, hypothesis: Learned) -> Iterator[tuple[float, Learned]]:
     """Yield a member's function as it turns over within some rates, with what it gains about the fit of the set."""
-    hypothesis, readings = member.hypothesis, search.engine.readings
-    assert isinstance(hypothesis, Learned)
-    rate = turns_with(hypothesis.variable)
-    if rate is None:
-        return
+    readings, rate = search.engine.readings, turns_with(hypothesis.variable)
+    assert rate is not None
     sums = Sums(around(search, node, member), readings, ("circle",))
     screen = Screen(sums, search.criteria, search.thinned, search.criteria.tuned_penalties, node.trial.left - 1.0)
     sharp = screen.scored(hypothesis).log_evidence

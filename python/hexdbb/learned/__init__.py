@@ -6,7 +6,15 @@ its function is a penalised spline (`splines`), and `words` puts the fitted func
 
 from hexdbb.learned.hypothesis import FINER, Directed, Learned, part_of
 from hexdbb.learned.listed import further_hypotheses, grown_with_warmth, hypotheses, products, settling
-from hexdbb.learned.numbered import has_chosen_number, number_of, periodic, step, turning, turns_with
+from hexdbb.learned.numbered import (
+    has_chosen_number,
+    is_directed,
+    number_of,
+    periodic,
+    step,
+    turning,
+    turns_with,
+)
 from hexdbb.learned.places import ALL
 from hexdbb.learned.space import Columns, Space
 from hexdbb.learned.tables import Curve, Table
@@ -29,6 +37,7 @@ __all__ = [
     "grown_with_warmth",
     "has_chosen_number",
     "hypotheses",
+    "is_directed",
     "number_of",
     "part_of",
     "periodic",

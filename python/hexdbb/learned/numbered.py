@@ -43,7 +43,7 @@ BY_NUMBER = {
 """How a variable may be derived from another one by a number, in words: delayed, high-passed, growing by the law of a
 first-order lag in place of evenly, counted from the start of the run-up, or turning over gradually."""
 RATES = {"travel_direction": ("velocity_mm_s", "mm/s"), "slider_joint_direction": ("slider_joint_rate_rad_s", "rad/s")}
-"""Of columns that are a direction: the rate of which it is the sign, and its unit."""
+"""For each column that holds a direction of motion: the column of the rate whose sign it is, and the rate's unit."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
 DIRECTED = {
@@ -122,9 +122,19 @@ def turning(variable: Variable, rate: float) -> Variable:
 
 def at_once(times: str) -> str:
     """Return the direction whose rate turns a column over gradually; other columns as they are."""
-    rate, _, how = times.partition(OF_MEMORY)
-    directions = {of: direction for direction, (of, _) in RATES.items()}
-    return directions[rate] if how.startswith(TURNING) else times
+    if not turns_gradually(times):
+        return times
+    return next(direction for direction, (rate, _) in RATES.items() if times.startswith(f"{rate}{OF_MEMORY}"))
+
+
+def is_directed(variable: Variable) -> bool:
+    """Whether a variable is a vector's part along a direction that the readings chose."""
+    return f"{OF_MEMORY}{ALONG}@" in variable.column
+
+
+def turns_gradually(times: str) -> bool:
+    """Whether a column that multiplies is a direction that turns over gradually."""
+    return times.partition(OF_MEMORY)[2].startswith(TURNING)
 
 
 def along(vector: str, direction_deg: float) -> Variable:

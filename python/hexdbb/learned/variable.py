@@ -118,11 +118,6 @@ class Variable:
         return not self.needs
 
     @property
-    def is_directed(self) -> bool:
-        """Whether it is a vector's part along a direction that the readings chose."""
-        return f"{OF_MEMORY}along@" in self.column
-
-    @property
     def is_smooth(self) -> bool:
         """Whether it has splines enough for their smoothness to be chosen."""
         return self.count > SPLINES_MIN and not self.instants

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
-from hexdbb.learned.numbered import TURNING
+from hexdbb.learned.numbered import turns_gradually
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 
@@ -40,7 +40,7 @@ TIMES = {
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
 }
-TURNS = ", its sign turning over gradually with the motion"
+GRADUAL = ", its sign turning over gradually with the motion"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
     period : float
         Of its variable; 0 where it is not periodic.
     """
-    turned = TIMES.get(curve.times.partition(OF_MEMORY)[0], "") if TURNING not in curve.times else TURNS
+    turned = GRADUAL if turns_gradually(curve.times) else TIMES.get(curve.times.partition(OF_MEMORY)[0], "")
     values = curve.value_mm - (np.median(curve.value_mm) if len(curve.at) > 2 and not curve.times else 0.0)
     if not np.any(np.abs(values) > CERTAIN * np.nan_to_num(curve.sigma_mm)):
         return Form("nothing", None, "not distinguishable from zero")

@@ -33,6 +33,26 @@ def answered(monkeypatch: pytest.MonkeyPatch, one: Any, several: Any, *, for_sur
     return predicting.or_one_that_predicts(search, several)
 
 
+def given_way(
+    monkeypatch: pytest.MonkeyPatch, doubted: Any, other: Any, left: float, *, for_sure: bool = False
+) -> bool:
+    """Return whether a doubted set gives way to another, where so many noise variances are unexplained."""
+    for each in (doubted, other):
+        each.hypotheses, each.trial.is_free_in_time = (each,), False
+    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: for_sure)
+    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is doubted)
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=left)),
+        nodes=[doubted, other],
+        checked=lambda each: each.checked,
+        same_kind=lambda one, other: one is other,
+    )
+    answer = predicting.or_another_that_predicts(search, doubted)
+    assert answer in (doubted, other)
+    return answer is other
+
+
 def test_what_predicts_better_is_the_cause_though_it_leaves_more(monkeypatch: pytest.MonkeyPatch) -> None:
     one, several = node_of(1, 9.0, ONE), node_of(2, 1.1, SEVERAL)
     assert answered(monkeypatch, one, several) is one
@@ -65,18 +85,7 @@ def test_what_is_for_sure_gives_way_to_nothing_that_fits_worse(
     """Circles that hardly hold geometry are predicted badly by a formula too, and by a free function as it expects."""
     formula, function = node_of(1, 1.0, ONE), node_of(1, 1.1, ONE)
     formula.score, function.score = 0.0, score
-    for each in (formula, function):
-        each.hypotheses, each.trial.is_free_in_time = (each,), False
-    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: for_sure)
-    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is formula)
-    search: Any = SimpleNamespace(
-        criteria=DEFAULT,
-        root=SimpleNamespace(trial=SimpleNamespace(left=9.0)),
-        nodes=[formula, function],
-        checked=lambda each: each.checked,
-        same_kind=lambda one, other: one is other,
-    )
-    assert predicting.or_another_that_predicts(search, formula) is (function if gives_way else formula)
+    assert given_way(monkeypatch, formula, function, 9.0, for_sure=for_sure) is gives_way
 
 
 @pytest.mark.parametrize(
@@ -94,18 +103,7 @@ def test_nothing_gives_way_to_what_errs_more_where_it_is_doubted(
 ) -> None:
     """A gauge with hysteresis, 2,000 nats ahead of a joint that only expects to err in the direction left out."""
     gauge, joint = node_of(1, 1.1, ONE), node_of(1, 9.0, errors)
-    for each in (gauge, joint):
-        each.hypotheses, each.trial.is_free_in_time = (each,), False
-    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: False)
-    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is gauge)
-    search: Any = SimpleNamespace(
-        criteria=DEFAULT,
-        root=SimpleNamespace(trial=SimpleNamespace(left=101.0)),
-        nodes=[gauge, joint],
-        checked=lambda each: each.checked,
-        same_kind=lambda one, other: one is other,
-    )
-    assert predicting.or_another_that_predicts(search, gauge) is (joint if gives_way else gauge)
+    assert given_way(monkeypatch, gauge, joint, 101.0) is gives_way
 
 
 @pytest.mark.parametrize(
@@ -119,18 +117,7 @@ def test_a_function_that_leaves_no_structure_gives_way_to_nothing_that_leaves_so
     """A slider that lags, on circles that hardly hold geometry, and its leg, which leaves three times the noise."""
     slider, leg = node_of(1, left, ONE), node_of(1, left_by_other, ONE)
     slider.is_known = is_known
-    for each in (slider, leg):
-        each.hypotheses, each.trial.is_free_in_time = (each,), False
-    monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: False)
-    monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is slider)
-    search: Any = SimpleNamespace(
-        criteria=DEFAULT,
-        root=SimpleNamespace(trial=SimpleNamespace(left=185.0)),
-        nodes=[slider, leg],
-        checked=lambda each: each.checked,
-        same_kind=lambda one, other: one is other,
-    )
-    assert predicting.or_another_that_predicts(search, slider) is (leg if gives_way else slider)
+    assert given_way(monkeypatch, slider, leg, 185.0) is gives_way
 
 
 @pytest.mark.parametrize(

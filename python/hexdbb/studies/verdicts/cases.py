@@ -18,9 +18,9 @@ from hexdbb.diagnosis import judging_noise
 from hexdbb.discovery import discover
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.engine import Engine
-from hexdbb.evidence.quieter import judged_again
+from hexdbb.evidence.quieter import judged
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.verdict import Verdict, judge
+from hexdbb.evidence.verdict import Verdict
 from hexdbb.ledger import add_effect
 from hexdbb.model import Model, new_model
 from hexdbb.plan import Plan
@@ -130,7 +130,7 @@ def line_of(case: forms.Case, withheld: Sequence[str]) -> dict[str, Any]:
     effects = [each for each in _core.effect_names("catalogue") if each not in withheld]
     began = time.process_time()
     first = Search(Engine(samples, model, judging_noise(samples).noise), effects, DEFAULT)
-    search, verdict = judged_again(first, judge(first))
+    search, verdict = judged(first)
     seconds = time.process_time() - began
     found = [Named(each.hypothesis.name, each.grade, each.rivals, each.alike) for each in verdict.found]
     outcome = outcome_of(verdict.grade, found, labels, withheld)
