@@ -69,8 +69,8 @@ class Noise:
     tail : float
         Relative excess of the standard deviation if longer tails than those of normal noise are included.
     rough_mm : float
-        Of laps' differences, what neighbours do not share: less where noise lasts, all of it where it is white. Asked
-        where a gauge states no noise; infinite else.
+        Noise between neighbouring readings, from second differences of the laps' differences: equal to `sigma_mm` if
+        the noise is white, lower if it is correlated. Infinite if not estimated, as for gauges with a stated noise.
     """
 
     sigma_mm: float

@@ -1,9 +1,9 @@
-"""One learned function, fine enough, in place of others or of several causes.
+"""Compare the best learned functions after tuning, and prefer one of them to what the search found.
 
-A search ranks functions, and adds causes, with the splines and the turning over that they are first tried with. What
-the true one leaves at tens of times the noise, since it bends or turns over within less, others describe as well: that
-of the other leg of a pair, or friction there beside it. The few that explain most alone are therefore tuned, each by
-itself, and one of them is named where it then has more evidence than what was found.
+A search ranks functions, and adds causes, with an initial number of splines and with abrupt changes of sign. At tens of
+times the noise, what the true function then fails to describe is larger than the difference between it and a wrong one
+(for example the other leg of a pair), or is attributed to a second cause. The best few functions are therefore tuned,
+each on its own, and one replaces the set if it has more evidence and predicts the held-out groups.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
 
 TRIED = 3
-"""Functions that are tuned alone: each takes some full fits, and of those that look alike two are of one pair."""
+"""Functions that are tuned, each with several full fits: enough for both legs of a pair and one other place."""
 
 
 def or_one_fine_enough(search: Search, node: Node) -> Node:
-    """Return a learned function alone, tuned, where it has more evidence than a set and predicts; else the set.
+    """Return a single tuned function if it has more evidence than a set and predicts held-out groups; else the set.
 
     Parameters
     ----------
     search : Search
     node : Node
-        Returned as it is where it is one function that leaves no structure, or of known effects alone.
+        Returned unchanged if it is one function without remaining structure, or known effects only.
     """
     if node.is_known or (len(node.members) == 1 and leaves_no_structure(search, node)):
         return node
@@ -38,7 +38,7 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
 
 
 def _tuned(search: Search) -> Iterator[Node]:
-    """Yield the functions that explain most of what is missing, tuned."""
+    """Yield the single functions with the most evidence, tuned; each explains `explained_min` at least."""
     excess = search.root.trial.left - 1.0
     alone = [each for each in search.nodes if len(each.members) == 1 and isinstance(each.hypotheses[0], Learned)]
     best: dict[str, Node] = {}

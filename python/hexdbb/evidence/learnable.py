@@ -20,16 +20,16 @@ MOST_CIRCLES = 24
 values (`homes.MOST_COLUMNS`)."""
 
 SAME_ANGLE = 1e-3
-"""Mean of one less the cosine of what two angles differ by, below which they are the same: 2.6 degrees, a sixth of
-what a spline over them is wide."""
+"""Mean of 1 - cos(difference) below which two angles count as the same variable: 2.6 degrees RMS, a sixth of the width
+of a spline over them."""
 ALIKE = 1e-3
-"""Part of the variance of the platform's position that its angle may leave where functions of either are
-the same: of what is three times the noise that is a tenth of it, some fifty nats in 10,000 readings, and with more
-they are told apart."""
+"""Part of the variance of the platform's position, not explained by the circle's angle, below which functions of either
+are considered equal. For a fault of three times the noise the two then differ by 0.1 times the noise, which is fifty
+nats in 10,000 readings; with more, the readings identify the right one."""
 
 
 def _is_said_already(learned: Learned, readings: Readings) -> bool:
-    """Check for a function of the bar's angle in the base where that is the circle's own, or that in the platform."""
+    """Check for a function of the bar's azimuth if that equals the circle's angle or the bar's platform angle."""
     if learned.variable != BAR_AZIMUTH:
         return False
     state = readings.state
@@ -93,7 +93,7 @@ class Learnable:
         return self._further
 
     def _is_angle(self, learned: Learned) -> bool:
-        """Check for a function of the platform's position where all circles are alike: that is of their angle."""
+        """Check for a function of the platform's position if that follows from the circle's angle."""
         return "position_mm" in learned.variable.needs and self._are_circles_alike
 
     @cached_property

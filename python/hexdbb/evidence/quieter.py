@@ -1,8 +1,8 @@
-"""Readings judged again by the noise of what is left, where the laps' own differences were no noise.
+"""Judge readings a second time, against the noise of the residual, if repeatability overestimated the noise.
 
-Noise is told by laps that repeat each other at one angle, less what the nominal machine reads there. What changes
-faster than that, or from lap to lap, is in it (`JudgingNoise.beside`). Once a cause explains it, what is left repeats
-much better; other causes, hidden under what was taken for noise, are then looked for by that.
+The noise is estimated from differences between laps, which also contain errors that are not sampled alike in every lap
+(`JudgingNoise.beside`). Once the cause of such an error is found, the residual is much smaller than that estimate, and
+a second search finds smaller causes that the first one could not distinguish from noise.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Functions that turn over with a direction of motion, but gradually: within how fast a motion is told by the readings.
+"""Smooth the change of sign of learned functions that depend on a direction of motion.
 
-Friction is not the same on both sides of a reversal from one reading to the next: grease shears, what is pressed turns
-round first. A function times a direction then leaves most where its own motion is slow, at every reversal by another
-amount, which no function of the way since the reversal describes beside it.
+Friction does not change its sign from one reading to the next: it is a continuous function of a rate near zero
+(regularised Coulomb friction). An abrupt function times a direction leaves a residual near each reversal, of a
+different size at each, which no added function of the travel since the reversal describes.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from hexdbb.evidence.tuned import around
 from hexdbb.learned import Learned, turning, turns_with
 
 PARTS = (0.01, 0.03, 0.1, 0.3)
-"""Rates within which a function may turn over, at first, in parts of the rate's root
-mean square: below the first, hardly a reading of a circle's thousand is taken meanwhile; above the last it is a
-function of the rate. They are a factor of three apart, of which tuning passes the half (`number.py`)."""
+"""Initial transition rates, as parts of the rate's root mean square. Below the first, few readings of a circle lie in
+the transition; above the last, the function is nearly proportional to the rate. Tuning changes a rate by a factor of
+nearly two per step (`number.py`), so that values a factor of three apart reach any rate between."""
 
 
 def with_turning(search: Search, node: Node) -> Node:
-    """Return a set whose functions turn over as gradually as the readings ask for; the same set where they ask not.
+    """Return a set with smoothed changes of sign, if that increases the evidence; the same set otherwise.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
 
 
 def _scored(search: Search, node: Node, member: Member, hypothesis: Learned) -> Iterator[tuple[float, Learned]]:
-    """Yield a member's function as it turns over within some rates, with what it gains about the fit of the set."""
+    """Yield a member's function with several transition rates, and the evidence gained by each."""
     readings, rate = search.engine.readings, turns_with(hypothesis.variable)
     assert rate is not None
     sums = Sums(around(search, node, member), readings, ("circle",))

@@ -29,8 +29,8 @@ smaller at the first reading of a slow circle than at that of a fast one. They a
 step changes nearly two (`evidence/number.py`): any run-up between 8 and 260 degrees is reached."""
 DIRECTIONS_DEG = tuple(15.0 * each for each in range(1, 13))
 """Directions in the base's x-y plane that are tried first; the fit then refines them. Of a motion in another direction
-the nearest of the twelve explains at least 98 % (the square of the cosine of 7.5 degrees). Of four it was 85 %, and a
-table that tips was taken for a ball that moves with the angle of the circle, which explains more than that of it."""
+the nearest of the twelve explains at least 98 % (the square of the cosine of 7.5 degrees). With four directions it was
+85 %, less than a function of the circle's angle explains of a tipping table, so that the wrong one was chosen."""
 FACTORS = {
     "velocity": ("velocity_mm_s", "velocity"),
     "acceleration": ("acceleration_mm_s2", "acceleration"),

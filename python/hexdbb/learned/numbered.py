@@ -4,8 +4,8 @@ Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
 less the same lag), what grows towards an end (`time_position_settling@470`, as what warms does), the time since a
 circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), a vector's part along a direction
-(`acceleration_along@45`, degrees in the base's x-y plane), and what turns over with a direction, but gradually
-(`direction_position_turning@0.5`, within so many mm/s or rad/s).
+(`acceleration_along@45`, degrees in the base's x-y plane), and a function whose sign changes smoothly with the
+direction of motion, as friction does (`direction_position_turning@0.5`, transition rate in mm/s or rad/s).
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ BY_NUMBER = {
     RELAXING: "change of the {} within about {:.3g} s",
     SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
-    TURNING: "{}, which turns over within about {:.3g} {unit}",
+    TURNING: "{}, its sign change smoothed over about {:.3g} {unit}",
 }
 """How a variable may be derived from another one by a number, in words: delayed, high-passed, growing by the law of a
-first-order lag in place of evenly, counted from the start of the run-up, or turning over gradually."""
+first-order lag in place of evenly, counted from the start of the run-up, or with a smooth change of sign."""
 RATES = {"travel_direction": ("velocity_mm_s", "mm/s"), "slider_joint_direction": ("slider_joint_rate_rad_s", "rad/s")}
 """For each column that holds a direction of motion: the column of the rate whose sign it is, and the rate's unit."""
 NUMBER_DIGITS = 4
@@ -79,7 +79,7 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     how : str
         `LAGGED`, `RELAXING`, `SETTLING`, `AFTER` or `TURNING`.
     constant : float
-        s; of `AFTER` degrees; of `TURNING` a rate, in its own unit.
+        s; degrees for `AFTER`; for `TURNING` the transition rate, in the unit of the rate.
     """
     number = f"{constant:.{NUMBER_DIGITS}g}"
     if how == TURNING:
@@ -109,19 +109,19 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
 
 
 def turns_with(variable: Variable) -> str | None:
-    """Return the column with whose sign a variable's functions turn over at once; None where they do not."""
+    """Return the column at whose zero a variable's functions change sign abruptly; None if they do not."""
     if variable.turns_within:
         return None
     return variable.column if variable.signed else RATES[variable.times][0] if variable.times in RATES else None
 
 
 def turning(variable: Variable, rate: float) -> Variable:
-    """Return the same variable turning over gradually, within a rate (mm/s, rad/s)."""
+    """Return the same variable with its change of sign smoothed over a transition rate (mm/s, rad/s)."""
     return following(variable, TURNING, rate)
 
 
 def at_once(times: str) -> str:
-    """Return the direction whose rate turns a column over gradually; other columns as they are."""
+    """Return the direction column that a smoothed one replaces; other columns unchanged."""
     if not turns_gradually(times):
         return times
     return next(direction for direction, (rate, _) in RATES.items() if times.startswith(f"{rate}{OF_MEMORY}"))
@@ -133,7 +133,7 @@ def is_directed(variable: Variable) -> bool:
 
 
 def turns_gradually(times: str) -> bool:
-    """Whether a column that multiplies is a direction that turns over gradually."""
+    """Whether a multiplying column is a direction whose change of sign is smoothed."""
     return times.partition(OF_MEMORY)[2].startswith(TURNING)
 
 

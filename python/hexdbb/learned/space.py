@@ -223,7 +223,7 @@ class Space:
     def tables(self, coefficients: Floats, machine: Directed) -> tuple[Table, ...]:
         """Return the functions of some coefficients (mm), shape (size,), as a compensation needs them.
 
-        Controllers know directions, not how gradually something turns over with them: in a table it does so at once.
+        A controller knows the direction of motion only: a smoothed change of sign is abrupt in the table.
         """
         found, points, variable = [], self.points(), self.hypothesis.variable
         basis = self.functions(points)

@@ -53,7 +53,7 @@ NEIGHBOUR_VELOCITY = Variable(
     of_neighbour=True,
 )
 GAP = Variable("gap", "gap_mm", "mm", "distance from the other slider on the guideway", 12)
-"""Bellows and covers between two carriages push them apart, each by the same function of its own distance."""
+"""Bellows between two carriages push them apart: one odd function of the distance, shared by both sliders."""
 ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12, signed=True)
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)
@@ -138,7 +138,7 @@ ANGLE_DIRECTION = Variable(
 )
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
 BAR_AZIMUTH = Variable("bar_azimuth", "bar_azimuth_rad", "rad", "angle of the bar in the base", 24, period=TURN)
-"""A chip in the cup lifts the bar's ball where it lies towards it, however the platform is turned."""
+"""A chip in the cup displaces the bar's ball for one direction of the bar in the base, whatever the platform's yaw."""
 BAR_ELEVATION = Variable(
     "bar_elevation", "bar_elevation_rad", "rad", "angle of the bar to the horizontal", 8, least=LEAST_TILT
 )

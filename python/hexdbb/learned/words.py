@@ -40,7 +40,7 @@ TIMES = {
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
 }
-GRADUAL = ", its sign turning over gradually with the motion"
+GRADUAL = ", its sign changing smoothly with the direction of motion"
 
 
 @dataclass(frozen=True)

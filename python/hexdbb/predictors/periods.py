@@ -18,8 +18,8 @@ transform of fewer cells takes less time."""
 OVERSAMPLED = 4
 """Zero padding of the transform: between two of its frequencies a sine then loses 3 % at most."""
 REFINED = 5
-"""Frequencies tried within one step of the grid around the best, a sixteenth of a sine's line apart: there
-the line is a parabola, whose top is right to some thousandths of the step."""
+"""Frequencies evaluated within one grid step around the best, spaced by a sixteenth of a spectral line's width: a
+parabola through three of them locates the maximum to some thousandths of the step."""
 PER_CELL = 0.25
 """Highest frequency, in turns a cell: at a quarter of a turn a cell lowers a sine by 10 % at most."""
 LEAST_TURNS = 2.0

@@ -49,7 +49,7 @@ OWN = {
     "NAME.turning@R": (
         "sample",
         "1",
-        "sign of the rate `NAME`, which turns over within a rate of `R`: NAME / sqrt(NAME² + R²)",
+        "sign of the rate `NAME`, smoothed at zero: NAME / sqrt(NAME² + R²)",
     ),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""

@@ -1,4 +1,4 @@
-"""How far the two carriages of a guideway are apart: bellows, covers and cables between them push them by that."""
+"""Distance between the carriages of a guideway: the force of bellows or cables between them depends on it."""
 
 from __future__ import annotations
 

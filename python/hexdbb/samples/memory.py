@@ -6,7 +6,7 @@ sweeps no record says: it is taken to have run out along the circle and up along
 laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
 degrees is one to which is added what these take at the rate at which the circle is driven. What is `along` so many
 degrees is a vector's part along that direction in the base's x-y plane. What is `turning` is the sign of a rate, which
-turns over gradually: rate / sqrt(rate² + number²), the regularised law of Coulomb.
+is smoothed at zero: rate / sqrt(rate² + number²), as regularised Coulomb friction is.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ def test_the_name_says_within_which_rate_and_of_what_it_is_the_sign() -> None:
     assert learned.parts == sharp.parts
     joint = Learned.parse("learned:leg:2:joint_angle_direction_turning@0.005").variable
     assert joint.times == "slider_joint_rate_rad_s.turning@0.005"
-    assert "turns over within about 0.005 rad/s" in joint.words
+    assert "its sign change smoothed over about 0.005 rad/s" in joint.words
 
 
 def test_it_is_the_same_as_the_sign_but_for_where_the_motion_is_slow() -> None:
@@ -70,4 +70,4 @@ def test_words_say_so_and_a_controller_turns_it_over_at_once() -> None:
     curve = Curve(
         "position", "mm", "sliders_mm", learned.variable.times, at, space.functions(at) @ values, known, known
     )
-    assert describe(curve).text.endswith("its sign turning over gradually with the motion")
+    assert describe(curve).text.endswith("its sign changing smoothly with the direction of motion")
