@@ -84,6 +84,7 @@ def model_of(name: str, nominal: Table, beside: tuple[str, ...] = ("leg_length",
         "learned:slider:4:screw_phase",
         "learned:slider:all:position",
         "learned:slider:2:velocity",
+        "learned:slider:2:velocity_turning@0.2",
         "learned:slider:6:leg_force",
         "learned:leg:3:joint_angle",
         "learned:leg:1:platform_turning_rate",
@@ -197,7 +198,15 @@ def test_travel_since_a_reversal_is_corrected_away_from_reversals(name: str, nom
     assert remaining[chosen].max() < 1e-5
 
 
-@pytest.mark.parametrize("name", ["learned:slider:5:since_reversal_travel", "learned:slider:5:acceleration"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "learned:slider:5:since_reversal_travel",
+        "learned:slider:5:acceleration",
+        # Its change of sign is smooth, that of its table is not.
+        "learned:slider:5:direction_position_turning@0.2",
+    ],
+)
 def test_a_controller_that_looks_ahead_corrects_it_over_reversals_too(name: str, nominal: Table) -> None:
     """The whole path, the travel in which directions change over and the correction's own motion included."""
     model = model_of(name, nominal, ())
