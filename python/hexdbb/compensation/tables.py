@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.compensation.probe import ranges
+from hexdbb.learned.tables import Table
 from hexdbb.machine import MachineFile
 from hexdbb.model import Term
+from hexdbb.samples.screw import TURN, turns
 
 Floats = NDArray[np.float64]
 
@@ -20,6 +22,8 @@ drive can follow."""
 MOST_HALVINGS = 6
 """Bound on the size of a file: the knots of a learned function lie at least three to a spline, where six halvings leave
 less than a thousandth of what a cubic bends between two of them."""
+KNOTS_PER_TURN = 16
+"""Of a screw: lines between so many miss 2 % of what repeats with every turn; they are halved from there."""
 
 
 def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationTable]:
@@ -29,19 +33,22 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
     space, tables = effect.space, effect.tables(term.values, machine)
     parts = effect.coefficients(term.values).reshape(len(tables), -1)
 
+    times, lead_mm = tables[0].times, machine.sliders.screw_lead_mm
+
     def values_mm(at: Floats) -> Floats:
         found: Floats = space.functions(at) @ parts.T
-        return found
+        # A screw's turn follows from the slider's position: a controller needs no column of it.
+        return found * turns(at, lead_mm)[times][:, None] if times in TURN else found
 
     # What multiplies makes the error between two knots as much larger as it is itself.
-    largest = max(map(abs, ranges(machine).get(tables[0].times, (1.0, 1.0))))
-    knots = halved(np.array(tables[0].knots), values_mm, TOLERANCE_MM / largest)
+    largest = max(map(abs, ranges(machine).get(times, (1.0, 1.0))))
+    knots = halved(_first_knots(tables[0], lead_mm), values_mm, TOLERANCE_MM / largest)
     return [
         _core.CompensationTable(
             effect=effect.name,
             port=table.port,
             variable=table.column,
-            times=table.times,
+            times="" if times in TURN else times,
             period=table.period,
             pushes=within_port(table.port, table.pushes),
             knots=knots.tolist(),
@@ -49,6 +56,18 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
         )
         for table, column in zip(tables, values_mm(knots).T, strict=True)
     ]
+
+
+def _first_knots(table: Table, lead_mm: float) -> Floats:
+    """Return the knots that are halved first: those of the function, or so many that no turn of a screw is missed.
+
+    A screw turns on where its function is held: the knots go on by a turn, which no correction exceeds.
+    """
+    knots = np.array(table.knots)
+    if table.times not in TURN:
+        return knots
+    first, last = knots[0] - lead_mm, knots[-1] + lead_mm
+    return np.linspace(first, last, 1 + int(np.ceil(KNOTS_PER_TURN * (last - first) / lead_mm)))
 
 
 def within_port(port: str, pushes: Sequence[tuple[int, Sequence[tuple[int, float]]]]) -> list[tuple[int, int, float]]:

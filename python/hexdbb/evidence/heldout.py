@@ -85,8 +85,9 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
 def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
     """Return how much each group contradicts the fit to the other groups, per fitted value that the group determines.
 
-    This is the squared distance between the two sets of values in standard deviations. It is about 1 by chance, even
-    where the other groups determine the values badly.
+    This is the squared distance between the two sets of values in standard deviations, as they are with all that the
+    fit leaves: what it leaves of a form displaces values as noise does. It is about 1 by chance, even where the other
+    groups determine the values badly.
     """
     numbers, sums = trials.engine.readings.groups[grouping], trials.sums(trial, _groupings(trial))
     groups = list(zip(np.unique(numbers), sums.groups(grouping), strict=True))
@@ -95,7 +96,7 @@ def contradiction(trial: Trial, trials: Trials, grouping: str) -> float:
         for _, cells in _claimed(trial, trials.engine.readings, grouping, groups)
     ]
     squared, determined, rows = (sum(column) for column in zip(*found, strict=True))
-    return float((squared - rows * trial.left) / max(determined, 1e-9))
+    return float((squared - rows * trial.left) / max(determined, 1e-9) / max(trial.left, 1.0))
 
 
 def _groupings(trial: Trial) -> tuple[str, ...]:

@@ -152,7 +152,7 @@ def discrepancy(
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
 
     What changes sign with the direction of travel may be larger in one direction than in the other. What changes at
-    ball or cup with time may seat itself after each fixing.
+    ball or cup with time may seat itself after each fixing. What lags may do so by a series in the motion's derivatives.
     What belongs to the set-up, as a gauge that is read late, is one thing that the elements share, form and all.
     Functions of forms alone are shared too: legs that each follow the warmth in their own manner are like any screw
     that grows.
@@ -168,7 +168,7 @@ def discrepancy(
     # An effect as narrow as a dent lives in fine functions alone: the nearest of them then stands for its form.
     useful = [each for each in near if each.variable.columns <= MOST_COLUMNS or each.is_of_time] or near[:1]
     own = {each.hypothesis for each in homes if each.explained >= criteria.form_own and not each.is_of_forms}
-    beside = (other for each in useful for other in (each.alike_both_ways, each.after_each_fixing) if other is not None)
+    beside = (other for each in useful for other in each.of_its_form)
     every = dict.fromkeys((*useful, *beside))
     return [_by_element(each) if each in own and not is_set_up else (each,) for each in every]
 

@@ -56,10 +56,10 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     """
     missed_most = search.criteria.missed_sure if missed_most is None else missed_most
     checked, is_one = search.checked(node), node.faults == 1
-    if checked.share < search.criteria.explained_min or _is_put_together(search, node):
+    if checked.share < search.criteria.explained_min or not _predicts_more_than_laps(search, node):
         return False
-    if not _predicts_more_than_laps(search, node):
-        return False
+    if _is_put_together(search, node):
+        return err_by_geometry(search, node)
     if not _errs_little(search, node, missed_most):
         by_formula = is_one and _explains_by_formulas(search, node) and misses_only_geometry(search, node)
         return by_formula or err_by_geometry(search, node)
@@ -82,7 +82,7 @@ def _predicts_more_than_laps(search: Search, node: Node) -> bool:
 def _is_put_together(search: Search, node: Node) -> bool:
     """Check for several excused from predicting, or one among them of quite another form: each takes what others leave.
 
-    So it fits, whatever is true.
+    So it fits, whatever is true; unless each explains by its own formula what it does.
     """
     deviation = max((form.deviation for form in node.trial.forms if form is not None), default=0.0)
     is_odd = search.checked(node).excused or deviation > search.criteria.form_named

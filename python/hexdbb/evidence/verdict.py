@@ -9,6 +9,7 @@ from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.fine_enough import or_one_fine_enough
+from hexdbb.evidence.further_elements import with_elements_that_predict
 from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
@@ -115,7 +116,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
     node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
-    node = or_one_that_predicts(search, or_fewer_by_formulas(search, node))
+    node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, node))
     fine = or_one_fine_enough(search, node)
     node = node if fine is node else in_known_words(search, fine)

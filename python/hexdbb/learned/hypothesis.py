@@ -140,6 +140,20 @@ class Learned:
         return replace(self, variable=v.SINCE_FIXING) if is_there else None
 
     @property
+    def next_order(self) -> Learned | None:
+        """The function of the acceleration beside one of the velocity; None where it is no function of the velocity.
+
+        A delay, or a loop that lags, is a series in the derivatives of the motion: the first is not the whole of it.
+        """
+        is_there = self.variable == v.VELOCITY and v.ACCELERATION in variables_of(self.place, self.element)
+        return replace(self, variable=v.ACCELERATION) if is_there else None
+
+    @property
+    def of_its_form(self) -> tuple[Learned, ...]:
+        """Functions of other variables in which the form of an effect may be wrong that lives in this one."""
+        return tuple(e for e in (self.alike_both_ways, self.after_each_fixing, self.next_order) if e is not None)
+
+    @property
     def parts(self) -> tuple[Learned, ...]:
         """Where the variable is a product of two states: the hypotheses of either state alone at this place."""
         variables = {each.name: each for each in variables_of(self.place, self.element)}

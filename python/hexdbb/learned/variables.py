@@ -43,6 +43,16 @@ SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE = (
 )
 """Beside functions times the direction of travel: what is not the same at one end of the travel and at the other."""
 VELOCITY = Variable("velocity", "velocity_mm_s", "mm/s", "velocity of the slider", 12, signed=True)
+VELOCITY_OVER_TIME = Variable(
+    "velocity_over_time",
+    "time_s",
+    "s",
+    "time, times the velocity of the slider",
+    6,
+    times="velocity_mm_s",
+    of_forms=True,
+)
+"""Beside a lag or a delay: the gauge's clock runs apart from the drives', or grease warms."""
 NEIGHBOUR_VELOCITY = Variable(
     "neighbour_velocity",
     "velocity_mm_s",
@@ -77,6 +87,19 @@ TIME_POSITION_BENT = replace(TIME_POSITION, name="time_position_bent", times=BEN
 """Beside what grows in proportion to time: what warms does so by less and less."""
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
+SCREW_COS_POSITION, SCREW_SIN_POSITION = (
+    Variable(
+        f"{column}_position",
+        "sliders_mm",
+        "mm",
+        f"position, times the {words} of the screw's turn",
+        6,
+        times=column,
+        of_forms=True,
+    )
+    for column, words in (("screw_cos", "cosine"), ("screw_sin", "sine"))
+)
+"""Beside what repeats with every turn: a screw wears where it is used most, and its ends are ground otherwise."""
 TURNING = Variable(
     "turning_rate", "slider_joint_rate_rad_s", "rad/s", "turning rate of the slider's joint", 12, signed=True
 )
@@ -169,13 +192,14 @@ COURSE, COURSE_IN_PLATFORM = (
 )
 """Friction and play act against it; one for places pushed in the base frame, one for those in the platform frame."""
 
+OF_DRIVE = (VELOCITY_OVER_TIME, SCREW_COS_POSITION, SCREW_SIN_POSITION)
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
-    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE, TIME_POSITION_BENT),
+    *(SINCE_REVERSAL_ALIKE, TRAVEL_ALIKE, TIME_POSITION_BENT, *OF_DRIVE),
 )
 OF_LEG = (
-    *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY)),
+    *(each for each in OF_SLIDER if each not in (FINE_POSITION, SCREW_PHASE, NEIGHBOUR_VELOCITY, *OF_DRIVE)),
     *(
         TURNING,
         JOINT_ANGLE,

@@ -29,6 +29,8 @@ OWN = {
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
+    "screw_cos": ("slider", "1", "cosine of the angle that the slider's screw has turned from coordinate 0"),
+    "screw_sin": ("slider", "1", "its sine"),
     "course": ("axis", "1", "direction in which the platform moves, a unit vector in the base frame; 0: it stands"),
     "course_in_platform": ("axis", "1", "the same in the platform frame"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),

@@ -33,6 +33,7 @@ from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
+from hexdbb.samples.screw import TURN, TURN_FROM, turns
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
 
@@ -76,7 +77,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, *TURN, DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -108,6 +109,8 @@ class Whole:
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
         elif name == GAP:
             self.columns[name] = gaps_mm(*self._known(GAP_FROM))
+        elif name in TURN:
+            self.columns |= turns(*self._known(TURN_FROM), self.machine.sliders.screw_lead_mm)
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
         elif name == SCALE:

@@ -70,8 +70,14 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     columns["velocity_mm_s.turning@0.2"] = remembered_column(
         "turning", 0.2, columns["velocity_mm_s"], state["time_s"], zeros, state["angle_rad"]
     )
+    columns |= _turns(sliders_mm, machine)
     columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
     return Table(columns, machine), block
+
+
+def _turns(sliders_mm: Floats, machine: MachineFile) -> dict[str, Floats]:
+    turned = np.exp(2j * np.pi * sliders_mm / machine.sliders.screw_lead_mm)
+    return {"screw_cos": turned.real, "screw_sin": turned.imag}
 
 
 def nominal_table(machine: MachineFile = MACHINE) -> Table:
@@ -88,7 +94,8 @@ def errors_mm(model: Model, targets_mm: Floats, commanded: Table | None = None) 
     it is given: a controller knows the commanded motion, without that of the correction itself.
     """
     table, block = table_of(targets_mm, model.machine)
-    columns = {**(commanded or table).columns, "sliders_mm": targets_mm, "warming_k": np.full(len(table), WARMING_K)}
+    columns = {**(commanded or table).columns, "sliders_mm": targets_mm, **_turns(targets_mm, model.machine)}
+    columns["warming_k"] = np.full(len(table), WARMING_K)
     driven = Table(columns, model.machine)
     engine = model.engine(lambda own, _: own.tabulated(driven))
     poses, status = _core.forward_table(engine, block)

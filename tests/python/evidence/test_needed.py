@@ -32,6 +32,7 @@ class Trialled:
         self._left, self._fitted = left, fitted
         self.asked: list[frozenset[Member]] = []
         self.bends: dict[tuple[Member, ...], float] = {}
+        self.forms: dict[Member, Form] = {}
 
     def bent(self, trial: Any) -> float:
         return self.bends.get(trial.members, 0.0)
@@ -45,7 +46,8 @@ class Trialled:
     def of(self, members: tuple[Member, ...]) -> Any:
         self.asked.append(frozenset(members))
         left = self._left[frozenset(members)]
-        return SimpleNamespace(members=members, left=left, log_evidence=-1000.0 * left, refused=())
+        forms = tuple(self.forms.get(each) for each in members)
+        return SimpleNamespace(members=members, left=left, log_evidence=-1000.0 * left, refused=(), forms=forms)
 
     def size(self, trial: Any, known: Known) -> float:
         return 3.0
@@ -105,6 +107,16 @@ def test_geometry_bent_beyond_its_priors_counts_as_unexplained(bent: float, expe
     search.trials.size = lambda trial, known: 0.2
     assert needs(search, wider, GAIN) is expected
     assert is_better(search, wider, node_of(search.trials.of((SCREW,)))) is expected
+
+
+@pytest.mark.parametrize(("part", "expected"), [(0.15, True), (0.05, False)])
+def test_an_effect_of_which_its_form_explains_nearly_all_is_not_there(part: float, expected: bool) -> None:
+    """A drift beside a delay that changes over the test: functions of time explain what the delay leaves."""
+    search, both = searched({(GAIN, DRIFT): 1.0, (GAIN,): 4.0})
+    form = Form(0.4, 0.1, ("learned:reading:fine_time",), columns=9)
+    search.trials.forms = {DRIFT: form}
+    search.left_by_formula = lambda trial, each: 4.0 - part * 3.0 if each is form else trial.left
+    assert needs(search, node_of(search.trials.of(both.members)), DRIFT) is expected
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,56 @@
+"""Further elements of the effects of a set: what they add is little where fitted, and much where left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import NOTHING_LEFT, missed
+from hexdbb.evidence.sure import is_for_sure
+from hexdbb.evidence.trial import Member
+
+
+def with_elements_that_predict(search: Search, node: Node) -> Node:
+    """Add an element of an effect that a set has at others, where the set is not for sure without it, but with it.
+
+    A guideway that is bowed less than its neighbour adds no more where fitted than a form may, which geometry takes;
+    but geometry carries it to circles left out. What another effect beside the set says as well is none.
+    """
+    if not node.is_known or not node.members or is_for_sure(search, node):
+        return node
+    own = [each for each in _wider(search, node) if _is_needed(search, node, each)]
+    beside = (each for each in search.nodes if each.is_known and {*node.hypotheses} < {*each.hypotheses})
+    every = dict.fromkeys((*own, *(each for each in beside if not each.trial.refused)))
+    best_first = sorted(every, key=lambda each: -each.score)
+    first = next((each for each in best_first if _predicts_so(search, node, each)), node)
+    return first if first in own else node
+
+
+def _wider(search: Search, node: Node) -> Iterator[Node]:
+    """Yield the sets with one more element of an effect of a set."""
+    if node.faults >= search.criteria.max_effects:
+        return
+    there = {(each.effect, element) for each in node.hypotheses for element in each.elements}
+    for effect in dict.fromkeys(effect for effect, _ in there):
+        for element in search.engine.base.info(effect).elements:
+            if (effect, element) in there:
+                continue
+            try:
+                yield search.node((*node.members, Member(Known(effect, (element,)))), near=node)
+            except RunError:
+                continue
+
+
+def _is_needed(search: Search, node: Node, wider: Node) -> bool:
+    gain = wider.trial.log_evidence - node.trial.log_evidence + search.log_prior(wider.members[-1].hypothesis)
+    is_seen = node.trial.left - wider.trial.left >= NOTHING_LEFT
+    return is_seen and not wider.trial.refused and gain >= search.criteria.detect_nats
+
+
+def _predicts_so(search: Search, node: Node, wider: Node) -> bool:
+    """Check that a further element makes a set predict."""
+    errs_less = missed(search, wider) < search.criteria.far_better * missed(search, node)
+    return errs_less and not search.checked(wider).reasons and is_for_sure(search, wider)
