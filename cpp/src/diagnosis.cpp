@@ -138,10 +138,24 @@ LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& o
   return out;
 }
 
+/// Descend along geodesics from where Ceres reached its limit, and from where it began: a model that leaves tens of times
+/// the noise bends its geometry along a valley that Ceres follows in steps of a hundredth. Return the lower end.
+Eigen::VectorXd out_of_valley(FewReadings& few, const Eigen::VectorXd& start, const Eigen::VectorXd& reached,
+                              const Eigen::VectorXd& bound) {
+  constexpr int kMost = 100;           // steps, each of two passes over the part
+  constexpr double kDescended = 0.01;  // of chi-square, as in `finish`
+  const auto from = [&](const Eigen::VectorXd& z) {
+    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, {kDescended, kMost});
+  };
+  const Descent one = from(start), other = from(reached);
+  return one.cost < other.cost ? one.z : other.z;
+}
+
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
 /// some of its standard deviations away from that of all readings, to which the last steps lead. `out` stays unusable
-/// where these do not come to rest, or all readings like the end less than the start, whose cost is `at_start`.
-void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
+/// where these do not come to rest, or all readings like the end less than the start, whose cost is `at_start`. Return the
+/// best scaled values found.
+Eigen::VectorXd fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
                         const FitOptions& options, double at_start, FitResult& out) {
   // Of the cost, per value and reading of all for one of the part: the minimum of all readings is expected to be worse for
   // the part by a half of that, and a thousandth of that more does not lengthen the way. Where the cost has kinks, Ceres takes
@@ -161,7 +175,8 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
     const double tolerance = kCoarseFall * static_cast<double>(unknowns.size() * few.stride()) * per_cost;
     const Minimum found =
         minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, tolerance, near);
-    if (!found.is_usable) return;
+    if (!found.is_usable) return start;
+    if (found.iterations >= options.max_iterations) near = out_of_valley(few, start, near, bound);
   }
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
@@ -173,6 +188,7 @@ void fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReading
   out.usable = end.is_at_rest && end.cost <= at_start;
   out.termination = "Converged: no further step improves the fit.";
   if (out.usable) out.values = unknowns.values(end.z.data());
+  return end.cost <= at_start ? end.z : start;
 }
 
 /// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.
@@ -236,14 +252,15 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   return out.usable ? fine.z : start;
 }
 
-/// Fill in what a diagnosis has beyond a fit, and fit coarse to fine where that is worth while.
-void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, Accumulator& accumulator,
+/// Fill in what a diagnosis has beyond a fit, and fit coarse to fine where that is worth while. Return the scaled values
+/// from which Ceres goes on where that came to no end.
+Eigen::VectorXd diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, Accumulator& accumulator,
               const Unknowns& unknowns, const FitOptions& options, FitResult& out) {
   const double squared = at_or_throw(accumulator, model, Sums::kResidual).squared;
   out.rms_before_mm = rms(accumulator.residual_mm());
   if (samples.size() < kLeastStride * kFewRows || options.robust_mm > 0.0) {
     out.machine = machine_identifiability(model, accumulator, 1, unknowns, options);
-    return;
+    return unknowns.scaled_start();
   }
   FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm,
                   std::max(kFewRows, samples.size() / kMostStride));
@@ -251,7 +268,7 @@ void diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd&
   out.machine = machine_identifiability(few.model(), few.accumulator(), few.stride(), unknowns, options);
   const double prior = unknowns.scaled_start().squaredNorm();
   const double at_start = 0.5 * (squared / (options.noise_mm * options.noise_mm) + prior);
-  fit_coarse_to_fine(model, accumulator, few, unknowns, options, at_start, out);
+  return fit_coarse_to_fine(model, accumulator, few, unknowns, options, at_start, out);
 }
 
 /// Compute the covariance of the scaled unknowns to first order: inverse of the readings' information plus the prior's.
@@ -302,7 +319,7 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.hypothesis && options.robust_mm == 0.0) {
     z = fit_hypothesis(model, samples, measured_mm, accumulator, unknowns, options, out);
   }
-  if (!options.hypothesis) diagnose(model, samples, measured_mm, accumulator, unknowns, options, out);
+  if (!options.hypothesis) z = diagnose(model, samples, measured_mm, accumulator, unknowns, options, out);
   if (!out.usable) minimize_all(model, accumulator, unknowns, options, z, out);
 
   Model fitted = model;

@@ -29,33 +29,61 @@ Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unkno
 BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
                          const Eigen::VectorXd& lower, const Eigen::VectorXd& upper)
     : is_held_(z.size(), false), step_(Eigen::VectorXd::Zero(z.size())) {
-  do {
-    Eigen::MatrixXd free = matrix;
-    Eigen::VectorXd right = downhill;
-    for (Eigen::Index j = 0; j < z.size(); ++j) {
-      if (!is_held_[j]) continue;
-      right -= step_[j] * matrix.col(j);
-      free.row(j).setZero();
-      free.col(j).setZero();
-      free(j, j) = 1.0;
-    }
-    factor_.compute(free);
-    const Eigen::VectorXd moved = solve(right);
-    for (Eigen::Index j = 0; j < z.size(); ++j) step_[j] = is_held_[j] ? step_[j] : moved[j];
-  } while (hold_beyond_bounds(z, lower, upper));
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    is_held_[j] = lower[j] == upper[j] || (downhill[j] > 0.0 ? z[j] >= upper[j] : z[j] <= lower[j]);
+  }
+  // Primal active sets: every change lowers the quadratic, so that even the last of too many leaves a good step.
+  const Eigen::Index most_changes = 4 * z.size();
+  for (Eigen::Index changes = 0; changes <= most_changes; ++changes) {
+    const Eigen::Index stopped = move_free(matrix, downhill, z, lower, upper);
+    const Eigen::Index other = stopped >= 0 ? stopped : pulled_inwards(matrix, downhill, z, lower, upper);
+    if (other < 0) break;
+    is_held_[other] = stopped >= 0;
+  }
   predicted_fall_ = step_.dot(2.0 * downhill - matrix * step_);
 }
 
-bool BoundedStep::hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
-                                     const Eigen::VectorXd& upper) {
-  bool any = false;
+Eigen::Index BoundedStep::move_free(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill,
+                                    const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
+                                    const Eigen::VectorXd& upper) {
+  Eigen::MatrixXd free = matrix;
   for (Eigen::Index j = 0; j < z.size(); ++j) {
-    const double there = std::clamp(z[j] + step_[j], lower[j], upper[j]);
-    if (is_held_[j] || there == z[j] + step_[j]) continue;
-    step_[j] = there - z[j];
-    is_held_[j] = any = true;
+    if (!is_held_[j]) continue;
+    free.row(j).setZero();
+    free.col(j).setZero();
+    free(j, j) = 1.0;
   }
-  return any;
+  factor_.compute(free);
+  const Eigen::VectorXd way = solve(downhill - matrix * step_);
+  double part = 1.0;
+  Eigen::Index stopped = -1;
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    const double room = (way[j] > 0.0 ? upper[j] : lower[j]) - z[j] - step_[j];
+    if (is_held_[j] || std::abs(way[j]) * part <= std::abs(room)) continue;
+    part = room / way[j];
+    stopped = j;
+  }
+  step_ += part * way;
+  if (stopped >= 0) step_[stopped] = (way[stopped] > 0.0 ? upper[stopped] : lower[stopped]) - z[stopped];
+  return stopped;
+}
+
+Eigen::Index BoundedStep::pulled_inwards(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill,
+                                         const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
+                                         const Eigen::VectorXd& upper) const {
+  constexpr double kRounding = 1e-12;  // of the sum of what a pull is made of
+  Eigen::Index out = -1;
+  double strongest = 0.0;
+  for (Eigen::Index j = 0; j < z.size(); ++j) {
+    if (!is_held_[j] || lower[j] == upper[j]) continue;
+    const Eigen::VectorXd terms = matrix.col(j).cwiseProduct(step_);
+    const double there = z[j] + step_[j], outwards = upper[j] - there < there - lower[j] ? 1.0 : -1.0;
+    const double inwards = outwards * (terms.sum() - downhill[j]);
+    if (inwards <= kRounding * (terms.cwiseAbs().sum() + std::abs(downhill[j])) || inwards <= strongest) continue;
+    strongest = inwards;
+    out = j;
+  }
+  return out;
 }
 
 Eigen::VectorXd BoundedStep::solve(Eigen::VectorXd right) const {

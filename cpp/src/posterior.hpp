@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <vector>
 
 #include "normal_equations.hpp"
 #include "unknowns.hpp"
@@ -25,8 +26,9 @@ Posterior posterior_of(const NormalEquations& equations, const Unknowns& unknown
 Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, double noise_mm,
                        const Eigen::VectorXd& z, Sums sums = Sums::kAll);
 
-/// Minimum of a quadratic between bounds: step' downhill - step' matrix step / 2 is largest. Values that a step would
-/// take beyond their bound stay on it, and the step of the others is solved again.
+/// Minimum of a quadratic between bounds: step' downhill - step' matrix step / 2 is largest. The values go to the minimum
+/// as far as the first bound, its value is held there, and the others go on; one that the gradient then pulls off its
+/// bound is free again. Were none freed, one of two values that all but undo each other would stop both.
 class BoundedStep {
  public:
   BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
@@ -39,7 +41,13 @@ class BoundedStep {
   Eigen::VectorXd solve(Eigen::VectorXd right) const;
 
  private:
-  bool hold_beyond_bounds(const Eigen::VectorXd& z, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+  /// Move the values that are free towards their minimum, as far as the first bound. Return which value stops there, -1
+  /// where none does.
+  Eigen::Index move_free(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
+                         const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+  /// Return the held value that the gradient pulls off its bound most, -1 where there is none.
+  Eigen::Index pulled_inwards(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
+                              const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) const;
 
   std::vector<bool> is_held_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

@@ -33,7 +33,8 @@ def _wider(search: Search, node: Node) -> Iterator[Node]:
     """Yield the sets with one more element of an effect of a set."""
     if node.faults >= search.criteria.max_effects:
         return
-    there = {(each.effect, element) for each in node.hypotheses for element in each.elements}
+    known = [each for each in node.hypotheses if isinstance(each, Known)]
+    there = dict.fromkeys((each.effect, element) for each in known for element in each.elements)
     for effect in dict.fromkeys(effect for effect, _ in there):
         for element in search.engine.base.info(effect).elements:
             if (effect, element) in there:

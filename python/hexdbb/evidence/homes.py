@@ -152,7 +152,8 @@ def discrepancy(
     """Return the functions in which an effect's form may be wrong: of its own variables, and element by element.
 
     What changes sign with the direction of travel may be larger in one direction than in the other. What changes at
-    ball or cup with time may seat itself after each fixing. What lags may do so by a series in the motion's derivatives.
+    ball or cup with time may seat itself after each fixing. What lags may do so by a series in the motion's
+    derivatives.
     What belongs to the set-up, as a gauge that is read late, is one thing that the elements share, form and all.
     Functions of forms alone are shared too: legs that each follow the warmth in their own manner are like any screw
     that grows.

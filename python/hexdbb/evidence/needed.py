@@ -127,6 +127,17 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
     return by_formula < search.criteria.formula_least * (others.left - node.trial.left)
 
 
+def has_form_alone(search: Search, node: Node) -> bool:
+    """Check for a set with an effect of which the functions of its form explain nearly all."""
+    trials = search.trials
+    known = (each for each in node.members if isinstance(each.hypothesis, Known))
+    return any(
+        _is_form_alone(search, node, each, trials.of_fewer(node.without(each), node.trial))
+        for each in known
+        if len(node.members) > 1
+    )
+
+
 def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:
     """Check the size of a known effect; what pushes more than was missing is undone by another of the set."""
     sizes = _sizes(search, node)

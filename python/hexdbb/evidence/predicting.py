@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from hexdbb.evidence.admissible import missed_of
 from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.needed import has_form_alone
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
@@ -40,7 +41,7 @@ def or_another_that_predicts(search: Search, node: Node) -> Node:
     # The best first: what lies behind it need not be held out.
     others.sort(key=lambda each: -each.score)
     found = (e for e in others if _explains_and_predicts(search, e) and _errs_no_more(search, e, doubted))
-    return next(found, node)
+    return next((each for each in found if not has_form_alone(search, each)), node)
 
 
 def _doubted(search: Search, node: Node) -> dict[str, HeldOut]:

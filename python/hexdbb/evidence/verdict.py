@@ -172,13 +172,17 @@ def _in_order(search: Search, node: Node, learned: list[Learned]) -> list[Learne
 
 
 def _is_lead(search: Search, node: Node, causes: list[Hypothesis], cause: Hypothesis) -> bool:
-    """Check for a known effect beside learned functions that one of them may say, or leave by being no more exact."""
+    """Check for a known effect beside learned functions that one of them may say, or leave by being no more exact.
+
+    So may one that explains more than the effect does: what is not known that far may be at another place too.
+    """
     others = [each for each in causes if isinstance(each, Learned)]
     if not isinstance(cause, Known) or not others:
         return False
     if any(at_a_place_of_its_kin(search, cause, each) for each in others):
         return True
-    return left_without(search, node, cause) - node.trial.left < of_forms(search, node.trial)
+    most = max(left_without(search, node, each) for each in others)
+    return left_without(search, node, cause) < max(most, node.trial.left + of_forms(search, node.trial))
 
 
 def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str, ...], *, is_lead: bool) -> Found:

@@ -110,7 +110,8 @@ class Whole:
         elif name == GAP:
             self.columns[name] = gaps_mm(*self._known(GAP_FROM))
         elif name in TURN:
-            self.columns |= turns(*self._known(TURN_FROM), self.machine.sliders.screw_lead_mm)
+            (sliders_mm,) = self._known(TURN_FROM)
+            self.columns |= turns(sliders_mm, self.machine.sliders.screw_lead_mm)
         elif name == DEFLECTION:
             self.columns[name] = self._deflection_mm()
         elif name == SCALE:
