@@ -155,8 +155,9 @@ Eigen::VectorXd out_of_valley(FewReadings& few, const Eigen::VectorXd& start, co
 /// some of its standard deviations away from that of all readings, to which the last steps lead. `out` stays unusable
 /// where these do not come to rest, or all readings like the end less than the start, whose cost is `at_start`. Return the
 /// best scaled values found.
-Eigen::VectorXd fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
-                        const FitOptions& options, double at_start, FitResult& out) {
+Eigen::VectorXd fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few,
+                                   const Unknowns& unknowns, const FitOptions& options, double at_start,
+                                   FitResult& out) {
   // Of the cost, per value and reading of all for one of the part: the minimum of all readings is expected to be worse for
   // the part by a half of that, and a thousandth of that more does not lengthen the way. Where the cost has kinks, Ceres takes
   // tens of passes for what is below.
@@ -254,8 +255,9 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
 
 /// Fill in what a diagnosis has beyond a fit, and fit coarse to fine where that is worth while. Return the scaled values
 /// from which Ceres goes on where that came to no end.
-Eigen::VectorXd diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm, Accumulator& accumulator,
-              const Unknowns& unknowns, const FitOptions& options, FitResult& out) {
+Eigen::VectorXd diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+                         Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
+                         FitResult& out) {
   const double squared = at_or_throw(accumulator, model, Sums::kResidual).squared;
   out.rms_before_mm = rms(accumulator.residual_mm());
   if (samples.size() < kLeastStride * kFewRows || options.robust_mm > 0.0) {

@@ -33,7 +33,8 @@ double largest_fall(const MatrixXd& matrix, const VectorXd& downhill, const Vect
       right[j] = digits % 3 == 1 ? lower[j] : upper[j];
     }
     const VectorXd step = free.partialPivLu().solve(right);
-    const bool is_between = (step.array() >= lower.array() - 1e-12).all() && (step.array() <= upper.array() + 1e-12).all();
+    const bool is_between =
+        (step.array() >= lower.array() - 1e-12).all() && (step.array() <= upper.array() + 1e-12).all();
     if (is_between) out = std::max(out, fall(matrix, downhill, step));
   }
   return out;

@@ -13,26 +13,39 @@ from hexdbb.evidence.trial import Member
 
 
 def explain_by_own_formulas(search: Search, node: Node) -> bool:
+    """Check for known effects that each explain by their own formula most of what they do, and of what others leave.
+
+    Together they then explain enough: what is left is what several forms leave, one beside the other.
+    """
+    return _explain_so(search, node, search.criteria.own_formula, search.criteria.explained_min)
+
+
+def explain_nearly_all(search: Search, node: Node) -> bool:
     """Check for known effects that each explain by their own formula nearly all that they do, and together nearly all.
 
     Of what the others leave each explains enough: the rest of it may be what the others' formulas leave.
     """
-    if not node.is_known or explained_by_formulas(search, node) < search.criteria.form_explains:
+    return _explain_so(search, node, search.criteria.form_explains, search.criteria.form_explains)
+
+
+def _explain_so(search: Search, node: Node, each: float, together: float) -> bool:
+    """Check for known effects that explain so much by their formulas, each of what it does and all of what is missing."""
+    if not node.is_known or explained_by_formulas(search, node) < together:
         return False
     return all(
-        _explains_by_its_own(search, node, member, form)
+        _explains_by_its_own(search, node, member, form, each)
         for member, form in zip(node.members, node.trial.forms, strict=True)
     )
 
 
-def _explains_by_its_own(search: Search, node: Node, member: Member, form: Form | None) -> bool:
+def _explains_by_its_own(search: Search, node: Node, member: Member, form: Form | None, least: float) -> bool:
     try:
         others = search.trials.of(node.without(member)).left
     except RunError:
         return False
     explains = others - search.left_by_formula(node.trial, form)
-    is_enough = explains >= search.criteria.explained_min * (others - 1.0)
-    return is_enough and explains >= search.criteria.form_explains * (others - node.trial.left)
+    is_enough = explains >= min(least, search.criteria.own_formula) * (others - 1.0)
+    return is_enough and explains >= least * (others - node.trial.left)
 
 
 def err_by_geometry(search: Search, node: Node) -> bool:

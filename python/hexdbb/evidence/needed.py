@@ -118,10 +118,13 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
     """Check for a known effect beside others of which the functions of its form explain nearly all: it is not there.
 
     A gauge that drifts stood so for a delay that changes over the test, by functions of time fourteen times as much as
-    by its formula.
+    by its formula. Others that explain too little by theirs have taken what its formula would.
     """
     form = node.trial.forms[node.members.index(member)]
     if len(node.members) < 2 or form is None or not form.columns:
+        return False
+    first = search.root.trial.left
+    if first - search.left_by_formulas(others) < search.criteria.explained_min * (first - 1.0):
         return False
     by_formula = others.left - search.left_by_formula(node.trial, form)
     return by_formula < search.criteria.formula_least * (others.left - node.trial.left)
@@ -129,13 +132,12 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
 
 def has_form_alone(search: Search, node: Node) -> bool:
     """Check for a set with an effect of which the functions of its form explain nearly all."""
-    trials = search.trials
-    known = (each for each in node.members if isinstance(each.hypothesis, Known))
-    return any(
-        _is_form_alone(search, node, each, trials.of_fewer(node.without(each), node.trial))
-        for each in known
-        if len(node.members) > 1
-    )
+    for member in node.members if len(node.members) > 1 else ():
+        if isinstance(member.hypothesis, Known):
+            others = search.trials.of_fewer(node.without(member), node.trial)
+            if _is_form_alone(search, node, member, others):
+                return True
+    return False
 
 
 def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from hexdbb.evidence.by_formulas import explain_by_own_formulas
+from hexdbb.evidence.by_formulas import explain_nearly_all
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead
@@ -223,7 +223,7 @@ def _one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     Several whose forms make up for what their formulas leave may stand in for one cause. A function that two
     sliders share says the same as a cause of each.
     """
-    if explain_by_own_formulas(search, node):
+    if explain_nearly_all(search, node):
         return []
     return [
         other.trial.names[0]

@@ -140,18 +140,19 @@ class Learned:
         return replace(self, variable=v.SINCE_FIXING) if is_there else None
 
     @property
-    def next_order(self) -> Learned | None:
-        """The function of the acceleration beside one of the velocity; None where it is no function of the velocity.
+    def of_velocity(self) -> tuple[Learned, ...]:
+        """Functions of acceleration and of feed beside one of the velocity; none where it is no such.
 
-        A delay, or a loop that lags, is a series in the derivatives of the motion: the first is not the whole of it.
+        A delay, or a loop that lags, is a series in the derivatives of the motion, and a filter delays by the feed.
         """
-        is_there = self.variable == v.VELOCITY and v.ACCELERATION in variables_of(self.place, self.element)
-        return replace(self, variable=v.ACCELERATION) if is_there else None
+        there = variables_of(self.place, self.element) if self.variable == v.VELOCITY else ()
+        return tuple(replace(self, variable=each) for each in (v.ACCELERATION, v.VELOCITY_BY_FEED) if each in there)
 
     @property
     def of_its_form(self) -> tuple[Learned, ...]:
         """Functions of other variables in which the form of an effect may be wrong that lives in this one."""
-        return tuple(e for e in (self.alike_both_ways, self.after_each_fixing, self.next_order) if e is not None)
+        others = (each for each in (self.alike_both_ways, self.after_each_fixing) if each is not None)
+        return (*others, *self.of_velocity)
 
     @property
     def parts(self) -> tuple[Learned, ...]:

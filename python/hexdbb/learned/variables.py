@@ -53,6 +53,10 @@ VELOCITY_OVER_TIME = Variable(
     of_forms=True,
 )
 """Beside a lag or a delay: the gauge's clock runs apart from the drives', or grease warms."""
+VELOCITY_BY_FEED = Variable(
+    "velocity_by_feed", "feed_mm_s", "mm/s", "feed, times the velocity of the slider", times="velocity_mm_s", of_forms=True
+)
+"""The same: a filter delays by less at a higher feed."""
 NEIGHBOUR_VELOCITY = Variable(
     "neighbour_velocity",
     "velocity_mm_s",
@@ -192,7 +196,7 @@ COURSE, COURSE_IN_PLATFORM = (
 )
 """Friction and play act against it; one for places pushed in the base frame, one for those in the platform frame."""
 
-OF_DRIVE = (VELOCITY_OVER_TIME, SCREW_COS_POSITION, SCREW_SIN_POSITION)
+OF_DRIVE = (VELOCITY_OVER_TIME, VELOCITY_BY_FEED, SCREW_COS_POSITION, SCREW_SIN_POSITION)
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),

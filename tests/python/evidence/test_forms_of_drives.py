@@ -60,19 +60,19 @@ def test_a_form_may_change_along_the_screw_or_over_the_test(
 def test_they_are_no_causes(engine: Engine) -> None:
     learnable = Learnable(engine.readings, learns=True)
     causes = {each.variable.name for each in (*learnable.simple, *learnable.products, *learnable.further.values())}
-    assert causes.isdisjoint({"screw_cos_position", "screw_sin_position", "velocity_over_time"})
+    assert causes.isdisjoint({"screw_cos_position", "screw_sin_position", "velocity_over_time", "velocity_by_feed"})
 
 
 @pytest.mark.parametrize(
     ("name", "expected"),
     [
-        ("learned:slider:all:velocity", "learned:slider:all:acceleration"),
-        ("learned:leg:4:velocity", "learned:leg:4:acceleration"),
-        ("learned:slider:2:since_reversal_time", "learned:slider:2:since_reversal_time_alike"),
-        ("learned:ball:time", "learned:ball:time_since_fixing"),
-        ("learned:slider:2:position", None),
+        ("learned:slider:all:velocity", ["acceleration", "velocity_by_feed"]),
+        ("learned:leg:4:velocity", ["acceleration"]),
+        ("learned:slider:2:since_reversal_time", ["since_reversal_time_alike"]),
+        ("learned:ball:time", ["time_since_fixing"]),
+        ("learned:slider:2:position", []),
     ],
 )
-def test_what_lags_is_a_series_in_the_derivatives_of_the_motion(name: str, expected: str | None) -> None:
-    found = [each.name for each in Learned.parse(name).of_its_form]
-    assert found == ([] if expected is None else [expected])
+def test_what_lags_is_a_series_in_the_derivatives_of_the_motion(name: str, expected: list[str]) -> None:
+    at, _, _ = name.rpartition(":")
+    assert [each.name for each in Learned.parse(name).of_its_form] == [f"{at}:{each}" for each in expected]

@@ -76,10 +76,10 @@ def test_each_leg_follows_a_law_of_its_own_in_the_effects_own_variable_alone() -
 
 
 def test_what_is_set_up_has_one_form() -> None:
-    """A gauge that is read late is late for every slider, and by the same second order of the motion."""
-    lag, second = (Learned.parse(f"learned:slider:all:{name}") for name in ("velocity", "acceleration"))
-    assert [len(each) for each in discrepancy([Home(lag, 1.0, 0.01)])] == [7, 1]
-    assert discrepancy([Home(lag, 1.0, 0.01)], is_set_up=True) == [(lag,), (second,)]
+    """A gauge that is read late is late for every slider, by the same second order of the motion, and by the feed."""
+    lag, *others = (Learned.parse(f"learned:slider:all:{e}") for e in ("velocity", "acceleration", "velocity_by_feed"))
+    assert [len(each) for each in discrepancy([Home(lag, 1.0, 0.01)])] == [7, 1, 1]
+    assert discrepancy([Home(lag, 1.0, 0.01)], is_set_up=True) == [(lag,), *((each,) for each in others)]
 
 
 def test_a_form_alone_is_near_an_effect_and_no_word_for_it(linear: Linear, readings: Readings, port: Port) -> None:

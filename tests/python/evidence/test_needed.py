@@ -112,10 +112,10 @@ def test_geometry_bent_beyond_its_priors_counts_as_unexplained(bent: float, expe
 @pytest.mark.parametrize(("part", "expected"), [(0.15, True), (0.05, False)])
 def test_an_effect_of_which_its_form_explains_nearly_all_is_not_there(part: float, expected: bool) -> None:
     """A drift beside a delay that changes over the test: functions of time explain what the delay leaves."""
-    search, both = searched({(GAIN, DRIFT): 1.0, (GAIN,): 4.0})
+    search, both = searched({(GAIN, DRIFT): 1.0, (GAIN,): 3.0})
     form = Form(0.4, 0.1, ("learned:reading:fine_time",), columns=9)
     search.trials.forms = {DRIFT: form}
-    search.left_by_formula = lambda trial, each: 4.0 - part * 3.0 if each is form else trial.left
+    search.left_by_formula = lambda trial, each: 3.0 - part * 2.0 if each is form else trial.left
     assert needs(search, node_of(search.trials.of(both.members)), DRIFT) is expected
 
 

@@ -34,9 +34,16 @@ def answered(monkeypatch: pytest.MonkeyPatch, one: Any, several: Any, *, for_sur
 
 
 def given_way(
-    monkeypatch: pytest.MonkeyPatch, doubted: Any, other: Any, left: float, *, for_sure: bool = False
+    monkeypatch: pytest.MonkeyPatch,
+    doubted: Any,
+    other: Any,
+    left: float,
+    *,
+    for_sure: bool = False,
+    form_alone: bool = False,
 ) -> bool:
     """Return whether a doubted set gives way to another, where so many noise variances are unexplained."""
+    monkeypatch.setattr(predicting, "has_form_alone", lambda search, node: form_alone)
     for each in (doubted, other):
         each.hypotheses, each.trial.is_free_in_time = (each,), False
     monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: for_sure)
@@ -51,6 +58,13 @@ def given_way(
     answer = predicting.or_another_that_predicts(search, doubted)
     assert answer in (doubted, other)
     return answer is other
+
+
+@pytest.mark.parametrize("form_alone", [False, True])
+def test_nothing_gives_way_to_an_effect_that_is_form_alone(monkeypatch: pytest.MonkeyPatch, form_alone: bool) -> None:
+    """A gauge's gain explained four hundredths of what it did beside a delay by its formula."""
+    doubted, other = node_of(1, 2.4, SEVERAL), node_of(1, 1.1, ONE)
+    assert given_way(monkeypatch, doubted, other, left=901.0, form_alone=form_alone) is not form_alone
 
 
 def test_what_predicts_better_is_the_cause_though_it_leaves_more(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -135,6 +149,7 @@ def test_several_that_explain_by_formulas_give_way_to_none_that_explains_less_by
     by_formulas = {id(several.trial): of_set, id(other.trial): of_other}
     monkeypatch.setattr(predicting, "is_for_sure", lambda search, node: False)
     monkeypatch.setattr(predicting, "is_doubtful", lambda search, node: node is several)
+    monkeypatch.setattr(predicting, "has_form_alone", lambda search, node: False)
     search: Any = SimpleNamespace(
         criteria=DEFAULT,
         root=SimpleNamespace(trial=SimpleNamespace(left=9.0)),
