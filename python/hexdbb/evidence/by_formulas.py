@@ -29,7 +29,7 @@ def explain_nearly_all(search: Search, node: Node) -> bool:
 
 
 def _explain_so(search: Search, node: Node, each: float, together: float) -> bool:
-    """Check for known effects that explain so much by their formulas, each of what it does and all of what is missing."""
+    """Check for known effects that explain so much by their formulas: each of what it does, all of what is missing."""
     if not node.is_known or explained_by_formulas(search, node) < together:
         return False
     return all(

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from hexdbb.learned import variables as v
 from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, SETTLING, along, following
-from hexdbb.learned.variable import ELAPSED, Variable, is_growing
+from hexdbb.learned.variable import ELAPSED, OF_MEMORY, Variable, is_growing
 
 SPLINES = 6
 """Splines of a product: what multiplies sets most of its form already."""
@@ -110,6 +110,20 @@ PRODUCTS_OF_READING = (
     *(product("speed", each) for each in (v.ANGLE, v.DEFLECTION)),
     *(product("circle_direction", each) for each in (v.BAR_ANGLE, v.DEFLECTION, v.TIME, v.SPEED)),
 )
+
+
+def _of_drives(variable: Variable, kind: str) -> Iterator[Variable]:
+    for slider in range(1, 7):
+        yield replace(
+            variable,
+            name=f"slider_{slider}_{kind}",
+            column=f"{variable.column}{OF_MEMORY}of@{slider}",
+            words=variable.words.replace("the slider", f"slider {slider}"),
+        )
+
+
+CROSSTALK = tuple(each for kind in (v.VELOCITY, v.ACCELERATION) for each in _of_drives(kind, kind.name))
+"""The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
 NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
 OF_PAIR_OF_SLIDERS = (
     *(v.POSITION, v.FINE_POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.FORCE),
@@ -180,7 +194,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "platform_joint": OF_PLATFORM_JOINT,
     "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
     "cup": (*OF_BALL, *COURSES, *LEANING),
-    "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION), *SINCE_START),
+    "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION), *SINCE_START, *CROSSTALK),
 }
 """Further variables of single elements by place."""
 OF_PAIRS: dict[str, tuple[Variable, ...]] = {

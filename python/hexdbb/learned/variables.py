@@ -54,7 +54,12 @@ VELOCITY_OVER_TIME = Variable(
 )
 """Beside a lag or a delay: the gauge's clock runs apart from the drives', or grease warms."""
 VELOCITY_BY_FEED = Variable(
-    "velocity_by_feed", "feed_mm_s", "mm/s", "feed, times the velocity of the slider", times="velocity_mm_s", of_forms=True
+    "velocity_by_feed",
+    "feed_mm_s",
+    "mm/s",
+    "feed, times the velocity of the slider",
+    times="velocity_mm_s",
+    of_forms=True,
 )
 """The same: a filter delays by less at a higher feed."""
 NEIGHBOUR_VELOCITY = Variable(

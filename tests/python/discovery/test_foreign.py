@@ -189,6 +189,8 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("cable-winds", "learned:reading:turned", {"circle", "feed"}),
         # A brake disc that rubs once a turn of the screw, against the travel: by no function of either alone.
         ("brake-rubs", "learned:slider:1:direction_screw_phase", {"circle", "direction", "lap"}),
+        # The current of drive 4, by its friction, in the gauge's line: functions of all other places said it worse.
+        ("ground-loop", "learned:reading:slider_4_velocity", {"circle", "feed", "direction", "lap"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
