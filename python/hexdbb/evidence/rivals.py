@@ -220,8 +220,9 @@ def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[st
 def _one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     """Return single hypotheses without a cause that leave only noise and predict, unless each of several is for sure.
 
-    Several whose forms make up for what their formulas leave may stand in for one cause. A function that two
-    sliders share says the same as a cause of each.
+    Several whose forms make up for what their formulas leave may stand in for one cause: one that errs by no more than
+    what may be for sure, as a function does that is not quite the cause. A function that two sliders share says the
+    same as a cause of each.
     """
     if explain_nearly_all(search, node):
         return []
@@ -232,7 +233,7 @@ def _one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
         and not _acts_where_they_do(search, other, node)
         and other.trial.left - 1.0 < NOTHING_LEFT
         and not search.checked(other).reasons
-        and search.checked(other).missed <= search.criteria.missed_sure
+        and search.checked(other).missed <= search.criteria.missed_bent
     ]
 
 

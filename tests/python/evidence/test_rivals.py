@@ -165,7 +165,7 @@ def test_sets_that_both_leave_less_than_the_noise_explain_as_much(of_rival: floa
 
 @pytest.mark.parametrize(
     ("by_formula", "left", "missed", "is_named"),
-    [(5.0, 1.02, 0.4, True), (1.5, 1.02, 0.4, False), (5.0, 1.05, 0.4, False), (5.0, 1.02, 0.6, False)],
+    [(5.0, 1.02, 1.2, True), (1.5, 1.02, 1.2, False), (5.0, 1.05, 1.2, False), (5.0, 1.02, 1.6, False)],
     ids=["by forms", "by formulas", "it leaves something", "it errs where left out"],
 )
 def test_one_that_leaves_only_noise_is_named_beside_several_that_explain_by_forms(
