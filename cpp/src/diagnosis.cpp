@@ -3,7 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "block_solver.hpp"
 #include "curvature.hpp"
@@ -106,10 +108,24 @@ Identifiability machine_identifiability(const Model& model, Accumulator& accumul
   return identifiability_of(information, machine, set_up, kRedundant, options.noise_mm / options.identified_fraction);
 }
 
-/// Fit by Ceres to all readings, until no step improves the fit by more than a part of 1e-9 of its cost.
+/// Scaled values that a fit has reached, and their cost.
+struct Reached {
+  Eigen::VectorXd z;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+/// Fit by Ceres to all readings, until no step improves the fit by more than a part of 1e-9 of its cost, from the start,
+/// and from what was reached before where that is lower than the end: from afar Ceres may find the deeper minimum.
 void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
-                  Eigen::VectorXd z, FitResult& out) {
-  const Minimum found = minimize(model, accumulator, unknowns, options.noise_mm, options.max_iterations, 1e-9, z);
+                  Eigen::VectorXd z, Reached before, FitResult& out) {
+  const auto from = [&](Eigen::VectorXd& at) {
+    return minimize(model, accumulator, unknowns, options.noise_mm, options.max_iterations, 1e-9, at);
+  };
+  Minimum found = from(z);
+  if (before.cost < found.cost) {
+    found = from(before.z);
+    z = std::move(before.z);
+  }
   out.usable = found.is_usable;
   out.iterations = found.iterations;
   out.termination = found.message;
@@ -154,10 +170,9 @@ Eigen::VectorXd out_of_valley(FewReadings& few, const Eigen::VectorXd& start, co
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is
 /// some of its standard deviations away from that of all readings, to which the last steps lead. `out` stays unusable
 /// where these do not come to rest, or all readings like the end less than the start, whose cost is `at_start`. Return the
-/// best scaled values found.
-Eigen::VectorXd fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few,
-                                   const Unknowns& unknowns, const FitOptions& options, double at_start,
-                                   FitResult& out) {
+/// best scaled values found, none where they are no better than the start.
+Reached fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewReadings& few, const Unknowns& unknowns,
+                           const FitOptions& options, double at_start, FitResult& out) {
   // Of the cost, per value and reading of all for one of the part: the minimum of all readings is expected to be worse for
   // the part by a half of that, and a thousandth of that more does not lengthen the way. Where the cost has kinks, Ceres takes
   // tens of passes for what is below.
@@ -176,7 +191,7 @@ Eigen::VectorXd fit_coarse_to_fine(const Model& model, Accumulator& accumulator,
     const double tolerance = kCoarseFall * static_cast<double>(unknowns.size() * few.stride()) * per_cost;
     const Minimum found =
         minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, tolerance, near);
-    if (!found.is_usable) return start;
+    if (!found.is_usable) return {};
     if (found.iterations >= options.max_iterations) near = out_of_valley(few, start, near, bound);
   }
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
@@ -189,7 +204,7 @@ Eigen::VectorXd fit_coarse_to_fine(const Model& model, Accumulator& accumulator,
   out.usable = end.is_at_rest && end.cost <= at_start;
   out.termination = "Converged: no further step improves the fit.";
   if (out.usable) out.values = unknowns.values(end.z.data());
-  return end.cost <= at_start ? end.z : start;
+  return end.cost <= at_start ? Reached{end.z, end.cost} : Reached{};
 }
 
 /// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.
@@ -253,16 +268,15 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   return out.usable ? fine.z : start;
 }
 
-/// Fill in what a diagnosis has beyond a fit, and fit coarse to fine where that is worth while. Return the scaled values
-/// from which Ceres goes on where that came to no end.
-Eigen::VectorXd diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-                         Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
-                         FitResult& out) {
+/// Fill in what a diagnosis has beyond a fit, and fit coarse to fine where that is worth while. Return what was
+/// reached where that came to no end.
+Reached diagnose(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+                 Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options, FitResult& out) {
   const double squared = at_or_throw(accumulator, model, Sums::kResidual).squared;
   out.rms_before_mm = rms(accumulator.residual_mm());
   if (samples.size() < kLeastStride * kFewRows || options.robust_mm > 0.0) {
     out.machine = machine_identifiability(model, accumulator, 1, unknowns, options);
-    return unknowns.scaled_start();
+    return {};
   }
   FewReadings few(model, samples, measured_mm, unknowns, options.noise_mm,
                   std::max(kFewRows, samples.size() / kMostStride));
@@ -321,8 +335,9 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   if (options.hypothesis && options.robust_mm == 0.0) {
     z = fit_hypothesis(model, samples, measured_mm, accumulator, unknowns, options, out);
   }
-  if (!options.hypothesis) z = diagnose(model, samples, measured_mm, accumulator, unknowns, options, out);
-  if (!out.usable) minimize_all(model, accumulator, unknowns, options, z, out);
+  Reached reached;
+  if (!options.hypothesis) reached = diagnose(model, samples, measured_mm, accumulator, unknowns, options, out);
+  if (!out.usable) minimize_all(model, accumulator, unknowns, options, z, std::move(reached), out);
 
   Model fitted = model;
   fitted.set_values(out.values);

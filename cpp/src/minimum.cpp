@@ -72,7 +72,8 @@ Minimum minimize(const Model& model, Accumulator& accumulator, const Unknowns& u
   }
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size()) - 1, summary.message};
+  return {summary.IsSolutionUsable(), static_cast<int>(summary.iterations.size()) - 1, summary.message,
+          summary.final_cost};
 }
 
 }  // namespace hexdbb

@@ -11,6 +11,7 @@ struct Minimum {
   bool is_usable = false;
   int iterations = 0;
   std::string message;  // why Ceres ended
+  double cost = 0.0;    // at the end
 };
 
 /// Run Ceres from scaled values `z`, which become those of the end. `function_tolerance` is relative.

@@ -28,7 +28,7 @@ Posterior posterior_at(const Model& model, Accumulator& accumulator, const Unkno
 
 BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
                          const Eigen::VectorXd& lower, const Eigen::VectorXd& upper)
-    : is_held_(z.size(), false), step_(Eigen::VectorXd::Zero(z.size())) {
+    : BoundedStep(z.size()) {
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     is_held_[j] = lower[j] == upper[j] || (downhill[j] > 0.0 ? z[j] >= upper[j] : z[j] <= lower[j]);
   }
@@ -43,17 +43,42 @@ BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& d
   predicted_fall_ = step_.dot(2.0 * downhill - matrix * step_);
 }
 
-Eigen::Index BoundedStep::move_free(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill,
-                                    const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
-                                    const Eigen::VectorXd& upper) {
+BoundedStep BoundedStep::cautious(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill,
+                                  const Eigen::VectorXd& z, const Eigen::VectorXd& bound) {
+  BoundedStep out(z.size());
+  for (bool any_beyond = true; any_beyond;) {
+    out.factor_free(matrix);
+    const Eigen::VectorXd way = out.solve(downhill - matrix * out.step_);
+    any_beyond = false;
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      if (!out.is_held_[j]) out.step_[j] += way[j];
+    }
+    for (Eigen::Index j = 0; j < z.size(); ++j) {
+      const double there = std::clamp(z[j] + out.step_[j], -bound[j], bound[j]);
+      if (out.is_held_[j] || there == z[j] + out.step_[j]) continue;
+      out.step_[j] = there - z[j];
+      out.is_held_[j] = any_beyond = true;
+    }
+  }
+  out.predicted_fall_ = out.step_.dot(2.0 * downhill - matrix * out.step_);
+  return out;
+}
+
+void BoundedStep::factor_free(const Eigen::MatrixXd& matrix) {
   Eigen::MatrixXd free = matrix;
-  for (Eigen::Index j = 0; j < z.size(); ++j) {
+  for (Eigen::Index j = 0; j < step_.size(); ++j) {
     if (!is_held_[j]) continue;
     free.row(j).setZero();
     free.col(j).setZero();
     free(j, j) = 1.0;
   }
   factor_.compute(free);
+}
+
+Eigen::Index BoundedStep::move_free(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill,
+                                    const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
+                                    const Eigen::VectorXd& upper) {
+  factor_free(matrix);
   const Eigen::VectorXd way = solve(downhill - matrix * step_);
   double part = 1.0;
   Eigen::Index stopped = -1;

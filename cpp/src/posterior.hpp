@@ -34,6 +34,11 @@ class BoundedStep {
   BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
               const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
+  /// Return a step for which every value that would pass its bound stays on it, whatever the others do then: shorter, and
+  /// from afar, where the quadratic holds for a part of the way alone, less often into a minimum aside.
+  static BoundedStep cautious(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,
+                              const Eigen::VectorXd& bound);
+
   const Eigen::VectorXd& step() const { return step_; }
   double predicted_fall() const { return predicted_fall_; }  // of chi-square, twice that of the cost
 
@@ -41,6 +46,10 @@ class BoundedStep {
   Eigen::VectorXd solve(Eigen::VectorXd right) const;
 
  private:
+  explicit BoundedStep(Eigen::Index size) : is_held_(size, false), step_(Eigen::VectorXd::Zero(size)) {}
+
+  /// Factor the matrix of the values that are free.
+  void factor_free(const Eigen::MatrixXd& matrix);
   /// Move the values that are free towards their minimum, as far as the first bound. Return which value stops there, -1
   /// where none does.
   Eigen::Index move_free(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill, const Eigen::VectorXd& z,

@@ -61,7 +61,7 @@ Descent descend(const std::function<Posterior(const Eigen::VectorXd&)>& at, FewR
     const double least_fall = end.fall * std::max(1.0, 2.0 * now.cost / few.weight());
     Eigen::MatrixXd damped = now.information;
     damped.diagonal().array() += damping;
-    const BoundedStep straight(damped, now.downhill, z, -bound, bound);
+    const BoundedStep straight = BoundedStep::cautious(damped, now.downhill, z, bound);
     out.is_at_rest = straight.predicted_fall() < least_fall;
     if (out.is_at_rest) break;
     const double used = damping;

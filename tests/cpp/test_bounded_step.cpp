@@ -62,6 +62,9 @@ TEST_P(BoundedStepTest, ReachesTheMinimumBetweenBounds) {
     const double expected = largest_fall(matrix, downhill, -bound - z, bound - z);
     EXPECT_NEAR(step.predicted_fall(), expected, 1e-8 * expected);
     EXPECT_TRUE(((z + step.step()).cwiseAbs().array() <= 1.0 + 1e-12).all());
+    const auto cautious = hexdbb::BoundedStep::cautious(matrix, downhill, z, bound);
+    EXPECT_LE(cautious.predicted_fall(), expected * (1.0 + 1e-8));
+    EXPECT_TRUE(((z + cautious.step()).cwiseAbs().array() <= 1.0 + 1e-12).all());
   }
 }
 
@@ -73,6 +76,8 @@ TEST(BoundedStep, IsThatOfNewtonWhereNoBoundIsNear) {
   const VectorXd downhill = VectorXd::LinSpaced(kSize, -1.0, 1.0), bound = VectorXd::Constant(kSize, 1e3);
   const hexdbb::BoundedStep step(matrix, downhill, VectorXd::Zero(kSize), -bound, bound);
   EXPECT_LT((step.step() - matrix.llt().solve(downhill)).norm(), 1e-12);
+  const auto cautious = hexdbb::BoundedStep::cautious(matrix, downhill, VectorXd::Zero(kSize), bound);
+  EXPECT_LT((cautious.step() - step.step()).norm(), 1e-12);
 }
 
 TEST(BoundedStep, LeavesAloneWhatMayNotMove) {

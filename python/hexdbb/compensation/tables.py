@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.compensation.probe import ranges
-from hexdbb.learned.tables import Table
+from hexdbb.kinematics.screw import TURN, turns
 from hexdbb.machine import MachineFile
 from hexdbb.model import Term
-from hexdbb.samples.screw import TURN, turns
 
 Floats = NDArray[np.float64]
 
@@ -42,7 +41,8 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
 
     # What multiplies makes the error between two knots as much larger as it is itself.
     largest = max(map(abs, ranges(machine).get(times, (1.0, 1.0))))
-    knots = halved(_first_knots(tables[0], lead_mm), values_mm, TOLERANCE_MM / largest)
+    first = np.array(tables[0].knots)
+    knots = halved(_with_turns(first, lead_mm) if times in TURN else first, values_mm, TOLERANCE_MM / largest)
     return [
         _core.CompensationTable(
             effect=effect.name,
@@ -58,14 +58,11 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
     ]
 
 
-def _first_knots(table: Table, lead_mm: float) -> Floats:
-    """Return the knots that are halved first: those of the function, or so many that no turn of a screw is missed.
+def _with_turns(knots: Floats, lead_mm: float) -> Floats:
+    """Return so many knots that no turn of a screw is missed.
 
-    A screw turns on where its function is held: the knots go on by a turn, which no correction exceeds.
+    A screw turns on where its function is held: they go on by a turn, which no correction exceeds.
     """
-    knots = np.array(table.knots)
-    if table.times not in TURN:
-        return knots
     first, last = knots[0] - lead_mm, knots[-1] + lead_mm
     return np.linspace(first, last, 1 + int(np.ceil(KNOTS_PER_TURN * (last - first) / lead_mm)))
 

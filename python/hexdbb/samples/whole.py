@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.kinematics import engine_machine, inverse, status_name
+from hexdbb.kinematics.screw import TURN, TURN_FROM, turns
 from hexdbb.machine import MachineFile
 from hexdbb.model import MountKey, OwnEffect, Tabulated
 from hexdbb.plan import CircleRun
@@ -33,7 +34,6 @@ from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
-from hexdbb.samples.screw import TURN, TURN_FROM, turns
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
 

@@ -10,10 +10,10 @@ from hexdbb.evidence.engine import Engine
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.learnable import Learnable
 from hexdbb.evidence.thinned import Thinned
+from hexdbb.kinematics.screw import turns
 from hexdbb.learned import Learned
 from hexdbb.model import new_model
 from hexdbb.samples import Samples
-from hexdbb.samples.screw import turns
 from hexdbb_truth.forms.cases import case
 
 
