@@ -9,9 +9,8 @@
 
 #include "block_solver.hpp"
 #include "curvature.hpp"
+#include "geodesics.hpp"
 #include "hexdbb/tabulated_effect.hpp"
-#include "kinks.hpp"
-#include "last_steps.hpp"
 #include "minimum.hpp"
 
 namespace hexdbb {
@@ -130,41 +129,6 @@ void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& 
   out.iterations = found.iterations;
   out.termination = found.message;
   out.values = unknowns.values(z.data());
-}
-
-/// Take the last steps to the minimum of all readings from one nearby: straight, between kinks, or, where these do not
-/// come to rest, along the geodesic from the best point found and between kinks from there.
-LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& of_all, FewReadings& few,
-                 const Eigen::VectorXd& near, const Eigen::VectorXd& bound, const EndOfSteps& limits) {
-  constexpr int kMost = 12;            // steps along the geodesic
-  constexpr double kDescended = 0.01;  // of chi-square: a tenth of a standard deviation, from which steps lead straight
-  const LastSteps straight = take_last_steps(of_all, few, near, bound, limits);
-  if (straight.is_at_rest) return straight;
-  if (is_thin(few, near.size())) return straight;  // what bends a step is not determined either
-  const Eigen::VectorXd& best = std::isfinite(straight.cost) ? straight.z : near;
-  LastSteps out = settle_kinks(of_all, few, best, bound, limits);
-  out.steps += straight.steps;
-  if (out.is_at_rest) return out;
-  const auto of_all_sums = [&](const Eigen::VectorXd& at) { return of_all(at, Sums::kAll); };
-  const Descent down = descend(of_all_sums, few, best, bound, {kDescended, kMost});
-  if (!down.is_reachable) return out;
-  const int before = out.steps + down.steps;
-  out = settle_kinks(of_all, few, down.z, bound, limits);
-  out.steps += before;
-  return out;
-}
-
-/// Descend along geodesics from where Ceres reached its limit, and from where it began: a model that leaves tens of times
-/// the noise bends its geometry along a valley that Ceres follows in steps of a hundredth. Return the lower end.
-Eigen::VectorXd out_of_valley(FewReadings& few, const Eigen::VectorXd& start, const Eigen::VectorXd& reached,
-                              const Eigen::VectorXd& bound) {
-  constexpr int kMost = 100;           // steps, each of two passes over the part
-  constexpr double kDescended = 0.01;  // of chi-square, as in `finish`
-  const auto from = [&](const Eigen::VectorXd& z) {
-    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, {kDescended, kMost});
-  };
-  const Descent one = from(start), other = from(reached);
-  return one.cost < other.cost ? one.z : other.z;
 }
 
 /// Fit coarse to fine: Ceres finds the minimum of a part of the readings, evenly chosen, at a part of the cost; it is

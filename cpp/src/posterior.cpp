@@ -33,7 +33,7 @@ BoundedStep::BoundedStep(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& d
     is_held_[j] = lower[j] == upper[j] || (downhill[j] > 0.0 ? z[j] >= upper[j] : z[j] <= lower[j]);
   }
   // Primal active sets: every change lowers the quadratic, so that even the last of too many leaves a good step.
-  const Eigen::Index most_changes = 4 * z.size();
+  const Eigen::Index most_changes = 4 * z.size();  // each value held and freed twice: beyond, rounding changes them
   for (Eigen::Index changes = 0; changes <= most_changes; ++changes) {
     const Eigen::Index stopped = move_free(matrix, downhill, z, lower, upper);
     const Eigen::Index other = stopped >= 0 ? stopped : pulled_inwards(matrix, downhill, z, lower, upper);
@@ -96,7 +96,7 @@ Eigen::Index BoundedStep::move_free(const Eigen::MatrixXd& matrix, const Eigen::
 Eigen::Index BoundedStep::pulled_inwards(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& downhill,
                                          const Eigen::VectorXd& z, const Eigen::VectorXd& lower,
                                          const Eigen::VectorXd& upper) const {
-  constexpr double kRounding = 1e-12;  // of the sum of what a pull is made of
+  constexpr double kRounding = 1e-12;  // of the terms that a pull is the sum of: some thousand times a double's own
   Eigen::Index out = -1;
   double strongest = 0.0;
   for (Eigen::Index j = 0; j < z.size(); ++j) {

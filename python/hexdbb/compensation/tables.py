@@ -22,7 +22,8 @@ MOST_HALVINGS = 6
 """Bound on the size of a file: the knots of a learned function lie at least three to a spline, where six halvings leave
 less than a thousandth of what a cubic bends between two of them."""
 KNOTS_PER_TURN = 16
-"""Of a screw: lines between so many miss 2 % of what repeats with every turn; they are halved from there."""
+"""Knots for each turn of a screw, before intervals are halved: straight lines between 16 of them deviate from a sine by
+at most 2 % of its amplitude, so that no halving sees equal values at both ends and the middle of a whole turn."""
 
 
 def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationTable]:

@@ -121,7 +121,7 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
     by its formula. Others that explain too little by theirs have taken what its formula would.
     """
     form = node.trial.forms[node.members.index(member)]
-    if len(node.members) < 2 or form is None or not form.columns:
+    if form is None or not form.columns or not others.members:
         return False
     first = search.root.trial.left
     if first - search.left_by_formulas(others) < search.criteria.explained_min * (first - 1.0):
@@ -132,12 +132,11 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
 
 def has_form_alone(search: Search, node: Node) -> bool:
     """Check for a set with an effect of which the functions of its form explain nearly all."""
-    for member in node.members if len(node.members) > 1 else ():
-        if isinstance(member.hypothesis, Known):
-            others = search.trials.of_fewer(node.without(member), node.trial)
-            if _is_form_alone(search, node, member, others):
-                return True
-    return False
+    return any(
+        _is_form_alone(search, node, each, search.trials.of_fewer(node.without(each), node.trial))
+        for each in node.members
+        if len(node.members) > 1 and isinstance(each.hypothesis, Known)
+    )
 
 
 def _is_of_size(search: Search, node: Node, known: Known, least: float) -> bool:

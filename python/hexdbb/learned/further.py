@@ -112,17 +112,17 @@ PRODUCTS_OF_READING = (
 )
 
 
-def _of_drives(variable: Variable, kind: str) -> Iterator[Variable]:
+def _of_drives(variable: Variable) -> Iterator[Variable]:
     for slider in range(1, 7):
         yield replace(
             variable,
-            name=f"slider_{slider}_{kind}",
+            name=f"slider_{slider}_{variable.name}",
             column=f"{variable.column}{OF_MEMORY}of@{slider}",
             words=variable.words.replace("the slider", f"slider {slider}"),
         )
 
 
-CROSSTALK = tuple(each for kind in (v.VELOCITY, v.ACCELERATION) for each in _of_drives(kind, kind.name))
+CROSSTALK = (*_of_drives(v.VELOCITY), *_of_drives(v.ACCELERATION))
 """The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
 NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
 OF_PAIR_OF_SLIDERS = (

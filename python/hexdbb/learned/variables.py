@@ -52,7 +52,8 @@ VELOCITY_OVER_TIME = Variable(
     times="velocity_mm_s",
     of_forms=True,
 )
-"""Beside a lag or a delay: the gauge's clock runs apart from the drives', or grease warms."""
+"""Beside a lag or a delay: the gauge's clock drifts against the drives' clock, or grease warms. Six splines, as of any
+product: with 16 nothing less was left of delays that wander."""
 VELOCITY_BY_FEED = Variable(
     "velocity_by_feed",
     "feed_mm_s",
@@ -61,7 +62,7 @@ VELOCITY_BY_FEED = Variable(
     times="velocity_mm_s",
     of_forms=True,
 )
-"""The same: a filter delays by less at a higher feed."""
+"""Beside a lag or a delay: that of a filter depends on the feed."""
 NEIGHBOUR_VELOCITY = Variable(
     "neighbour_velocity",
     "velocity_mm_s",
@@ -108,7 +109,7 @@ SCREW_COS_POSITION, SCREW_SIN_POSITION = (
     )
     for column, words in (("screw_cos", "cosine"), ("screw_sin", "sine"))
 )
-"""Beside what repeats with every turn: a screw wears where it is used most, and its ends are ground otherwise."""
+"""Beside a pitch error: its amplitude and phase change along the screw, which wears most where it is used most."""
 TURNING = Variable(
     "turning_rate", "slider_joint_rate_rad_s", "rad/s", "turning rate of the slider's joint", 12, signed=True
 )
