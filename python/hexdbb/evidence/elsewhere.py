@@ -39,7 +39,7 @@ def rivals_elsewhere(search: Search, node: Node, cause: Known, alike: Sequence[s
     for other in search.nodes:
         lead = (other.score - node.score) / max(node.trial.left, 1.0)
         more = lead > search.criteria.margin_nats and len(other.members) <= len(node.members)
-        stands_in = not elsewhere.isdisjoint(other.trial.names)
+        stands_in = cause not in other.hypotheses and not elsewhere.isdisjoint(other.trial.names)
         if stands_in and more and not (other.trial.refused or search.checked(other).reasons):
             found.append(" + ".join(other.trial.names))
     return found

@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING
 
 from hexdbb.evidence.no_form import is_no_form
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.settling import explained, is_complete, is_doubtful, must_explain, of_forms, rests_on_form
+from hexdbb.evidence.settling import (
+    explained,
+    explains_by_formulas,
+    is_complete,
+    is_doubtful,
+    must_explain,
+    of_forms,
+    rests_on_form,
+)
 from hexdbb.evidence.trial import Member
 
 if TYPE_CHECKING:
@@ -123,8 +131,7 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
     form = node.trial.forms[node.members.index(member)]
     if form is None or not form.columns or not others.members:
         return False
-    first = search.root.trial.left
-    if first - search.left_by_formulas(others) < search.criteria.explained_min * (first - 1.0):
+    if not explains_by_formulas(search, others):
         return False
     by_formula = others.left - search.left_by_formula(node.trial, form)
     return by_formula < search.criteria.formula_least * (others.left - node.trial.left)

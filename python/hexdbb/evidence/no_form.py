@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from hexdbb.evidence.place import functions_at
 from hexdbb.evidence.screen import Screen
-from hexdbb.evidence.settling import explained
+from hexdbb.evidence.settling import explained, explains_by_formulas
 from hexdbb.evidence.sums import Sums
 
 if TYPE_CHECKING:
@@ -37,12 +37,22 @@ def is_no_form(search: Search, node: Node, member: Member) -> bool:
         return False
     others = search.trials.of(node.without(member))
     beyond, left = others.left - node.trial.left, others.left - 1.0
-    by_formula = search.left_by_formulas(others) - search.left_by_formulas(node.trial)
-    if beyond < NOISE or by_formula < criteria.formula_explains * beyond:
+    if beyond < NOISE or _by_formula(search, node, member, others) < criteria.formula_explains * beyond:
         return False
     if beyond >= criteria.form_explains * left or beyond >= _seen(search, node, member):
         return True
     return beyond >= criteria.no_form * left * _explained_at_their_places(search, others)
+
+
+def _by_formula(search: Search, node: Node, member: Member, others: Trial) -> float:
+    """Return what an effect explains by its formula: of what the others leave by theirs, where these explain enough.
+
+    Where they do not, as of a bow that geometry imitates but for its form, nothing can be told without their forms.
+    """
+    if explains_by_formulas(search, others):
+        return search.left_by_formulas(others) - search.left_by_formulas(node.trial)
+    form = node.trial.forms[node.members.index(member)]
+    return others.left - (node.trial.left if form is None else search.left_by_formula(node.trial, form))
 
 
 def _seen(search: Search, node: Node, member: Member) -> float:

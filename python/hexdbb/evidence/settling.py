@@ -106,6 +106,12 @@ def explained_by_formulas(search: Search, node: Node) -> float:
     return (search.root.trial.left - search.left_by_formulas(node.trial)) / max(search.root.trial.left - 1.0, 1e-9)
 
 
+def explains_by_formulas(search: Search, trial: Trial) -> bool:
+    """Check that effects explain enough to be a cause without the functions of their forms."""
+    first = search.root.trial.left
+    return first - search.left_by_formulas(trial) >= search.criteria.explained_min * (first - 1.0)
+
+
 def missed(search: Search, node: Node) -> float:
     """Return the error of what was left out, beyond what is expected of it, over what is explained where fitted.
 

@@ -35,10 +35,12 @@ def named(
     lead: float = 40.0,
     alike: tuple[str, ...] = (),
     beside: tuple[Known, ...] = (),
+    keeps_it: bool = False,
 ) -> list[str]:
     """Return what is named beside a joint of leg 6 off its place, in whose form a learned function lives."""
     learned = Learned.parse(function)
-    chosen, other = node_of(0.0, OFFSET, *beside), node_of(lead, learned)
+    kept = (OFFSET,) if keeps_it else ()
+    chosen, other = node_of(0.0, OFFSET, *beside), node_of(lead, *kept, learned)
     search: Any = SimpleNamespace(
         nodes=[chosen, other],
         criteria=DEFAULT,
@@ -95,6 +97,13 @@ def test_elements_of_another_kind_are_not_compared(function: str) -> None:
 
 def test_at_the_other_end_of_the_measuring_loop_it_is_named_whatever_the_formula_explains() -> None:
     assert named("learned:ball:roll", BY_FORMULA) == ["learned:ball:roll"]
+
+
+def test_a_set_that_has_the_effect_itself_is_no_rival_of_it() -> None:
+    """A bow was named beside itself, where a function of the deflection stood for the gauge's gain."""
+    gain = (Known("bar_gain", ("1",), is_whole=True),)
+    assert named("learned:ball:roll", BY_FORMULA, beside=gain) == ["learned:ball:roll"]
+    assert named("learned:ball:roll", BY_FORMULA, beside=gain, keeps_it=True) == []
 
 
 @pytest.mark.long

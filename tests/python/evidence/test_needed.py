@@ -119,6 +119,23 @@ def test_an_effect_of_which_its_form_explains_nearly_all_is_not_there(part: floa
     assert needs(search, node_of(search.trials.of(both.members)), DRIFT) is expected
 
 
+@pytest.mark.parametrize(("left", "expected"), [(1.3, True), (8.0, False)])
+def test_beside_an_effect_that_lives_in_its_form_a_small_one_counts_by_its_own_formula(
+    left: float, expected: bool
+) -> None:
+    """A joint's friction of three times the noise, beside a bow of thirty that geometry imitates but for its form: the
+    formulas of both leave more than those of the bow, which leave most, and it was dropped.
+    """
+    formulas = {(GAIN,): 154.0, (GAIN, DRIFT): 333.0}
+    search, both = searched({(GAIN, DRIFT): 1.0, (GAIN,): 9.8}, by_formulas=formulas)
+    search.root.trial.left = 249.0
+    search.trials.size = lambda trial, known: 0.2
+    form = Form(0.4, 0.1, ("learned:leg:5:turning_rate",), columns=9)
+    search.trials.forms = {DRIFT: form}
+    search.left_by_formula = lambda trial, each: left if each is form else trial.left
+    assert needs(search, node_of(search.trials.of(both.members)), DRIFT) is expected
+
+
 @pytest.mark.parametrize(
     ("excused", "missing", "expected"),
     [((DRIFT,), (), True), ((), (DRIFT,), True), ((), (), False)],
