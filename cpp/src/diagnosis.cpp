@@ -141,22 +141,26 @@ Reached fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewRead
   // the part by a half of that, and a thousandth of that more does not lengthen the way. Where the cost has kinks, Ceres takes
   // tens of passes for what is below.
   constexpr double kCoarseFall = 0.0005;
+  // Iterations after which geodesics lead on: a cost without kinks takes three. Of twenty records with play, those that
+  // took Ceres twenty and more passes over the part take half of them.
+  constexpr int kMostCoarse = 3;
   // Of chi-square: where a step is predicted to lower it by less, none is taken. The minimum is then 1e-3 standard
   // deviations away over all values together.
   constexpr double kLastFall = 1e-6;
   constexpr double kFall = 1e-10;  // of chi-square, relative: of 20,000 readings within 0.002 standard deviations
-  // Of chi-square, where it has kinks: 0.03 standard deviations over all values together. It has one for each reading near
-  // the end of a play, each as large as that, and finding the lowest of them takes ten passes and more.
-  constexpr double kKinkedFall = 1e-3;
+  // Of chi-square, where it has kinks: 0.1 standard deviations over all values together. It has one for each reading near
+  // the end of a play, and finding the lowest of them to a third of that takes ten passes more; values moved by 0.025
+  // standard deviations at most.
+  constexpr double kKinkedFall = 1e-2;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   Eigen::VectorXd near = start;
   if (!is_thin(few, unknowns.size())) {
     const double per_cost = 2.0 / static_cast<double>(accumulator.residual_mm().size());  // where noise is left
     const double tolerance = kCoarseFall * static_cast<double>(unknowns.size() * few.stride()) * per_cost;
     const Minimum found =
-        minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), options.max_iterations, tolerance, near);
+        minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), kMostCoarse, tolerance, near);
     if (!found.is_usable) return {};
-    if (found.iterations >= options.max_iterations) near = out_of_valley(few, start, near, bound);
+    if (found.iterations >= kMostCoarse) near = onwards(few, start, near, bound);
   }
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);
