@@ -49,9 +49,7 @@ def is_better(search: Search, node: Node, than: Node) -> bool:
             return False
     if node.score <= than.score:
         return False
-    if node.faults <= than.faults or explained_beyond(search, node.trial, than.trial) > must_explain(
-        search, than.trial
-    ):
+    if node.faults <= than.faults or explains_more(search, node, than):
         return True
     return _instead(search, node, than.trial)
 
@@ -80,6 +78,11 @@ def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
 def explained_beyond(search: Search, trial: Trial, others: Trial) -> float:
     """Return what a set explains beyond others, in noise variances: of the readings, and of geometry bent for it."""
     return others.left - trial.left + search.trials.bent(others) - search.trials.bent(trial)
+
+
+def explains_more(search: Search, node: Node, than: Node) -> bool:
+    """Check that a set explains more than another by what a further effect must explain."""
+    return explained_beyond(search, node.trial, than.trial) > must_explain(search, than.trial)
 
 
 def best_of(search: Search, best: Node, others: Iterable[Node]) -> Node:

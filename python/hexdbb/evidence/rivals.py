@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from hexdbb.evidence.by_formulas import explain_nearly_all
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.needed import by_formulas_instead
+from hexdbb.evidence.needed import by_formulas_instead, explains_more
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -50,6 +50,8 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
         if not (is_close or lead < margin) or not _is_rival(search, other, node, lead):
             continue
         if len(other.members) > len(node.members) and _describe(search, other, cause):
+            continue
+        if _has_functions_more(search, other, node):
             continue
         if len(other.members) == 1 and len(node.members) > 1 and _acts_where_they_do(search, other, node):
             continue
@@ -134,6 +136,13 @@ def _errs_where_geometry_does(search: Search, other: Node, node: Node) -> bool:
 def _describe(search: Search, other: Node, cause: Hypothesis) -> bool:
     """Check for several functions at a cause's own place: they describe its form, however far that is off."""
     return all(isinstance(each, Learned) and at_a_place_of_its_kin(search, cause, each) for each in other.hypotheses)
+
+
+def _has_functions_more(search: Search, other: Node, node: Node) -> bool:
+    """Check for more causes than several known effects, functions among them, that explain no more than forms hide."""
+    if not node.is_known or len(node.members) < 2 or other.is_known or other.faults <= node.faults:
+        return False
+    return not explains_more(search, other, node)
 
 
 def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[str]:

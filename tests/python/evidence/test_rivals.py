@@ -65,7 +65,9 @@ def rivalry(
         learnable=SimpleNamespace(by_name={each.name: each for each in (home, OTHER_HOME)}),
         left_by_formulas=lambda trial: formulas.get(id(trial), trial.left),
         left_by_formula=lambda trial, form: by_formula,
-        trials=SimpleNamespace(explained_before=0.0, of=lambda members: SimpleNamespace(left=11.0)),
+        trials=SimpleNamespace(
+            explained_before=0.0, of=lambda members: SimpleNamespace(left=11.0), bent=lambda trial: 0.0
+        ),
         engine=SimpleNamespace(
             absent=SimpleNamespace(ports=lambda effect: frozenset({"ball"})),
             base=SimpleNamespace(info=lambda effect: SimpleNamespace(is_set_up=True, element_kind="mount")),
@@ -125,6 +127,19 @@ def test_more_causes_that_explain_as_much_are_a_rival_where_they_predict(
 ) -> None:
     found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, reasons), node_of(0.0, DRIFT, GAIN))
     assert found == (("bar_drift + bar_gain",) if is_rival else ())
+
+
+@pytest.mark.parametrize(
+    ("beside", "left", "is_rival"),
+    [((DRIFT,), 0.99, False), ((DRIFT,), 0.5, True), ((), 0.99, True)],
+    ids=["explains no more", "explains more", "beside one alone"],
+)
+def test_more_causes_with_functions_are_a_rival_of_several_effects_where_they_explain_more(
+    beside: tuple[Known, ...], left: float, is_rival: bool
+) -> None:
+    """Legs that warm, beside play: a screw that does and a guideway's function explained half a hundredth more."""
+    more = node_of(150.0, *beside, GAIN, TURN, left=left)
+    assert bool(rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), more, beside=beside, left=1.0)) is is_rival
 
 
 def test_several_functions_at_the_place_of_a_cause_describe_its_form() -> None:
