@@ -106,19 +106,19 @@ def or_fewer_by_formulas(search: Search, node: Node) -> Node:
     """
     if not node.is_known or len(node.members) < 2:
         return node
-    left = search.left_by_formulas(node.trial)
-    most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
-    fewer = [
-        each
-        for each in search.nodes
-        if each.is_known
-        and each.faults < node.faults
-        and each.trial.left < most
-        and not each.trial.refused
-        and search.left_by_formulas(each.trial) <= left
-    ]
+    fewer = [each for each in search.nodes if each.faults < node.faults and not each.trial.refused]
     fewer.sort(key=lambda each: (each.faults, -each.score))
-    return next((each for each in fewer if _predicts_better(search, each, node)), node)
+    return next((each for each in fewer if stand_before(search, each, node)), node)
+
+
+def stand_before(search: Search, fewer: Node, more: Node) -> bool:
+    """Check for fewer known effects that explain nearly all, as much by their formulas, and predict better than more."""
+    if not (fewer.is_known and more.is_known and fewer.faults < more.faults):
+        return False
+    most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
+    if fewer.trial.left >= most or search.left_by_formulas(fewer.trial) > search.left_by_formulas(more.trial):
+        return False
+    return _predicts_better(search, fewer, more)
 
 
 def _predicts_better(search: Search, one: Node, several: Node) -> bool:

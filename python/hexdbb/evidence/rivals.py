@@ -11,6 +11,7 @@ from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead, explains_more
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
+from hexdbb.evidence.predicting import stand_before
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, missed, must_explain, of_forms
@@ -106,7 +107,7 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
     if other is search.root:
         return True
     # What it explains by its forms, where the chosen one does by its formulas, is none however much evidence it has.
-    if by_formulas_instead(search, node, other.trial):
+    if by_formulas_instead(search, node, other.trial) or stand_before(search, node, other):
         return False
     is_ahead = lead < -search.criteria.margin_nats
     reasons = set(search.checked(other).reasons)
