@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.admissible import errs_by_chance
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.search import Search
@@ -51,23 +51,17 @@ def _explains_by_its_own(search: Search, node: Node, member: Member, form: Form 
 def err_by_geometry(search: Search, node: Node) -> bool:
     """Check for known effects, each by its own formula, whose error where left out geometry and chance make up.
 
-    A small part of a form that the formulas leave is carried by geometry to circles that the others hardly hold, as
-    what is missing is: by its error there for each noise variance that it leaves where fitted. Where one hypothesis
-    alone leaves no more than forms may, several are no simpler.
+    Where one hypothesis alone leaves no more than forms may, several are no simpler.
     """
     if not explain_by_own_formulas(search, node):
         return False
     if len(node.members) > 1 and any(len(each.members) == 1 and _is_another(search, each) for each in search.nodes):
         return False
     held = search.checked(node).heldout
-    return all(_errs_by_chance(search, node, each) for grouping, each in held.items() if grouping != ARC)
+    base, left = search.root.trial, search.left_by_formulas(node.trial)
+    left_out = [each for grouping, each in held.items() if grouping != ARC]
+    return all(errs_by_chance(each, node.trial, base, left, search.criteria) for each in left_out)
 
 
 def _is_another(search: Search, one: Node) -> bool:
     return is_complete(search, one) and not one.trial.refused
-
-
-def _errs_by_chance(search: Search, node: Node, held: HeldOut) -> bool:
-    carried = held.before**2 / search.root.trial.left * max(search.left_by_formulas(node.trial) - 1.0, 0.0)
-    expected = held.expected**2 * max(node.trial.left, 1.0)
-    return held.after**2 <= search.criteria.by_chance * (expected + carried)

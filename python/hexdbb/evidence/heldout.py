@@ -64,7 +64,7 @@ def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...
         if not groups:
             continue
         without = error = as_fitted = expected = 0.0
-        with_form = len(trial.members) <= 1 and not _is_its_formula(trial, base, trials)
+        with_form = len(trial.members) <= 1 and not is_its_formula(trial, base, trials)
         for number, cells in groups:
             in_group = numbers == number
             without += _errors(before, base, cells, in_group)[0]
@@ -120,7 +120,7 @@ def _claimed(trial: Trial, readings: Readings, grouping: str, groups: list[Group
     return covered or claimed
 
 
-def _is_its_formula(trial: Trial, base: Trial, trials: Trials) -> bool:
+def is_its_formula(trial: Trial, base: Trial, trials: Trials) -> bool:
     """Check that the formula of what a trial adds explains nearly all: that is what it claims of other readings."""
     if not trial.members:
         return False

@@ -112,7 +112,7 @@ def or_fewer_by_formulas(search: Search, node: Node) -> Node:
 
 
 def stand_before(search: Search, fewer: Node, more: Node) -> bool:
-    """Check for fewer known effects that explain nearly all, as much by their formulas, and predict better than more."""
+    """Check for fewer known effects that explain nearly all, by their formulas as much as more, and predict better."""
     if not (fewer.is_known and more.is_known and fewer.faults < more.faults):
         return False
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
