@@ -100,6 +100,20 @@ def test_a_pitch_error_sampled_twice_a_turn_is_found_whole() -> None:
     assert found.best.share > 0.9
 
 
+@pytest.mark.long
+def test_a_formula_that_explains_nearly_all_is_named_though_circles_hardly_hold_geometry() -> None:
+    """Ten circles about three cups: functions of two screws together erred less there, and stood for a pitch error."""
+    found = found_in("pitch-on-three-cups")
+    assert (found.verdict, [each.choice for each in found.causes]) == ("effect", ["pitch_cyclic:1"])
+
+
+@pytest.mark.long
+def test_what_gives_way_to_fewer_faults_by_their_formulas_is_no_rival_of_them() -> None:
+    """Six screws that warm, for a gauge that drifts: more evidence, by forms, and worse on all that was left out."""
+    found = found_in("drift-and-spike")
+    assert (found.verdict, {each.choice for each in found.causes}) == ("effect", {"bar_drift", "reversal_spike:6"})
+
+
 def test_noise_that_lasts_for_some_readings_is_nothing_missing() -> None:
     """Each reading of single laps keeps half of the noise of the one before it."""
     assert found_in("lasting-noise").verdict == "none"

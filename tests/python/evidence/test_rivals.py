@@ -142,6 +142,15 @@ def test_more_causes_with_functions_are_a_rival_of_several_effects_where_they_ex
     assert bool(rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), more, beside=beside, left=1.0)) is is_rival
 
 
+@pytest.mark.parametrize("gives_way", [True, False])
+def test_what_gives_way_to_fewer_effects_by_their_formulas_is_no_rival_of_them(
+    gives_way: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("hexdbb.evidence.rivals.stand_before", lambda search, fewer, more: gives_way)
+    found = rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, DRIFT, GAIN))
+    assert found == (() if gives_way else ("bar_drift + bar_gain",))
+
+
 def test_several_functions_at_the_place_of_a_cause_describe_its_form() -> None:
     assert rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), node_of(50.0, TILT, TURN)) == ()
 
