@@ -167,7 +167,7 @@ class Engine:
         if (scale == 1.0).all():
             return scale
         left = float(np.mean(residual**2))
-        return scale if left - 1.0 < self.criteria.complete * (self._left_before - 1.0) else np.ones(len(scale))
+        return scale if left - 1.0 < self.criteria.complete * (self.left_before - 1.0) else np.ones(len(scale))
 
     @cached_property
     def _there(self) -> set[tuple[str, str]]:
@@ -180,7 +180,8 @@ class Engine:
         }
 
     @cached_property
-    def _left_before(self) -> float:
+    def left_before(self) -> float:
+        """Mean square (noise variances) that the model leaves as it is."""
         prediction = _core.predict(*self.plain(self.start))
         return float(np.mean(((self.reading_mm - prediction.reading_mm) / self.row_noise_mm) ** 2))
 
