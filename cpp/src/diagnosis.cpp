@@ -12,6 +12,7 @@
 #include "geodesics.hpp"
 #include "hexdbb/tabulated_effect.hpp"
 #include "minimum.hpp"
+#include "near_minimum.hpp"
 
 namespace hexdbb {
 
@@ -141,9 +142,6 @@ Reached fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewRead
   // the part by a half of that, and a thousandth of that more does not lengthen the way. Where the cost has kinks, Ceres takes
   // tens of passes for what is below.
   constexpr double kCoarseFall = 0.0005;
-  // Iterations after which geodesics lead on: a cost without kinks takes three. Of twenty records with play, those that
-  // took Ceres twenty and more passes over the part take half of them.
-  constexpr int kMostCoarse = 3;
   // Of chi-square: where a step is predicted to lower it by less, none is taken. The minimum is then 1e-3 standard
   // deviations away over all values together.
   constexpr double kLastFall = 1e-6;
@@ -157,10 +155,7 @@ Reached fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewRead
   if (!is_thin(few, unknowns.size())) {
     const double per_cost = 2.0 / static_cast<double>(accumulator.residual_mm().size());  // where noise is left
     const double tolerance = kCoarseFall * static_cast<double>(unknowns.size() * few.stride()) * per_cost;
-    const Minimum found =
-        minimize(few.model(), few.accumulator(), unknowns, few.noise_mm(), kMostCoarse, tolerance, near);
-    if (!found.is_usable) return {};
-    if (found.iterations >= kMostCoarse) near = onwards(few, start, near, bound);
+    if (!find_near(few, unknowns, options.max_iterations, tolerance, bound, near)) return {};
   }
   const auto of_all = [&](const Eigen::VectorXd& at, Sums sums) {
     return posterior_at(model, accumulator, unknowns, options.noise_mm, at, sums);

@@ -26,18 +26,14 @@ LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& o
   return out;
 }
 
-Eigen::VectorXd onwards(FewReadings& few, const Eigen::VectorXd& start, const Eigen::VectorXd& reached,
-                        const Eigen::VectorXd& bound) {
-  constexpr EndOfDescent kCoarse{1.0, 60};  // of chi-square: the remaining readings move the minimum by more
-  // A tenth of a standard deviation, from which steps lead straight. Steps of two passes over the part: both ways take as
-  // long as 100 over all readings.
-  constexpr EndOfDescent kFine{0.01, 100};
-  const auto from = [&](const Eigen::VectorXd& z, const EndOfDescent& end) {
-    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, end);
+Eigen::VectorXd out_of_valley(FewReadings& few, const Eigen::VectorXd& start, const Eigen::VectorXd& reached,
+                              const Eigen::VectorXd& bound) {
+  constexpr int kMost = 100;  // steps of two passes over the part: both ways take as long as 100 over all readings
+  constexpr double kDescended = 0.01;  // of chi-square: a tenth of a standard deviation, from which steps lead straight
+  const auto from = [&](const Eigen::VectorXd& z) {
+    return descend([&](const Eigen::VectorXd& at) { return few.at(at); }, few, z, bound, {kDescended, kMost});
   };
-  const Descent coarse = from(reached, kCoarse);
-  if (coarse.is_at_rest) return coarse.z;
-  const Descent one = from(start, kFine), other = from(reached, kFine);
+  const Descent one = from(start), other = from(reached);
   return one.cost < other.cost ? one.z : other.z;
 }
 

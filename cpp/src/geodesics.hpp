@@ -13,10 +13,9 @@ namespace hexdbb {
 LastSteps finish(const std::function<Posterior(const Eigen::VectorXd&, Sums)>& of_all, FewReadings& few,
                  const Eigen::VectorXd& near, const Eigen::VectorXd& bound, const EndOfSteps& limits);
 
-/// Descend along geodesics from where Ceres reached its limit. Where that does not come to rest, descend to a finer end from
-/// there and from where Ceres began, and return the lower end: a model that leaves tens of times the noise bends its
-/// geometry along a valley that Ceres follows in steps of a hundredth.
-Eigen::VectorXd onwards(FewReadings& few, const Eigen::VectorXd& start, const Eigen::VectorXd& reached,
-                        const Eigen::VectorXd& bound);
+/// Descend along geodesics from where Ceres reached its limit, and from where it began: a model that leaves tens of times
+/// the noise bends its geometry along a valley that Ceres follows in steps of a hundredth. Return the lower end.
+Eigen::VectorXd out_of_valley(FewReadings& few, const Eigen::VectorXd& start, const Eigen::VectorXd& reached,
+                              const Eigen::VectorXd& bound);
 
 }  // namespace hexdbb
