@@ -95,7 +95,7 @@ def or_one_that_predicts(search: Search, node: Node) -> Node:
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
     alone = [e for e in search.nodes if len(e.members) == 1 and not e.trial.refused and e.trial.left < most]
     alone.sort(key=lambda each: -each.score)
-    return next((each for each in alone if _predicts_better(search, each, node)), node)
+    return next((each for each in alone if predicts_better(search, each, node)), node)
 
 
 def or_fewer_by_formulas(search: Search, node: Node) -> Node:
@@ -118,10 +118,10 @@ def stand_before(search: Search, fewer: Node, more: Node) -> bool:
     most = search.root.trial.left - search.criteria.form_explains * (search.root.trial.left - 1.0)
     if fewer.trial.left >= most or search.left_by_formulas(fewer.trial) > search.left_by_formulas(more.trial):
         return False
-    return _predicts_better(search, fewer, more)
+    return predicts_better(search, fewer, more)
 
 
-def _predicts_better(search: Search, one: Node, several: Node) -> bool:
+def predicts_better(search: Search, one: Node, several: Node) -> bool:
     """Check that a set errs less than another in every grouping that this claims to predict."""
     checked, others = search.checked(one), search.checked(several).heldout
     claimed = [grouping for grouping in others if grouping != ARC]

@@ -11,7 +11,7 @@ from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead, explains_more
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
-from hexdbb.evidence.predicting import stand_before
+from hexdbb.evidence.predicting import predicts_better, stand_before
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, missed, must_explain, of_forms
@@ -119,6 +119,9 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
         return not _is_bent(search, other)
     if reasons or _is_bent(search, other):
         return False
+    # What fits better and errs less on everything that was left out is one, for sure itself or not.
+    if is_ahead and len(other.members) <= len(node.members) and predicts_better(search, other, node):
+        return True
     # What stands in for something else makes nothing less sure that is for sure.
     if is_for_sure(search, other, search.criteria.missed_most) or not is_for_sure(search, node):
         return True

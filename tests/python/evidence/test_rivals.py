@@ -142,6 +142,24 @@ def test_more_causes_with_functions_are_a_rival_of_several_effects_where_they_ex
     assert bool(rivals(Checked({}, 1.0, ()), Checked({}, 1.0, ()), more, beside=beside, left=1.0)) is is_rival
 
 
+def errs_by(error: float, share: float = 1.0) -> Checked:
+    held = HeldOut(before=50.0, after=error, share=0.9, expected=error, as_fitted=error)
+    return Checked({"circle": held}, share, ())
+
+
+@pytest.mark.parametrize(
+    ("score", "error", "is_rival"),
+    [(50.0, 3.9, True), (50.0, 4.1, False), (3.0, 3.9, False)],
+    ids=["errs less", "errs more", "fits no better"],
+)
+def test_what_fits_better_and_errs_less_is_a_rival_though_not_for_sure_itself(
+    score: float, error: float, is_rival: bool
+) -> None:
+    """A ball that sits otherwise beside legs that warm, for a screw: a guideway that bows fits better everywhere."""
+    found = rivals(errs_by(4.0), errs_by(error, share=0.5), node_of(score, SCREW))
+    assert found == ((SCREW.name,) if is_rival else ())
+
+
 @pytest.mark.parametrize("gives_way", [True, False])
 def test_what_gives_way_to_fewer_effects_by_their_formulas_is_no_rival_of_them(
     gives_way: bool, monkeypatch: pytest.MonkeyPatch
