@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from hexdbb.evidence.by_formulas import explain_nearly_all
 from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead, explains_more
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.place import at_a_place_of_its_kin, kin_of
+from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.predicting import predicts_better, stand_before
+from hexdbb.evidence.rivals_of_several import better_by_formula, one_instead
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, missed, must_explain, of_forms
+from hexdbb.evidence.settling import NOTHING_LEFT, missed
 from hexdbb.evidence.sure import is_for_sure, misses_only_geometry
-from hexdbb.learned import ALL, Learned, part_of
-from hexdbb.learned.places import members
+from hexdbb.evidence.without import acts_where_they_do, has_effect, has_kind, sets_without
+from hexdbb.learned import Learned
 
 
 @dataclass(frozen=True)
@@ -44,9 +43,9 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     others: list[str] = []
     alike: list[str] = []
     margin = float("inf")
-    for other, lead in _without(search, node, cause):
+    for other, lead in sets_without(search, node, cause):
         is_close = lead < search.criteria.margin_nats and other is not search.root
-        is_known_too = _has_effect(other, cause)
+        is_known_too = has_effect(other, cause)
         # The best come first: what lies behind the margin found need not be held out.
         if not (is_close or lead < margin) or not _is_rival(search, other, node, lead):
             continue
@@ -54,7 +53,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
             continue
         if _has_functions_more(search, other, node):
             continue
-        if len(other.members) == 1 and len(node.members) > 1 and _acts_where_they_do(search, other, node):
+        if len(other.members) == 1 and len(node.members) > 1 and acts_where_they_do(search, other, node):
             continue
         if is_close:
             (alike if is_known_too else others).append(" + ".join(other.trial.names))
@@ -68,35 +67,16 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
     if form is not None and len(node.members) == 1:
         others += _lenders(search, node, cause, form)
     if node.is_known and len(node.members) > 1:
-        others += _better_by_formula(search, node, cause)
-        others += _one_instead(search, node, cause)
+        others += better_by_formula(search, node, cause)
+        others += one_instead(search, node, cause)
     if isinstance(cause, Known):
         others += rivals_elsewhere(search, node, cause, alike)
     return Rivals(tuple(dict.fromkeys(others)), tuple(dict.fromkeys(alike)), margin)
 
 
-def _without(search: Search, node: Node, cause: Hypothesis) -> Iterator[tuple[Node, float]]:
-    """Yield the sets without a cause, the best first, and how far the chosen one leads."""
-    for other in sorted(search.nodes, key=lambda each: -each.score):
-        if not other.trial.refused and not _has_kind(search, other, cause):
-            yield other, (node.score - other.score) / max(node.trial.left, 1.0)
-
-
-def _has_effect(other: Node, cause: Hypothesis) -> bool:
-    """Check for a known cause's effect in a set, at whatever element."""
-    return isinstance(cause, Known) and any(isinstance(e, Known) and e.effect == cause.effect for e in other.hypotheses)
-
-
 def _has_it_elsewhere(other: Node, node: Node, cause: Hypothesis) -> bool:
     """Check for a set of more causes that has the effect at another element: it says so too, and something besides."""
-    return len(other.members) > len(node.members) and _has_effect(other, cause)
-
-
-def _has_kind(search: Search, other: Node, cause: Hypothesis) -> bool:
-    """Check for a cause in a set, in the words of two sliders together and one of them alone too."""
-    learned = [each for each in other.hypotheses if isinstance(each, Learned)]
-    both = (pair.other_of_pair(one) for pair in learned for one in learned)
-    return any(search.same_kind(each, cause) for each in (*other.hypotheses, *filter(None, both)))
+    return len(other.members) > len(node.members) and has_effect(other, cause)
 
 
 def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
@@ -131,7 +111,7 @@ def _is_rival(search: Search, other: Node, node: Node, lead: float) -> bool:
 
 def _errs_where_geometry_does(search: Search, other: Node, node: Node) -> bool:
     """Check for the same effect at one other element, which fails only on what geometry alone does not predict."""
-    if len(node.members) != 1 or other.faults != 1 or not (other.is_known and _has_effect(other, node.hypotheses[0])):
+    if len(node.members) != 1 or other.faults != 1 or not (other.is_known and has_effect(other, node.hypotheses[0])):
         return False
     checked = search.checked(other)
     return set(checked.reasons) <= set(checked.of_geometry)
@@ -159,7 +139,7 @@ def _nearly_as_good(search: Search, node: Node, cause: Hypothesis, form: Form) -
     return [
         " + ".join(other.trial.names)
         for other in search.nodes
-        if not _has_kind(search, other, cause)
+        if not has_kind(search, other, cause)
         and not _has_it_elsewhere(other, node, cause)
         and other.trial.left - node.trial.left < share * excess
         and not (other.trial.refused or search.checked(other).reasons)
@@ -178,7 +158,7 @@ def _errs_no_more(search: Search, node: Node, cause: Hypothesis) -> list[str]:
     most = min(search.root.trial.left - search.criteria.explained_min * excess, search.left_by_formulas(node.trial))
     return [
         " + ".join(other.trial.names)
-        for other, _ in _without(search, node, cause)
+        for other, _ in sets_without(search, node, cause)
         if not _has_it_elsewhere(other, node, cause)
         and other.trial.left <= most
         and not search.checked(other).reasons
@@ -195,10 +175,10 @@ def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[
     by_formula = search.left_by_formulas(node.trial)
     return [
         other.trial.names[0]
-        for other, _ in _without(search, node, cause)
+        for other, _ in sets_without(search, node, cause)
         if len(other.members) == 1
         and other.is_known
-        and not _has_effect(other, cause)
+        and not has_effect(other, cause)
         and not search.kin.get(other.trial.names[0], set()).isdisjoint(form.functions)
         and other.trial.left < node.trial.left + NOTHING_LEFT
         and other.trial.forms[0] is not None
@@ -206,65 +186,6 @@ def _lenders(search: Search, node: Node, cause: Hypothesis, form: Form) -> list[
         and not search.checked(other).reasons
         and search.left_by_formulas(other.trial) <= by_formula
     ]
-
-
-def _better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return sets of no more effects without a cause that explain all too, by their formulas, and more by these.
-
-    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions. Sets
-    that both leave less than the noise count as explaining the same.
-    """
-    least = max(node.trial.left, 1.0)
-    left, spare = search.left_by_formulas(node.trial), must_explain(search, node.trial)
-    found = (
-        " + ".join(sorted(other.trial.names))
-        for other, _ in _without(search, node, cause)
-        if other.is_known
-        and _is_no_freer(other, node)
-        and not _has_effect(other, cause)
-        and is_complete(search, other)
-        and other.trial.left - least < spare
-        and not search.checked(other).reasons
-        and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
-    )
-    return list(dict.fromkeys(found))
-
-
-def _one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
-    """Return single hypotheses without a cause that leave only noise and predict, unless each of several is for sure.
-
-    Several whose forms make up for what their formulas leave may stand in for one cause: one that errs by no more than
-    what may be for sure, as a function does that is not quite the cause. A function that two sliders share says the
-    same as a cause of each.
-    """
-    if explain_nearly_all(search, node):
-        return []
-    return [
-        other.trial.names[0]
-        for other, _ in _without(search, node, cause)
-        if len(other.members) == 1
-        and not _acts_where_they_do(search, other, node)
-        and other.trial.left - 1.0 < NOTHING_LEFT
-        and not search.checked(other).reasons
-        and search.checked(other).missed <= search.criteria.missed_bent
-    ]
-
-
-def _acts_where_they_do(search: Search, other: Node, node: Node) -> bool:
-    """Check for a function all of whose elements are those of causes of a set, at their own place."""
-    (one,) = other.hypotheses
-    if not isinstance(one, Learned):
-        return False
-    homes = [home for cause in node.hypotheses for home in kin_of(search, cause) if home.element != ALL]
-    places = {(part_of(home), element) for home in homes for element in members(home.element)}
-    return {(part_of(one), element) for element in members(one.element)} <= places
-
-
-def _is_no_freer(other: Node, node: Node) -> bool:
-    """Check for a set of fewer causes; of as many, one at no more elements: six sizes stand in for any drift."""
-    return len(other.members) < len(node.members) or (
-        len(other.members) == len(node.members) and other.faults <= node.faults
-    )
 
 
 def _is_bent(search: Search, node: Node) -> bool:

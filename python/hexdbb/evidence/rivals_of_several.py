@@ -1,0 +1,59 @@
+"""Rivals of several known effects: no more of them that explain more by formulas, or one hypothesis in their place."""
+
+from __future__ import annotations
+
+from hexdbb.evidence.by_formulas import explain_nearly_all
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Hypothesis
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import NOTHING_LEFT, is_complete, must_explain, of_forms
+from hexdbb.evidence.without import acts_where_they_do, has_effect, sets_without
+
+
+def better_by_formula(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return sets of no more effects without a cause that explain all too, by their formulas, and more by these.
+
+    Functions of forms hold what geometry leaves of a slow drift: more evidence may be more of such functions. Sets
+    that both leave less than the noise count as explaining the same.
+    """
+    least = max(node.trial.left, 1.0)
+    left, spare = search.left_by_formulas(node.trial), must_explain(search, node.trial)
+    found = (
+        " + ".join(sorted(other.trial.names))
+        for other, _ in sets_without(search, node, cause)
+        if other.is_known
+        and _is_no_freer(other, node)
+        and not has_effect(other, cause)
+        and is_complete(search, other)
+        and other.trial.left - least < spare
+        and not search.checked(other).reasons
+        and search.left_by_formulas(other.trial) < min(left, 1.0 + of_forms(search, other.trial))
+    )
+    return list(dict.fromkeys(found))
+
+
+def one_instead(search: Search, node: Node, cause: Hypothesis) -> list[str]:
+    """Return single hypotheses without a cause that leave only noise and predict, unless each of several is for sure.
+
+    Several whose forms make up for what their formulas leave may stand in for one cause: one that errs by no more than
+    what may be for sure, as a function does that is not quite the cause. A function that two sliders share says the
+    same as a cause of each.
+    """
+    if explain_nearly_all(search, node):
+        return []
+    return [
+        other.trial.names[0]
+        for other, _ in sets_without(search, node, cause)
+        if len(other.members) == 1
+        and not acts_where_they_do(search, other, node)
+        and other.trial.left - 1.0 < NOTHING_LEFT
+        and not search.checked(other).reasons
+        and search.checked(other).missed <= search.criteria.missed_bent
+    ]
+
+
+def _is_no_freer(other: Node, node: Node) -> bool:
+    """Check for a set of fewer causes; of as many, one at no more elements: six sizes stand in for any drift."""
+    return len(other.members) < len(node.members) or (
+        len(other.members) == len(node.members) and other.faults <= node.faults
+    )
