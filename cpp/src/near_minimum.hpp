@@ -9,7 +9,7 @@ namespace hexdbb {
 ///
 /// Three iterations of Ceres serve where the cost has no kinks. Of twenty records with play, those that took it twenty and
 /// more then take half as many steps along geodesics. Where these leave much, as of a model that lacks something, Ceres
-/// goes its own way from the start as well: of fifty such records either was lower in some.
+/// goes its own way from the start as well: of 74 records whose model lacked a fault, either was lower in some.
 bool find_near(FewReadings& few, const Unknowns& unknowns, int max_iterations, double tolerance,
                const Eigen::VectorXd& bound, Eigen::VectorXd& near);
 
