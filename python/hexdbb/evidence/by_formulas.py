@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import errs_by_chance
 from hexdbb.evidence.form import Form
-from hexdbb.evidence.node import Node
+from hexdbb.evidence.needed import needs_all
 from hexdbb.evidence.readings import ARC
-from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explained_by_formulas, is_complete
+from hexdbb.evidence.settling import errs_as_expected, explained_by_formulas, is_complete, predicts
 from hexdbb.evidence.trial import Member
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.node import Node
+    from hexdbb.evidence.search import Search
 
 
 def explain_by_own_formulas(search: Search, node: Node) -> bool:
@@ -26,6 +31,13 @@ def explain_nearly_all(search: Search, node: Node) -> bool:
     Of what the others leave each explains enough: the rest of it may be what the others' formulas leave.
     """
     return _explain_so(search, node, search.criteria.form_explains, search.criteria.form_explains)
+
+
+def are_what_they_are(search: Search, node: Node) -> bool:
+    """Check for several known effects that need no second look: all needed, `explain_nearly_all`, err as expected."""
+    if len(node.members) < 2 or node.trial.refused or not (is_complete(search, node) and predicts(search, node)):
+        return False
+    return errs_as_expected(search, node) and explain_nearly_all(search, node) and needs_all(search, node)
 
 
 def _explain_so(search: Search, node: Node, each: float, together: float) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.by_formulas import are_what_they_are
 from hexdbb.evidence.known_words import in_known_words, known_for
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
@@ -21,7 +22,7 @@ def settled(search: Search, node: Node) -> Node:
     An early choice may have stood in for what came later: it is exchanged, or left out where it is needed no more.
     """
     for _ in range(search.criteria.most_rounds):
-        if len(node.members) < 2:
+        if len(node.members) < 2 or are_what_they_are(search, node):
             return node
         for member in node.members:
             others = node.without(member)

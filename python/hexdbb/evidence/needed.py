@@ -69,7 +69,7 @@ def _instead(search: Search, node: Node, fewer: Trial) -> bool:
 def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
     """Check that known effects predict, far better, what one misses, or fewer are only excused from by their forms."""
     missing = search.checked_trial(fewer)
-    in_doubt = missing.excused or (len(fewer.members) == 1 and missing.missed > search.criteria.missed_most)
+    in_doubt = missing.excused or (len(fewer.members) == 1 and missing.missed > search.criteria.missed_sure)
     if not (node.is_known and in_doubt) or is_doubtful(search, node):
         return False
     return search.checked(node).missed < search.criteria.far_better * missing.missed

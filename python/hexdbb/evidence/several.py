@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb.evidence.by_formulas import are_what_they_are
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.physical import is_one_sided
@@ -46,6 +47,8 @@ def or_at_several(search: Search, best: Node) -> Node:
     have stood in for it. Where known effects, each at one element, explain all and predict, only what may be the one
     cause of all that several of them explain is looked at.
     """
+    if are_what_they_are(search, best):
+        return best
     effects = [_effect_of(each) for each in best.hypotheses]
     is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
     is_settled = is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best)

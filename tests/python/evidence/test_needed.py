@@ -58,6 +58,7 @@ def searched(
     *fitted: tuple[Member, ...],
     excused: tuple[Member, ...] = (),
     missing: tuple[Member, ...] = (),
+    missed: float = 1.0,
     by_formulas: dict[tuple[Member, ...], float] | None = None,
 ) -> Any:
     """Return a search whose empty set leaves 11 noise variances, and the node of the first set.
@@ -75,11 +76,12 @@ def searched(
         log_prior=lambda hypothesis: 0.0,
         left_by_formulas=lambda trial: (by_formulas or {}).get(trial.members, trial.left),
         checked_trial=lambda trial: SimpleNamespace(
-            reasons=(), excused=trial.members == excused, missed=1.0 if trial.members in (excused, missing) else 0.3
+            reasons=(), excused=trial.members == excused, missed=missed if trial.members in (excused, missing) else 0.3
         ),
         checked=lambda node: SimpleNamespace(
-            reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0
+            reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0, heldout={}
         ),
+        left_by_formula=lambda trial, form: trial.left,
         expand=lambda node: [],
         node=lambda members, near: node_of(trials.of(members)),
     )
@@ -137,15 +139,16 @@ def test_beside_an_effect_that_lives_in_its_form_a_small_one_counts_by_its_own_f
 
 
 @pytest.mark.parametrize(
-    ("excused", "missing", "expected"),
-    [((DRIFT,), (), True), ((), (DRIFT,), True), ((), (), False)],
-    ids=["excused", "misses most", "predicts"],
+    ("excused", "missing", "missed", "expected"),
+    [((DRIFT,), (), 1.0, True), ((), (DRIFT,), 1.0, True), ((), (DRIFT,), 0.6, True), ((), (DRIFT,), 0.4, False)],
+    ids=["excused", "misses most", "misses so much that it is not for sure", "predicts"],
 )
 def test_two_effects_that_predict_are_better_than_one_that_does_not(
-    excused: tuple[Member, ...], missing: tuple[Member, ...], expected: bool
+    excused: tuple[Member, ...], missing: tuple[Member, ...], missed: float, expected: bool
 ) -> None:
     """The functions of the one effect's form explain all but a hundredth of what the two do."""
-    search, both = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}, excused=excused, missing=missing)
+    left = {(DRIFT, GAIN): 1.0, (DRIFT,): 1.01, (GAIN,): 8.0}
+    search, both = searched(left, excused=excused, missing=missing, missed=missed)
     alone = node_of(search.trials.of((DRIFT,)))
     assert is_better(search, both, alone) is expected
     assert needs_all(search, both) is expected
@@ -192,6 +195,23 @@ def test_an_effect_that_stood_in_for_what_came_later_is_left_out() -> None:
     search, node = searched({(SCREW, DRIFT, GAIN): 1.0, (DRIFT, GAIN): 1.01, (SCREW, GAIN): 5.0, (SCREW, DRIFT): 6.0})
     search.trials._left |= {frozenset((DRIFT,)): 7.0, frozenset((GAIN,)): 7.0}
     assert settled(search, node).members == (DRIFT, GAIN)
+
+
+@pytest.mark.parametrize(
+    ("by_formulas", "one_alone", "looked_at"),
+    [(1.1, 1.1, False), (3.0, 1.1, True), (1.1, 3.0, True)],
+    ids=["by their formulas", "together by forms", "one by its form"],
+)
+def test_effects_that_explain_nearly_all_by_their_formulas_are_not_looked_at_again(
+    by_formulas: float, one_alone: float, looked_at: bool
+) -> None:
+    left = {(DRIFT, GAIN): 1.0, (DRIFT,): 6.0, (GAIN,): 6.0}
+    search, node = searched(left, by_formulas={(DRIFT, GAIN): by_formulas})
+    search.left_by_formula = lambda trial, form: one_alone
+    expanded: list[Node] = []
+    search.expand = lambda each: expanded.append(each) or []
+    assert settled(search, node) is node
+    assert bool(expanded) is looked_at
 
 
 @pytest.mark.parametrize(
