@@ -45,21 +45,20 @@ def or_at_several(search: Search, best: Node) -> Node:
 
     It is looked for beside nothing, and beside the known effects of the best set, all or less one of them, which may
     have stood in for it. Where known effects, each at one element, explain all and predict, only what may be the one
-    cause of all that several of them explain is looked at.
+    cause of all that several of them explain is looked at: of nearly all, where they are what they are by formulas.
     """
-    if are_what_they_are(search, best):
-        return best
     effects = [_effect_of(each) for each in best.hypotheses]
     is_explained = is_complete(search, best) and best.is_known and not leaves_room(search, best)
     is_settled = is_explained and len({*effects}) == len(effects) and not is_doubtful(search, best)
-    found: list[Node] = []
+    criteria, found = search.criteria, list[Node]()
+    least = criteria.form_explains if are_what_they_are(search, best) else criteria.explained_min
     for start in _starts(best, is_settled):
         fewer = search.node(start, near=best)
         at_several = at_all_elements(search, fewer, search.screen(fewer))
         if is_settled:
-            at_several = [each for each in at_several if each.share >= search.criteria.explained_min]
+            at_several = [each for each in at_several if each.share >= least]
         at_several.sort(key=lambda each: -each.log_evidence)
-        found += [_grown(search, each) for each in search.tried(fewer, at_several[: search.criteria.beam])]
+        found += [_grown(search, each) for each in search.tried(fewer, at_several[: criteria.beam])]
     found = [each for each in found if _may_be_sure(search, each)]
     search.nodes += found
     return best_of(search, best, found)
