@@ -1,4 +1,4 @@
-// Velocity by local polynomials; reversals by a dead band on smoothed positions.
+// Velocity by local polynomials, higher derivatives by longer ones; reversals by a dead band on smoothed positions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,13 +8,14 @@
 #include <string>
 
 #include "hexdbb/state.hpp"
+#include "local_polynomial.hpp"
+#include "sampling_times.hpp"
 
 namespace hexdbb {
 
 namespace {
 
 using Rows = std::vector<Eigen::Index>;
-using Track = Eigen::Matrix<double, Eigen::Dynamic, kLegs, Eigen::RowMajor>;  // of one sweep, a row per instant
 
 constexpr double kHalfWindow_s = 0.05;  // see state.hpp
 // Neighbours on either side: two determine a parabola and one degree of freedom; 64 bound the work at high rates.
@@ -58,25 +59,6 @@ std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eige
 /// Weights of the rows of a window; its maximum size is fixed, so that nothing is allocated.
 using Weights = Eigen::Array<double, Eigen::Dynamic, 1, 0, 2 * kMost + 1, 1>;
 
-/// Compute the weights of the values in kFewestRows rows from `first` on for the slope in `row` of the polynomial through
-/// all of them.
-Weights slope_through_all(const Eigen::VectorXd& time_s, Eigen::Index first, Eigen::Index row) {
-  Weights out = Weights::Zero(kFewestRows);
-  const Eigen::Index here = row - first;
-  for (Eigen::Index at = 0; at < kFewestRows; ++at) {
-    if (at == here) continue;
-    double above = 1.0, below = time_s[first + at] - time_s[row];
-    for (Eigen::Index other = 0; other < kFewestRows; ++other) {
-      if (other == here || other == at) continue;
-      above *= time_s[row] - time_s[first + other];
-      below *= time_s[first + at] - time_s[first + other];
-    }
-    out[at] = above / below;
-    out[here] -= 1.0 / (time_s[first + at] - time_s[row]);
-  }
-  return out;
-}
-
 /// Compute the rows of the inverse normal matrix for value and slope at u = 0 of the polynomial of degree `degree` in
 /// u.
 std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int degree) {
@@ -102,9 +84,7 @@ struct Stencil {
   Weights value, slope;
 };
 
-/// Compute the stencil of the least-squares parabola through a window. Where sampling is so slow that a window has the
-/// minimum number of rows, a parabola would flatten the motion (by 0.1 % of the velocity at 8 Hz on a circle of 20 s),
-/// while noise matters little: the slope is then that of the polynomial through all of them.
+/// Compute the stencil of the least-squares parabola through a window.
 Stencil stencil(const Eigen::VectorXd& time_s, Eigen::Index row) {
   const auto [first, last] = window(time_s, row);
   const Eigen::Index count = last - first + 1;
@@ -117,9 +97,7 @@ Stencil stencil(const Eigen::VectorXd& time_s, Eigen::Index row) {
     for (int order = 1; order < 5; ++order, power *= u[at]) moment[order] += power;
   }
   const auto [value, slope] = value_and_slope(moment, static_cast<int>(std::min<Eigen::Index>(last - first, 2)));
-  Stencil out{first, value[0] + u * (value[1] + u * value[2]), per_s * (slope[0] + u * (slope[1] + u * slope[2]))};
-  if (count == kFewestRows) out.slope = slope_through_all(time_s, first, row);
-  return out;
+  return {first, value[0] + u * (value[1] + u * value[2]), per_s * (slope[0] + u * (slope[1] + u * slope[2]))};
 }
 
 /// The stencils of all rows of a sweep, one after another: windows are mostly short, and a sweep may be long.
@@ -136,19 +114,25 @@ class Stencils {
     }
   }
 
-  Track values(const Track& of) const { return applied(value_, of); }
-  Track slopes(const Track& of) const { return applied(slope_, of); }
+  Track values(const Track& of) const {
+    Track out = Track::Zero(of.rows(), kLegs);
+    for (std::size_t row = 0; row < first_.size(); ++row) apply(value_, row, of, out);
+    return out;
+  }
+
+  /// Add slopes, but where sampling is so slow that a window has the minimum number of rows.
+  void add_slopes(const Track& of, Track& to) const {
+    for (std::size_t row = 0; row < first_.size(); ++row) {
+      if (begin_[row + 1] - begin_[row] > kFewestRows) apply(slope_, row, of, to);
+    }
+  }
 
  private:
-  Track applied(const std::vector<double>& weights, const Track& of) const {
-    Track out = Track::Zero(of.rows(), kLegs);
-    for (std::size_t row = 0; row < first_.size(); ++row) {
-      for (std::size_t at = begin_[row]; at < begin_[row + 1]; ++at) {
-        const auto from = first_[row] + static_cast<Eigen::Index>(at - begin_[row]);
-        out.row(static_cast<Eigen::Index>(row)) += weights[at] * of.row(from);
-      }
+  void apply(const std::vector<double>& weights, std::size_t row, const Track& of, Track& to) const {
+    auto sum = to.row(static_cast<Eigen::Index>(row));
+    for (std::size_t at = begin_[row]; at < begin_[row + 1]; ++at) {
+      sum += weights[at] * of.row(first_[row] + static_cast<Eigen::Index>(at - begin_[row]));
     }
-    return out;
   }
 
   std::vector<Eigen::Index> first_;  // row of each stencil's first weight
@@ -156,12 +140,13 @@ class Stencils {
   std::vector<double> value_, slope_;
 };
 
+/// The velocity is that of the longer polynomial, which a parabola alone would flatten (by 0.1 % at 8 Hz on a circle of
+/// 20 s), and of the parabola over what the polynomial leaves, unless sampling is so slow that this is noise.
 Smooth smooth(const Eigen::VectorXd& time_s, const Stencils& stencils, const Track& raw_mm, int derivatives) {
-  Smooth out{time_s, stencils.values(raw_mm), {}};
-  for (int order = 0; order < derivatives; ++order) {
-    out.derivative.push_back(stencils.slopes(order == 0 ? raw_mm : out.derivative.back()));
-  }
-  return out;
+  std::vector<Track> longer = local_polynomials(time_s, raw_mm, derivatives);
+  stencils.add_slopes(raw_mm - longer.front(), longer[1]);
+  longer.erase(longer.begin());
+  return {time_s, stencils.values(raw_mm), std::move(longer)};
 }
 
 /// A reversal of a slider.
@@ -257,7 +242,7 @@ std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi
         throw std::invalid_argument("time_s[" + std::to_string(rows[at]) + "] is not after the sample before it");
       }
     }
-    const Eigen::VectorXd times_s = time_s(rows);
+    const Eigen::VectorXd times_s = without_rounding(time_s(rows));
     const Stencils stencils(times_s);
     for (std::size_t which = 0; which < coordinates.size(); ++which) {
       const Coordinates& each = coordinates[which];

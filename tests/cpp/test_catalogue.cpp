@@ -232,9 +232,27 @@ TEST_F(Catalogue, LeadServoAndDelay) {
   }
   expect_same(pushed("lead_error", values), lead);
   expect_same(pushed("servo_lag", values), lag);
-  const Ports delayed = pushed("sample_delay", Eigen::VectorXd::Constant(1, 1e-6));
+  const Ports delayed = pushed("sample_delay", Eigen::Vector2d(1e-6, 0.0));
   for (int k = 0; k < kLegs; ++k) {
     EXPECT_NEAR(delayed.slider()[k] / 1e-6, state().velocity_mm_s(kRow, k), 1e-3) << "to first order in the delay";
+  }
+}
+
+TEST_F(Catalogue, AFilterMakesAPartOfADelay) {
+  for (const double part : {0.0, 0.3, 1.0}) {
+    const double delay = 0.2;
+    const Ports delayed = pushed("sample_delay", Eigen::Vector2d(delay, part * part));
+    // What the sliders are, for a dead time and a filter of first order: exp(dead d/dt) (1 + filter d/dt) of what is
+    // said.
+    const double dead = (1.0 - part) * delay, filter = part * delay;
+    for (int k = 0; k < kLegs; ++k) {
+      const double expected =
+          (dead + filter) * state().velocity_mm_s(kRow, k) +
+          (dead * dead / 2.0 + dead * filter) * state().acceleration_mm_s2(kRow, k) +
+          (std::pow(dead, 3) / 6.0 + dead * dead / 2.0 * filter) * state().jerk_mm_s3(kRow, k) +
+          (std::pow(dead, 4) / 24.0 + std::pow(dead, 3) / 6.0 * filter) * state().snap_mm_s4(kRow, k);
+      EXPECT_NEAR(delayed.slider()[k], expected, 1e-9 * std::max(1.0, std::abs(expected))) << part;
+    }
   }
 }
 

@@ -6,7 +6,9 @@
 //
 // Assumptions: inside a sweep (one uninterrupted capture) the sliders move smoothly; before it, each slider moved as it
 // does at its start. Encoder positions are smoothed by a parabola through the neighbours within 50 ms (at least two on
-// either side): long against quantisation of 0.1 um, short against circles, which take seconds.
+// either side): long against quantisation of 0.1 um, short against circles, which take seconds. Derivatives are those of
+// a longer polynomial, over 0.4 rad of the motion on either side; where sampling is fast, the velocity has what is
+// faster than that besides. Time stamps of even samples are taken without the rounding of their last digit.
 //
 // The joints of leg k. u is the unit vector from the slider joint to the platform joint. The slider translates, so the
 // leg's angular velocity relative to it is u x du/dt (rotation about the leg's own line is not determined and moves

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.needed import explained_beyond
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import at_its_place
 from hexdbb.evidence.screen import Hypothesis, Known
@@ -110,11 +111,12 @@ def _leaves_more(search: Search, node: Node, than: Node) -> bool:
     """Check for a known effect that leaves more than its form may, and whose formula explains too little to be a cause.
 
     A rail that is kinked at one place explained 99 % as a bow, by smooth functions of the bow's form; a hundredth of
-    the kink is more than a bow's form leaves.
+    the kink is more than a bow's form leaves. So is geometry bent far beyond its priors: a ball with lobes left two
+    thirds of the noise's variance as a joint off its place, and geometry off by as much as three of it.
     """
     if not node.is_known or len(node.members) > 1:
         return False
-    beyond = node.trial.left - than.trial.left
+    beyond = explained_beyond(search, than.trial, node.trial)
     is_more = beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
     return is_more and explained_by_formulas(search, node) < search.criteria.explained_min
 

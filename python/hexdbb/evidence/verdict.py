@@ -10,6 +10,7 @@ from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
 from hexdbb.evidence.fine_enough import or_one_fine_enough
 from hexdbb.evidence.further_elements import with_elements_that_predict
+from hexdbb.evidence.hidden import with_what_forms_hide
 from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
@@ -23,7 +24,7 @@ from hexdbb.evidence.settling import explains_nearly, of_forms
 from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over
-from hexdbb.evidence.sure import Grade, graded
+from hexdbb.evidence.sure import Grade, graded, is_for_sure
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
@@ -106,7 +107,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
-    first = search.run()
+    first = _in_sure_words(search, search.run())
     other = or_another_that_predicts(search, first)
     node = in_known_words(search, other)
     if other is not first:
@@ -115,7 +116,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         if not _is_form(search):
             return Verdict("unknown", (), node, None, before)
         return Verdict("none", (), node, None, before, refined_forms(search))
-    node = without_borrowed_forms(search, of_better_form(search, settled(search, node)))
+    node = with_what_forms_hide(search, settled(search, node))
+    node = without_borrowed_forms(search, of_better_form(search, node))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, node))
     fine = or_one_fine_enough(search, node)
@@ -138,6 +140,12 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
     return Verdict(graded(search, node, grade), found, node, search.checked(node), before, wider)
+
+
+def _in_sure_words(search: Search, node: Node) -> Node:
+    """Return a set in known words where so it is for sure: in learned ones it might give way to what fits worse."""
+    known = in_known_words(search, node)
+    return known if known.is_known and is_for_sure(search, known) else node
 
 
 def _is_form(search: Search) -> bool:
