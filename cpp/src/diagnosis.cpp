@@ -13,6 +13,7 @@
 #include "hexdbb/tabulated_effect.hpp"
 #include "minimum.hpp"
 #include "near_minimum.hpp"
+#include "read_late.hpp"
 
 namespace hexdbb {
 
@@ -264,14 +265,10 @@ Eigen::VectorXd prior_sigmas(const Model& model) {
   return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.prior_sigma; });
 }
 
-FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
-              const FitOptions& options) {
-  if (samples.state.row.size() > 0 && has_table(model)) {
-    require_columns(model, samples);
-    Samples alone = samples;
-    alone.state.row.resize(0);
-    return fit(of_rows(model, samples.state.row), alone, measured_mm, options);
-  }
+namespace {
+
+/// Throw std::invalid_argument where what is to be fitted is not of one shape, or not finite.
+void require_shapes(const Samples& samples, const Eigen::VectorXd& measured_mm, const FitOptions& options) {
   samples.validate();
   if (samples.size() == 0) throw std::invalid_argument("there are no readings to fit");
   if (measured_mm.size() != samples.size()) {
@@ -288,7 +285,11 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
     }
   }
   if (!(options.noise_mm > 0.0)) throw std::invalid_argument("noise_mm must be greater than 0");
+}
 
+/// Fit to samples as they are.
+FitResult fit_as_read(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+                      const FitOptions& options) {
   FitResult out;
   const Unknowns unknowns = make_unknowns(model, options);
   if (unknowns.size() == 0) throw std::invalid_argument("no value of the model is free");
@@ -318,6 +319,41 @@ FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd&
   out.covariance(unknowns.columns, unknowns.columns) =
       unknowns.scale.asDiagonal() * spread * unknowns.scale.asDiagonal();
   return out;
+}
+
+/// Fit where readings may be late: to samples as they are when the gauge is read, until that is the same as fitted.
+FitResult fit_late(Model model, const Samples& samples, const Eigen::VectorXd& measured_mm, FitOptions options) {
+  constexpr double kSame_s = 0.1e-3;  // 6 um of a slider at 60 mm/s: of a pitch error of 10 mm a fifth of a degree
+  constexpr int kMost = 5;            // fits; each divides what the delay is off by ten and more
+  FitResult out = fit_as_read(model, when_read(model, samples), measured_mm, options);
+  for (int fits = 1; fits < kMost; ++fits) {
+    const double before_s = late_s(model);
+    model.set_values(out.values);
+    if (std::abs(late_s(model) - before_s) < kSame_s) break;
+    options.from_minimum = true;
+    options.starts.resize(0, 0);
+    FitResult next = fit_as_read(model, when_read(model, samples), measured_mm, options);
+    next.machine = out.machine;
+    next.rms_before_mm = out.rms_before_mm;
+    next.iterations += out.iterations;
+    out = std::move(next);
+  }
+  return out;
+}
+
+}  // namespace
+
+FitResult fit(const Model& model, const Samples& samples, const Eigen::VectorXd& measured_mm,
+              const FitOptions& options) {
+  if (samples.state.row.size() > 0 && has_table(model)) {
+    require_columns(model, samples);
+    Samples alone = samples;
+    alone.state.row.resize(0);
+    return fit(of_rows(model, samples.state.row), alone, measured_mm, options);
+  }
+  require_shapes(samples, measured_mm, options);
+  if (may_be_late(model)) return fit_late(model, samples, measured_mm, options);
+  return fit_as_read(model, samples, measured_mm, options);
 }
 
 }  // namespace hexdbb

@@ -8,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "read_late.hpp"
+
 namespace hexdbb {
 
 namespace {
@@ -283,6 +285,7 @@ NormalEquations normal_equations(const Model& model, const Samples& samples, con
     throw std::invalid_argument("measured_mm has " + std::to_string(measured_mm.size()) + " readings, expected " +
                                 std::to_string(samples.size()) + ", one per sample");
   }
+  if (is_read_late(model, samples)) return normal_equations(model, when_read(model, samples), measured_mm);
   std::vector<int> columns(model.size());
   std::iota(columns.begin(), columns.end(), 0);
   return Accumulator(samples, measured_mm, columns).at(model);

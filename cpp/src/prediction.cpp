@@ -1,6 +1,7 @@
 #include "hexdbb/prediction.hpp"
 
 #include "block_solver.hpp"
+#include "read_late.hpp"
 
 namespace hexdbb {
 
@@ -41,6 +42,7 @@ Eigen::Index Prediction::first_failure() const {
 }
 
 Prediction predict(const Model& model, const Samples& samples, bool want_jacobian) {
+  if (is_read_late(model, samples)) return predict(model, when_read(model, samples), want_jacobian);
   Prediction out;
   out.reading_mm.setZero(samples.size());
   out.status.setZero(samples.size());
@@ -63,6 +65,7 @@ Prediction predict(const Model& model, const Samples& samples, bool want_jacobia
 }
 
 RowMajorMatrix port_sensitivity(const Model& model, const Samples& samples) {
+  if (is_read_late(model, samples)) return port_sensitivity(model, when_read(model, samples));
   RowMajorMatrix out(samples.size(), int{port::kCount});
   BlockSolver(model, samples).each_block(0, samples.size(), true, [&](const SampleBlock& rows, const Block& block) {
     out.middleRows(rows.first, rows.count) = block.sensitivity.topRows(rows.count);
@@ -78,6 +81,7 @@ Pose PoseTable::at(Eigen::Index row) const {
 }
 
 PoseTable forward_table(const Model& model, const Samples& samples) {
+  if (is_read_late(model, samples)) return forward_table(model, when_read(model, samples));
   PoseTable out;
   out.pose.setZero(samples.size(), 12);
   out.status.setZero(samples.size());

@@ -19,6 +19,7 @@ Samples Samples::rows(const std::vector<Eigen::Index>& which) const {
     }
   }
   Samples out{sliders_mm(which, Eigen::all), set_up(which), mount(which), set_ups, state.rows(which)};
+  if (moved_on_mm.rows() > 0) out.moved_on_mm = moved_on_mm(which, Eigen::all);
   if (state.row.size() == 0) {
     out.state.row.resize(out.size());
     for (Eigen::Index row = 0; row < out.size(); ++row) out.state.row[row] = static_cast<int>(which[row]);

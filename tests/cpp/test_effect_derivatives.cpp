@@ -7,6 +7,7 @@
 #include "circles.hpp"
 #include "drawing.hpp"
 #include "hexdbb/diagnosis.hpp"
+#include "read_late.hpp"
 #include "refusal.hpp"
 
 namespace hexdbb::testing {
@@ -44,6 +45,8 @@ TEST_P(EffectDerivatives, AgainstDifferences) {
   ASSERT_GT(count, 0);
   Drawing drawing(41);
   model.set_values(sizes.cwiseProduct(drawing.normals(model.size())));
+  // The place at which effects act counts as given: where readings are late, the sliders' when the gauge is read.
+  samples = when_read(model, samples);
   const Prediction predicted = predict(model, samples, true);
   ASSERT_EQ(predicted.first_failure(), -1);
   for (int value = first; value < first + count; ++value) {

@@ -85,6 +85,10 @@ class Effect {
   /// they are not. push() and chain() then are what follows from it.
   virtual std::optional<AffinePush> affine(Values) const { return std::nullopt; }
 
+  /// Return by how much readings are later than the encoders' values at these values; nothing where the effect has no
+  /// such. What it pushes the sliders by is where they are then; other effects act there (read_late.hpp).
+  virtual std::optional<double> late_s(Values) const { return std::nullopt; }
+
  private:
   EffectInfo info_;
 };

@@ -35,7 +35,9 @@ struct Prediction {
   Eigen::Index first_failure() const;  // row, or -1
 };
 
-/// Predict the readings of samples. Throws std::invalid_argument where samples lack what an effect needs.
+/// Predict the readings of samples. Where readings are later than the encoders' values, effects act where the sliders are
+/// when the gauge is read; for the Jacobian that place counts as given. Throws std::invalid_argument where samples lack
+/// what an effect needs.
 Prediction predict(const Model& model, const Samples& samples, bool want_jacobian);
 
 /// Compute the sensitivity of every sample's reading to a push at each port, samples x 55.

@@ -18,6 +18,8 @@ struct Samples {
   Eigen::VectorXi mount;   // 0-based fixing of the tool cup
   std::vector<SetUp> set_ups;
   State state = {};  // optional columns
+  // How far sliders_mm are moved on since the encoders were read, where they are those of the reading; otherwise empty.
+  SliderTable moved_on_mm = {};
 
   Eigen::Index size() const { return sliders_mm.rows(); }
 

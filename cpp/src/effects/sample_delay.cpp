@@ -9,6 +9,7 @@
 // In g, not in f, it has a slope where nothing is filtered. A third of 60 ms filtered is 9 um at 60 mm/s.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "block_column.hpp"
@@ -32,8 +33,13 @@ class SampleDelay : public Effect {
           delay * (of.first + delay / 2.0 *
                                   (series.second * of.second +
                                    delay / 3.0 * (series.third * of.third + delay / 4.0 * series.fourth * of.fourth)));
+      if (block.samples.moved_on_mm.rows() > 0) {
+        ports.col(port::kSlider + k) -= block.of(block.samples.moved_on_mm, k);
+      }
     }
   }
+
+  std::optional<double> late_s(Values values) const override { return values[0]; }
 
   void chain(const SampleBlock& block, Values values, ConstPortBlock sensitivity,
              JacobianBlock jacobian) const override {
@@ -99,7 +105,8 @@ EffectPtr sample_delay(const Context&) {
       .group = group::kCatalogue,
       .physics =
           "The gauge is read later than the encoders, and all sliders have moved on meanwhile; one value for all, "
-          "of opposite sign to a servo_lag that all sliders share. A filter of the encoders' signals may make a part: "
+          "of opposite sign to a servo_lag that all sliders share. Other effects act where the sliders are by then. A "
+          "filter of the encoders' signals may make a part: "
           "filtered is its square, by which the acceleration counts less.",
       .formula = "slider = v t + (1 - g) a t^2 / 2 + (1 - 3 g + 2 g^1.5) jerk t^3 / 6 + (1 - 6 g + 8 g^1.5 - 3 g^2) "
                  "snap t^4 / 24, t = delay, g = filtered",
