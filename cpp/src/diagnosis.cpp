@@ -23,18 +23,6 @@ namespace {
 // 1e-8, and the identifiable directions of the plans examined (condition up to 2832) are above 3e-4.
 constexpr double kRedundant = 1e-6;
 
-/// Return one number of every value's parameter, in the order of a model's values.
-template <class Number>
-Eigen::VectorXd of_each_value(const Model& model, Number number) {
-  Eigen::VectorXd out(model.size());
-  Eigen::Index at = 0;
-  for (const Term& term : model.terms) {
-    const EffectInfo& info = term.effect->info();
-    for (int j = 0; j < info.size(); ++j) out[at++] = number(info.parameters[j % info.parameters.size()]);
-  }
-  return out;
-}
-
 // Readings of the part on which a diagnosis is fitted coarse to fine: 73 per sweep of a plan of seven circles, two
 // directions, two feeds, so that those inside the play of a slider after its reversals count too. Half of them save as much
 // as the further steps cost that some records then take over all readings.
@@ -57,36 +45,6 @@ const NormalEquations& at_or_throw(Accumulator& accumulator, const Model& model,
     throw std::invalid_argument("sample " + std::to_string(stride * out.failure) + ": " +
                                 status_name(out.failure_status));
   }
-  return out;
-}
-
-Eigen::VectorXd physical_limits(const Model& model) {
-  return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.limit; });
-}
-
-Unknowns make_unknowns(const Model& model, const FitOptions& options) {
-  if (!options.free.empty() && static_cast<int>(options.free.size()) != model.size()) {
-    throw std::invalid_argument("free has " + std::to_string(options.free.size()) + " entries, expected " +
-                                std::to_string(model.size()));
-  }
-  const bool is_scaled = options.prior_scale.size() > 0;
-  if (is_scaled && (options.prior_scale.size() != model.size() || !(options.prior_scale.array() > 0.0).all())) {
-    throw std::invalid_argument("prior_scale: expected " + std::to_string(model.size()) + " factors greater than 0");
-  }
-  if (options.starts.cols() > 0 && options.starts.rows() != model.size()) {
-    throw std::invalid_argument("starts: expected " + std::to_string(model.size()) + " rows, one per value");
-  }
-  Unknowns out;
-  out.start = model.values();
-  for (int j = 0; j < model.size(); ++j) {
-    if (options.free.empty() || options.free[j]) out.columns.push_back(j);
-  }
-  out.scale = prior_sigmas(model)(out.columns);
-  if (is_scaled) out.scale.array() *= options.prior_scale(out.columns).array();
-  out.limit = physical_limits(model)(out.columns);
-  const Eigen::VectorXd shapes =
-      of_each_value(model, [](const ParameterInfo& parameter) { return parameter.is_shape ? 1.0 : 0.0; });
-  for (const int column : out.columns) out.shapes.push_back(shapes[column] != 0.0);
   return out;
 }
 
@@ -258,14 +216,6 @@ Eigen::MatrixXd first_order_spread(const Eigen::MatrixXd& information, const Unk
   total.diagonal().array() += 1.0;
   return Eigen::LLT<Eigen::MatrixXd>(total).solve(Eigen::MatrixXd::Identity(unknowns.size(), unknowns.size()));
 }
-
-}  // namespace
-
-Eigen::VectorXd prior_sigmas(const Model& model) {
-  return of_each_value(model, [](const ParameterInfo& parameter) { return parameter.prior_sigma; });
-}
-
-namespace {
 
 /// Throw std::invalid_argument where what is to be fitted is not of one shape, or not finite.
 void require_shapes(const Samples& samples, const Eigen::VectorXd& measured_mm, const FitOptions& options) {

@@ -1,8 +1,7 @@
-// Velocity by local polynomials, higher derivatives by longer ones; reversals by a dead band on smoothed positions.
+// Derivatives by local polynomials; reversals by a dead band on smoothed positions.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -60,7 +59,7 @@ std::pair<Eigen::Index, Eigen::Index> window(const Eigen::VectorXd& time_s, Eige
 using Weights = Eigen::Array<double, Eigen::Dynamic, 1, 0, 2 * kMost + 1, 1>;
 
 /// Compute the rows of the inverse normal matrix for value and slope at u = 0 of the polynomial of degree `degree` in
-/// u.
+/// u. Of a parabola only: slopes of so few rows are not used.
 std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int degree) {
   std::array<Vector3, 2> out = {Vector3::Zero(), Vector3::Zero()};
   const auto& s = moment;
@@ -71,9 +70,9 @@ std::array<Vector3, 2> value_and_slope(const std::array<double, 5>& moment, int 
     out = {Vector3(c00, c01, c02) / determinant, Vector3(c01, c11, c12) / determinant};
   } else if (degree == 1) {
     const double determinant = s[0] * s[2] - s[1] * s[1];
-    out = {Vector3(s[2], -s[1], 0.0) / determinant, Vector3(-s[1], s[0], 0.0) / determinant};
+    out[0] = Vector3(s[2], -s[1], 0.0) / determinant;
   } else {
-    out = {Vector3(1.0, 0.0, 0.0), Vector3::Constant(std::numeric_limits<double>::quiet_NaN())};
+    out[0] = Vector3(1.0, 0.0, 0.0);
   }
   return out;
 }

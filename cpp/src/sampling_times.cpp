@@ -7,7 +7,7 @@ namespace hexdbb {
 
 namespace {
 
-// Steps that a line would pass within rounding of by chance, however uneven they are.
+// Rows: fewer may be within rounding of a line by chance, however uneven they are.
 constexpr Eigen::Index kFewest = 8;
 // Of the last digit: half is the rounding's own, the rest is how well the least-squares line through as few rows is known.
 constexpr double kOff = 0.75;
@@ -30,8 +30,8 @@ Eigen::VectorXd steps(const Eigen::VectorXd& time_s) {
   Eigen::VectorXd sorted_s = step_s;
   std::nth_element(sorted_s.data(), sorted_s.data() + count / 2, sorted_s.data() + count);
   Eigen::VectorXd out = Eigen::VectorXd::Zero(count + 1);
-  for (Eigen::Index row = 0; row < count; ++row)
-    out[row + 1] = out[row] + std::round(step_s[row] / sorted_s[count / 2]);
+  const double median_s = sorted_s[count / 2];
+  for (Eigen::Index row = 0; row < count; ++row) out[row + 1] = out[row] + std::round(step_s[row] / median_s);
   return out;
 }
 

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "hexdbb/diagnosis.hpp"
+
 namespace hexdbb {
 
 struct Unknowns {
@@ -32,5 +34,8 @@ struct Unknowns {
     return out;
   }
 };
+
+/// Return the unknowns of a fit. Throws std::invalid_argument where options have other lengths than the model's values.
+Unknowns make_unknowns(const Model& model, const FitOptions& options);
 
 }  // namespace hexdbb
