@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "block_lanes.hpp"
+#include "largest_turns.hpp"
 #include "multiversion.hpp"
 
 namespace hexdbb {
@@ -23,30 +24,30 @@ inline rssr::Joints<L> load_joints(const NominalGeometry& nominal, const Block& 
 }
 
 /// Newton on all lanes until the worst of them is solved; a solved lane's further steps do not move it. NaN compares
-/// false, so lanes without a solution do not delay the others. A lane whose last determinant is not negative, or that
-/// took too long a step, may have reached another assembly of the machine (see kinematics.cpp): its residual becomes
-/// infinite.
+/// false, so lanes without a solution do not delay the others. A lane with a determinant that is not negative, or that
+/// took a step as long as `largest_turn`, may have reached another assembly of the machine (see kinematics.cpp): its
+/// residual becomes infinite.
 template <class L>
-inline rssr::Loops<L> solve_loops(const rssr::Joints<L>& joints, const rssr::TriangleFrame<L>& frame, L (&c)[3],
-                                  L (&s)[3], L& residual_mm) {
+inline rssr::Loops<L> solve_loops(const rssr::Joints<L>& joints, const rssr::TriangleFrame<L>& frame,
+                                  double largest_turn, L (&c)[3], L (&s)[3], L& residual_mm) {
   rssr::Circle<L> circle[3];
   for (int i = 0; i < 3; ++i) {
     circle[i] = rssr::meeting_circle(joints.base[2 * i], joints.base[2 * i + 1], joints.length[2 * i],
                                      joints.length[2 * i + 1]);
   }
   const L mm_per_f = 0.5 / root(frame.side_squared[0]);
-  L determinant = {}, longest = {};
+  L highest = lanes_of<L>(-std::numeric_limits<double>::infinity()), longest = {};  // highest determinant
   for (int steps = 0;; ++steps) {
     const rssr::Loops<L> loops = rssr::close_loops(circle, c, s, frame.side_squared);
     residual_mm = mm_per_f * (magnitude(loops.f[0]) + magnitude(loops.f[1]) + magnitude(loops.f[2]));
     if (steps == kMaxSteps || (steps > 0 && !any_above(residual_mm, kResidualTolerance_mm))) {
       const L nowhere = lanes_of<L>(std::numeric_limits<double>::infinity());
-      residual_mm = determinant < 0.0 ? residual_mm : nowhere;
-      residual_mm = longest < kLargestTurn ? residual_mm : nowhere;
+      residual_mm = highest < 0.0 ? residual_mm : nowhere;
+      residual_mm = longest < largest_turn ? residual_mm : nowhere;
       return loops;
     }
     const rssr::LoopJacobian<L> jacobian = rssr::loop_jacobian(circle, c, s, loops);
-    determinant = jacobian.determinant;
+    highest = jacobian.determinant < highest ? highest : jacobian.determinant;
     L step[3], stretch[3], most = {};  // stretch: of cosine and sine by the turn, squared, beyond one
     rssr::cramer_step(loops, jacobian, step);
     for (int i = 0; i < 3; ++i) {
@@ -64,7 +65,7 @@ inline rssr::Loops<L> solve_loops(const rssr::Joints<L>& joints, const rssr::Tri
 
 template <class L>
 inline void solve_lanes(const NominalGeometry& nominal, Block& block, Block::Angles& angles, Eigen::Index row,
-                        bool want_sensitivity) {
+                        double largest_turn, bool want_sensitivity) {
   const rssr::Joints<L> joints = load_joints<L>(nominal, block, row);
   const rssr::TriangleFrame<L> frame = rssr::triangle_frame(joints.platform);
   L c[3], s[3], residual_mm;
@@ -72,7 +73,7 @@ inline void solve_lanes(const NominalGeometry& nominal, Block& block, Block::Ang
     c[i] = load<L>(&angles(row, i));
     s[i] = load<L>(&angles(row, 3 + i));
   }
-  const rssr::Loops<L> loops = solve_loops(joints, frame, c, s, residual_mm);
+  const rssr::Loops<L> loops = solve_loops(joints, frame, largest_turn, c, s, residual_mm);
   for (int i = 0; i < 3; ++i) {
     store(c[i], &angles(row, i));
     store(s[i], &angles(row, 3 + i));
@@ -101,8 +102,13 @@ inline void start_from_before(Block::Angles& angles, Eigen::Index row) {
     next[i] = last + moved;
     furthest = magnitude(moved) > furthest ? magnitude(moved) : furthest;
   }
-  const bool is_smooth = row >= 2 * kLanesIn<L> && !any_above(furthest, kLargestTurn);
+  const bool is_smooth = row >= 2 * kLanesIn<L> && !any_above(furthest, kNeighbourTurn);
   for (int i = 0; i < 6; ++i) store(is_smooth ? next[i] : lanes_of<L>(angles(row - 1, i)), &angles(row, i));
+}
+
+template <class L>
+inline bool are_solved(const Block& block, Eigen::Index row) {
+  return (block.residual_mm.segment<kLanesIn<L>>(row).array() <= kResidualTolerance_mm).all();
 }
 
 /// Interleave numbers of two rows of lanes as the masks say, and add.
@@ -160,11 +166,13 @@ inline void add_tile(const JacobianRows& a, Eigen::Index i, Eigen::Index j, doub
 template <class L>
 inline void solve_block_in(const NominalGeometry& nominal, Block& block, Block::Angles& angles, Eigen::Index rows,
                            Start start, bool want_sensitivity) {
+  const double largest_turn = start == Start::kHome ? kHomeTurn : kNeighbourTurn;
   for (Eigen::Index row = 0; row < rows; row += kLanesIn<L>) {
+    if (start == Start::kHome && are_solved<L>(block, row)) continue;
     if (start == Start::kNeighbour && row > 0 && block.residual_mm(row - 1) <= kResidualTolerance_mm) {
       start_from_before<L>(angles, row);
     }
-    solve_lanes<L>(nominal, block, angles, row, want_sensitivity);
+    solve_lanes<L>(nominal, block, angles, row, largest_turn, want_sensitivity);
   }
 }
 

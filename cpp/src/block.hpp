@@ -30,12 +30,13 @@ struct Block {
   Table<port::kCount> sensitivity;
 };
 
-/// The start of each eight rows: the angles given, or the rows before them; of the first eight the angles given.
-enum class Start { kAngles, kNeighbour };
+/// The start of each eight rows: the angles given; the rows before them, of the first eight the angles given; or the
+/// angles given, where some of them have no solution yet, with steps as long as those from the symmetric pose may be.
+enum class Start { kAngles, kNeighbour, kHome };
 
 /// Solve rows [0, rows) of a block, eight at a time; rows are rounded up to whole lanes, so the caller repeats its last
-/// row. `angles` are the start, then the solution. The platform's joints are assumed shared: those of the first leg of each pair count. Rows whose residual is not
-/// below the tolerance have no solution from their start.
+/// row. `angles` are the start, then the solution. The platform's joints are assumed shared: those of the first leg of
+/// each pair count. Rows whose residual is not below the tolerance have no solution from their start.
 void solve_block(const NominalGeometry& nominal, Block& block, Block::Angles& angles, Eigen::Index rows, Start start,
                  bool want_sensitivity) noexcept;
 

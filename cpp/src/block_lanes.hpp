@@ -8,8 +8,6 @@ namespace hexdbb {
 
 using rssr::Vec;
 
-constexpr double kLargestTurn = 0.05;  // tangent of a Newton step beyond which the start was not a neighbouring pose
-
 /// Load columns `first`, `first` + 1, `first` + 2 of a table as a vector of lanes.
 template <class L, class Table>
 inline Vec<L> load3(const Table& table, Eigen::Index row, int first) {

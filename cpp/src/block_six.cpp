@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "block_lanes.hpp"
+#include "largest_turns.hpp"
 #include "multiversion.hpp"
 #include "six_kernel.hpp"
 
@@ -38,7 +39,7 @@ inline L residual_of(const rssr::SixLegs<L>& legs, const L& longest_turn, const 
   const L nowhere = lanes_of<L>(std::numeric_limits<double>::infinity());
   L residual_mm = {};
   for (const L& each : legs.too_long) residual_mm = magnitude(each) > residual_mm ? magnitude(each) : residual_mm;
-  residual_mm = longest_turn < kLargestTurn * kLargestTurn ? residual_mm : nowhere;
+  residual_mm = longest_turn < kNeighbourTurn * kNeighbourTurn ? residual_mm : nowhere;
   return least_squared > kSingular ? residual_mm : nowhere;
 }
 

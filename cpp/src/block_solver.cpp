@@ -104,17 +104,29 @@ void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fre
   const Start from = start(angles, fresh);
   const bool shared = joints_are_shared(block, has_fixed_joints_ ? 1 : rows.count);
   solve_block(model_.nominal, block, angles, rows.count, from, want_sensitivity && shared);
+  if (from_home(angles, rows.count)) {
+    solve_block(model_.nominal, block, angles, rows.count, Start::kHome, want_sensitivity && shared);
+  }
   if (!shared) solve_block_six(model_.nominal, block, rows.count, want_sensitivity);
-  const auto residual_mm = block.residual_mm.head(rows.count).array();
-  const bool are_all_solved = (residual_mm >= 0.0 && residual_mm <= kResidualTolerance_mm).all();
   first_failure_ = -1;
-  for (Eigen::Index row = 0; row < rows.count && !are_all_solved; ++row) {
+  for (Eigen::Index row = 0; row < rows.count; ++row) {
     if (is_solved(block, row)) continue;
     store_angles(RssrAngles(), angles, row);  // the lanes' own angles did not converge
     solve_row(rows, row, angles, want_sensitivity);
     if (first_failure_ < 0 && !is_solved(block, row)) first_failure_ = row;
   }
   last_ = angles_at(angles, rows.count - 1);
+}
+
+/// Let the first `count` rows that have no solution from their start, as after a jump to another circle, start from the
+/// symmetric pose. Return whether there are any.
+bool BlockSolver::from_home(Block::Angles& angles, Eigen::Index count) const {
+  const auto residual_mm = block_->residual_mm.head(count).array();
+  if ((residual_mm <= kResidualTolerance_mm).all()) return false;
+  for (Eigen::Index row = 0; row < Block::kRows; ++row) {
+    if (row >= count || !is_solved(*block_, row)) store_angles(RssrAngles(), angles, row);
+  }
+  return true;
 }
 
 /// Solve one row by the single-pose functions, from the angles kept: the RSSR loops, then six coordinates where

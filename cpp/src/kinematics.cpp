@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kernel_types.hpp"
+#include "largest_turns.hpp"
 #include "leg_kernel.hpp"
 #include "multiversion.hpp"
 #include "six_kernel.hpp"
@@ -20,10 +21,6 @@ using rssr::vec;
 // Ratio of a determinant to the size of its terms below which locked sliders do not hold the platform: at 1e-9 an error
 // of 1 nm in a leg moves it by a metre.
 constexpr double kSingularRatio = 1e-9;
-// Largest turn of a Newton step, as a tangent: from a neighbouring pose, where a longer one shows that it is not one,
-// and from the symmetric start.
-constexpr double kNeighbourTurn = 0.05;
-constexpr double kHomeTurn = 0.5;
 
 /// The loops of one sample: circles, sides, and the determinant (squared) below which they count as singular, a
 /// fraction of its terms' largest possible size.
