@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.needed import has_form_alone
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
@@ -17,7 +18,8 @@ def with_elements_that_predict(search: Search, node: Node) -> Node:
     """Add an element of an effect that a set has at others, where the set is not for sure without it, but with it.
 
     A guideway that is bowed less than its neighbour adds no more where fitted than a form may, which geometry takes;
-    but geometry carries it to circles left out. What another effect beside the set says as well is none.
+    but geometry carries it to circles left out. What another effect beside the set says as well is none, nor what the
+    functions of its form alone say.
     """
     if not node.is_known or not node.members or is_for_sure(search, node):
         return node
@@ -48,7 +50,8 @@ def _wider(search: Search, node: Node) -> Iterator[Node]:
 def _is_needed(search: Search, node: Node, wider: Node) -> bool:
     gain = wider.trial.log_evidence - node.trial.log_evidence + search.log_prior(wider.members[-1].hypothesis)
     is_seen = node.trial.left - wider.trial.left >= NOTHING_LEFT
-    return is_seen and not wider.trial.refused and gain >= search.criteria.detect_nats
+    is_cause = not wider.trial.refused and gain >= search.criteria.detect_nats
+    return is_seen and is_cause and not has_form_alone(search, wider)
 
 
 def _predicts_so(search: Search, node: Node, wider: Node) -> bool:

@@ -149,10 +149,35 @@ class Learned:
         return tuple(replace(self, variable=each) for each in (v.ACCELERATION, v.VELOCITY_BY_FEED) if each in there)
 
     @property
+    def dragged(self) -> tuple[Learned, ...]:
+        """Functions of the sense in which a joint turns, beside one of its angle at the platform; none elsewhere."""
+        there = variables_of(self.place, self.element)
+        is_of_angle = self.place == "platform_joint" and self.variable.name == "joint_angle"
+        return tuple(replace(self, variable=each) for each in v.DRAGGED if is_of_angle and each in there)
+
+    @property
+    def broken_away(self) -> tuple[Learned, ...]:
+        """Functions of the travel since the reversal beside one of the time since it, and the other way round.
+
+        What sticks is held by a spring for some travel, and what decays then does so with time.
+        """
+        return self._beside((v.SINCE_REVERSAL, v.TRAVEL))
+
+    @property
+    def bent(self) -> tuple[Learned, ...]:
+        """Functions that grow by other laws beside one that grows evenly by the place."""
+        return self._beside((v.TIME_POSITION, v.TIME_POSITION_BENT, v.POSITION_OVER_TIME))
+
+    def _beside(self, alike: tuple[Variable, ...]) -> tuple[Learned, ...]:
+        """Return the same functions of the other variables of a set, where this is of the set too."""
+        there = variables_of(self.place, self.element) if self.variable in alike else ()
+        return tuple(replace(self, variable=each) for each in alike if each in there and each != self.variable)
+
+    @property
     def of_its_form(self) -> tuple[Learned, ...]:
         """Functions of other variables in which the form of an effect may be wrong that lives in this one."""
         others = (each for each in (self.alike_both_ways, self.after_each_fixing) if each is not None)
-        return (*others, *self.of_velocity)
+        return (*others, *self.of_velocity, *self.dragged, *self.broken_away, *self.bent)
 
     @property
     def parts(self) -> tuple[Learned, ...]:

@@ -95,6 +95,17 @@ TIME_POSITION = Variable(
 )
 TIME_POSITION_BENT = replace(TIME_POSITION, name="time_position_bent", times=BENT, of_forms=True)
 """Beside what grows in proportion to time: what warms does so by less and less."""
+POSITION_OVER_TIME = Variable(
+    "position_over_time",
+    "time_s",
+    "s",
+    "time, times the position of the slider",
+    10,
+    times="sliders_mm",
+    from_start=True,
+    of_forms=True,
+)
+"""Beside the same: a screw follows its motor and the machine's frame, each with its own delay, by no one law."""
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
 SCREW_COS_POSITION, SCREW_SIN_POSITION = (
@@ -142,6 +153,8 @@ JOINT_SINCE_REVERSAL = Variable(
     is_log=True,
     of_forms=True,
 )
+DRAGGED = (JOINT_SINCE_REVERSAL, replace(JOINT_ANGLE_DIRECTION, count=5, of_forms=True))
+"""Beside a joint off its place: friction drags the ball across its seat as the leg turns."""
 PLATFORM_TURNING = Variable(
     "platform_turning_rate",
     "platform_joint_rate_rad_s",
@@ -202,7 +215,7 @@ COURSE, COURSE_IN_PLATFORM = (
 )
 """Friction and play act against it; one for places pushed in the base frame, one for those in the platform frame."""
 
-OF_DRIVE = (VELOCITY_OVER_TIME, VELOCITY_BY_FEED, SCREW_COS_POSITION, SCREW_SIN_POSITION)
+OF_DRIVE = (POSITION_OVER_TIME, VELOCITY_OVER_TIME, VELOCITY_BY_FEED, SCREW_COS_POSITION, SCREW_SIN_POSITION)
 OF_SLIDER = (
     *(POSITION, FINE_POSITION, DIRECTION, DIRECTION_POSITION, SINCE_REVERSAL, TRAVEL, VELOCITY, ACCELERATION, FORCE),
     *(TIME, FINE_TIME, TIME_IN_SWEEP, TIME_POSITION, WARMING, SCREW_PHASE, NEIGHBOUR_VELOCITY),
@@ -237,6 +250,7 @@ OF_PLATFORM_JOINT = (
     Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5),
     Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of the leg about its guideway", 5),
     Variable("time", "time_s", "s", "time", 10, from_start=True),
+    *DRAGGED,
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),

@@ -60,7 +60,8 @@ def test_a_form_may_change_along_the_screw_or_over_the_test(
 def test_they_are_no_causes(engine: Engine) -> None:
     learnable = Learnable(engine.readings, learns=True)
     causes = {each.variable.name for each in (*learnable.simple, *learnable.products, *learnable.further.values())}
-    assert causes.isdisjoint({"screw_cos_position", "screw_sin_position", "velocity_over_time", "velocity_by_feed"})
+    of_forms = ("screw_cos_position", "screw_sin_position", "velocity_over_time", "velocity_by_feed")
+    assert causes.isdisjoint({*of_forms, "position_over_time"})
 
 
 @pytest.mark.parametrize(
@@ -68,11 +69,17 @@ def test_they_are_no_causes(engine: Engine) -> None:
     [
         ("learned:slider:all:velocity", ["acceleration", "velocity_by_feed"]),
         ("learned:leg:4:velocity", ["acceleration"]),
-        ("learned:slider:2:since_reversal_time", ["since_reversal_time_alike"]),
+        ("learned:slider:2:since_reversal_time", ["since_reversal_time_alike", "since_reversal_travel"]),
+        ("learned:leg:2:since_reversal_travel", ["since_reversal_travel_alike", "since_reversal_time"]),
+        ("learned:slider:2:time_position", ["time_position_bent", "position_over_time"]),
+        ("learned:leg:2:time_position", ["time_position_bent"]),
+        ("learned:platform_joint:2:joint_angle", ["joint_since_reversal", "joint_angle_direction"]),
+        ("learned:platform_joint:2:swing_angle", []),
+        ("learned:leg:2:joint_angle", []),
         ("learned:ball:time", ["time_since_fixing"]),
         ("learned:slider:2:position", []),
     ],
 )
-def test_what_lags_is_a_series_in_the_derivatives_of_the_motion(name: str, expected: list[str]) -> None:
+def test_functions_of_other_variables_stand_beside_a_form(name: str, expected: list[str]) -> None:
     at, _, _ = name.rpartition(":")
     assert [each.name for each in Learned.parse(name).of_its_form] == [f"{at}:{each}" for each in expected]

@@ -46,6 +46,8 @@ def search(monkeypatch: pytest.MonkeyPatch) -> Any:
     found.engine = SimpleNamespace(base=SimpleNamespace(info=lambda name: SimpleNamespace(elements=ELEMENTS[name])))
     monkeypatch.setattr(further_elements, "missed", missed)
     monkeypatch.setattr(further_elements, "is_for_sure", lambda search, node: missed(search, node) < 0.5)
+    found.is_form_alone = False
+    monkeypatch.setattr(further_elements, "has_form_alone", lambda search, node: search.is_form_alone)
     return found
 
 
@@ -65,6 +67,12 @@ def test_nor_one_instead_of_which_another_effect_would_do(search: Any, other: fl
 
 def test_nor_one_that_explains_nothing(search: Any) -> None:
     search.left = 2.99
+    node = node_of(SPIKE, BOW)
+    assert with_elements_that_predict(search, node) is node
+
+
+def test_nor_one_of_which_functions_of_its_form_say_all(search: Any) -> None:
+    search.is_form_alone = True
     node = node_of(SPIKE, BOW)
     assert with_elements_that_predict(search, node) is node
 
