@@ -164,8 +164,13 @@ class Learned:
         return self._beside((v.SINCE_REVERSAL, v.TRAVEL))
 
     @property
-    def bent(self) -> tuple[Learned, ...]:
-        """Functions that grow by other laws beside one that grows evenly by the place."""
+    def by_other_laws(self) -> tuple[Learned, ...]:
+        """Functions that grow by other laws of time beside one that grows evenly by the place, along a screw alone.
+
+        Beside legs, each of which may grow in its own manner, they would say what a screw does.
+        """
+        if v.POSITION_OVER_TIME not in variables_of(self.place, self.element):
+            return ()
         return self._beside((v.TIME_POSITION, v.TIME_POSITION_BENT, v.POSITION_OVER_TIME))
 
     def _beside(self, alike: tuple[Variable, ...]) -> tuple[Learned, ...]:
@@ -177,7 +182,7 @@ class Learned:
     def of_its_form(self) -> tuple[Learned, ...]:
         """Functions of other variables in which the form of an effect may be wrong that lives in this one."""
         others = (each for each in (self.alike_both_ways, self.after_each_fixing) if each is not None)
-        return (*others, *self.of_velocity, *self.dragged, *self.broken_away, *self.bent)
+        return (*others, *self.of_velocity, *self.dragged, *self.broken_away, *self.by_other_laws)
 
     @property
     def parts(self) -> tuple[Learned, ...]:
