@@ -106,6 +106,7 @@ inline void start_from_before(Block::Angles& angles, Eigen::Index row) {
   for (int i = 0; i < 6; ++i) store(is_smooth ? next[i] : lanes_of<L>(angles(row - 1, i)), &angles(row, i));
 }
 
+/// Check whether a row of lanes has its solutions.
 template <class L>
 inline bool are_solved(const Block& block, Eigen::Index row) {
   return (block.residual_mm.segment<kLanesIn<L>>(row).array() <= kResidualTolerance_mm).all();

@@ -104,7 +104,7 @@ void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fre
   const Start from = start(angles, fresh);
   const bool shared = joints_are_shared(block, has_fixed_joints_ ? 1 : rows.count);
   solve_block(model_.nominal, block, angles, rows.count, from, want_sensitivity && shared);
-  if (from_home(angles, rows.count)) {
+  if (start_from_home(angles, rows.count)) {
     solve_block(model_.nominal, block, angles, rows.count, Start::kHome, want_sensitivity && shared);
   }
   if (!shared) solve_block_six(model_.nominal, block, rows.count, want_sensitivity);
@@ -120,7 +120,7 @@ void BlockSolver::solve(const SampleBlock& rows, bool want_sensitivity, bool fre
 
 /// Let the first `count` rows that have no solution from their start, as after a jump to another circle, start from the
 /// symmetric pose. Return whether there are any.
-bool BlockSolver::from_home(Block::Angles& angles, Eigen::Index count) const {
+bool BlockSolver::start_from_home(Block::Angles& angles, Eigen::Index count) const {
   const auto residual_mm = block_->residual_mm.head(count).array();
   if ((residual_mm <= kResidualTolerance_mm).all()) return false;
   for (Eigen::Index row = 0; row < Block::kRows; ++row) {

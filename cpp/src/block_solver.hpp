@@ -58,7 +58,7 @@ class BlockSolver {
   void load_set_ups(const SampleBlock& rows);
   Block::Angles& angles_of(const SampleBlock& rows);
   Start start(Block::Angles& angles, bool fresh);
-  bool from_home(Block::Angles& angles, Eigen::Index count) const;
+  bool start_from_home(Block::Angles& angles, Eigen::Index count) const;
   void solve_row(const SampleBlock& rows, Eigen::Index row, Block::Angles& kept, bool want_sensitivity);
 
   const Model& model_;

@@ -4,7 +4,10 @@
 
 namespace hexdbb {
 
+// 20 mm at the end of a leg of 400 mm: readings of a lap are millimetres apart, two circles tens of them.
 constexpr double kNeighbourTurn = 0.05;
+// Pairs lean inward by 0.41 rad in the symmetric pose: a longer step from it may pass the upright or the flat one, where
+// other assemblies of the machine begin.
 constexpr double kHomeTurn = 0.5;
 
 }  // namespace hexdbb

@@ -70,6 +70,25 @@ TEST_F(PredictionTest, JumpsBetweenCirclesAreFollowed) {
   }
 }
 
+TEST_F(PredictionTest, PosesAllOverTheWorkspaceAreFoundWithoutANeighbour) {
+  constexpr Eigen::Index kPoses = 4000;
+  const NominalGeometry nominal{machine};
+  Drawing drawing(63);
+  Samples anywhere = samples.rows(std::vector<Eigen::Index>(kPoses, 0));
+  std::vector<Pose> poses;
+  for (Eigen::Index row = 0; row < kPoses; ++row) {
+    const Reached reached = draw_reachable(drawing, nominal, kWorkspace);
+    anywhere.sliders_mm.row(row) = reached.sliders_mm.transpose();
+    poses.push_back(reached.pose);
+  }
+  const PoseTable table = forward_table(Model(machine), anywhere);
+  for (Eigen::Index row = 0; row < kPoses; ++row) {
+    ASSERT_EQ(table.status[row], 0) << row;
+    const Pose& pose = poses[static_cast<std::size_t>(row)];
+    ASSERT_LT((table.pose.row(row).head<3>().transpose() - pose.position).norm(), 1e-7) << row;
+  }
+}
+
 TEST_F(PredictionTest, FailureIsReportedByRowAndSparesTheOthers) {
   const Prediction whole = predict(model, samples, true);
   samples.sliders_mm(70, 0) = 20.0;  // in the second block of rows

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.needed import has_form_alone
+from hexdbb.evidence.needed import is_form_alone
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
@@ -51,7 +51,7 @@ def _is_needed(search: Search, node: Node, wider: Node) -> bool:
     gain = wider.trial.log_evidence - node.trial.log_evidence + search.log_prior(wider.members[-1].hypothesis)
     is_seen = node.trial.left - wider.trial.left >= NOTHING_LEFT
     is_cause = not wider.trial.refused and gain >= search.criteria.detect_nats
-    return is_seen and is_cause and not has_form_alone(search, wider)
+    return is_seen and is_cause and not is_form_alone(search, wider, wider.members[-1], node.trial)
 
 
 def _predicts_so(search: Search, node: Node, wider: Node) -> bool:

@@ -112,7 +112,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     others = trials.of_fewer(node.without(member), node.trial)
     gain = node.trial.log_evidence - others.log_evidence + search.log_prior(member.hypothesis)
     beyond = explained_beyond(search, node.trial, others)
-    if gain < criteria.detect_nats or _is_form_alone(search, node, member, others):
+    if gain < criteria.detect_nats or is_form_alone(search, node, member, others):
         return False
     if _instead(search, node, others):
         return True
@@ -125,7 +125,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     return isinstance(known, Known) and (_is_of_size(search, node, known, least) or is_no_form(search, node, member))
 
 
-def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) -> bool:
+def is_form_alone(search: Search, node: Node, member: Member, others: Trial) -> bool:
     """Check for a known effect beside others of which the functions of its form explain nearly all: it is not there.
 
     A gauge that drifts stood so for a delay that changes over the test, by functions of time fourteen times as much as
@@ -143,7 +143,7 @@ def _is_form_alone(search: Search, node: Node, member: Member, others: Trial) ->
 def has_form_alone(search: Search, node: Node) -> bool:
     """Check for a set with an effect of which the functions of its form explain nearly all."""
     return any(
-        _is_form_alone(search, node, each, search.trials.of_fewer(node.without(each), node.trial))
+        is_form_alone(search, node, each, search.trials.of_fewer(node.without(each), node.trial))
         for each in node.members
         if len(node.members) > 1 and isinstance(each.hypothesis, Known)
     )

@@ -10,6 +10,7 @@ from typing import Protocol
 from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import variables as v
+from hexdbb.learned.beside import BESIDE, EVERYWHERE
 from hexdbb.learned.numbered import numbered, with_number
 from hexdbb.learned.places import (
     ALL,
@@ -127,62 +128,18 @@ class Learned:
         return tuple(replace(self, element=each) for each in elements) if len(elements) > 1 else ()
 
     @property
-    def alike_both_ways(self) -> Learned | None:
-        """The same function without the sign of the direction of travel; None where there is none such at the place."""
-        variables = {each.name: each for each in variables_of(self.place, self.element)}
-        variable = variables.get(f"{self.variable.name}_alike")
-        return None if variable is None else replace(self, variable=variable)
-
-    @property
     def after_each_fixing(self) -> Learned | None:
         """The function of the time since the fixing at the same place; None where it is no function of time."""
         is_there = self.is_of_time and v.SINCE_FIXING in variables_of(self.place, self.element)
         return replace(self, variable=v.SINCE_FIXING) if is_there else None
 
     @property
-    def of_velocity(self) -> tuple[Learned, ...]:
-        """Functions of acceleration and of feed beside one of the velocity; none where it is no such.
-
-        A delay, or a loop that lags, is a series in the derivatives of the motion, and a filter delays by the feed.
-        """
-        there = variables_of(self.place, self.element) if self.variable == v.VELOCITY else ()
-        return tuple(replace(self, variable=each) for each in (v.ACCELERATION, v.VELOCITY_BY_FEED) if each in there)
-
-    @property
-    def dragged(self) -> tuple[Learned, ...]:
-        """Functions of the sense in which a joint turns, beside one of its angle at the platform; none elsewhere."""
-        there = variables_of(self.place, self.element)
-        is_of_angle = self.place == "platform_joint" and self.variable.name == "joint_angle"
-        return tuple(replace(self, variable=each) for each in v.DRAGGED if is_of_angle and each in there)
-
-    @property
-    def broken_away(self) -> tuple[Learned, ...]:
-        """Functions of the travel since the reversal beside one of the time since it, and the other way round.
-
-        What sticks is held by a spring for some travel, and what decays then does so with time.
-        """
-        return self._beside((v.SINCE_REVERSAL, v.TRAVEL))
-
-    @property
-    def by_other_laws(self) -> tuple[Learned, ...]:
-        """Functions that grow by other laws of time beside one that grows evenly by the place, along a screw alone.
-
-        Beside legs, each of which may grow in its own manner, they would say what a screw does.
-        """
-        if v.POSITION_OVER_TIME not in variables_of(self.place, self.element):
-            return ()
-        return self._beside((v.TIME_POSITION, v.TIME_POSITION_BENT, v.POSITION_OVER_TIME))
-
-    def _beside(self, alike: tuple[Variable, ...]) -> tuple[Learned, ...]:
-        """Return the same functions of the other variables of a set, where this is of the set too."""
-        there = variables_of(self.place, self.element) if self.variable in alike else ()
-        return tuple(replace(self, variable=each) for each in alike if each in there and each != self.variable)
-
-    @property
     def of_its_form(self) -> tuple[Learned, ...]:
         """Functions of other variables in which the form of an effect may be wrong that lives in this one."""
-        others = (each for each in (self.alike_both_ways, self.after_each_fixing) if each is not None)
-        return (*others, *self.of_velocity, *self.dragged, *self.broken_away, *self.by_other_laws)
+        there = variables_of(self.place, self.element)
+        others = BESIDE.get(self.place, EVERYWHERE).get(self.variable, ())
+        found = (replace(self, variable=each) for each in others if each in there)
+        return (*found, *filter(None, (self.after_each_fixing,)))
 
     @property
     def parts(self) -> tuple[Learned, ...]:

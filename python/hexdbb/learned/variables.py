@@ -100,12 +100,12 @@ POSITION_OVER_TIME = Variable(
     "time_s",
     "s",
     "time, times the position of the slider",
-    10,
+    TIME.count,
     times="sliders_mm",
     from_start=True,
     of_forms=True,
 )
-"""Beside the same: a screw follows its motor and the machine's frame, each with its own delay, by no one law."""
+"""Beside the same: a law of its own in time, in proportion to the position, as free as other functions of time are."""
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
 SCREW_COS_POSITION, SCREW_SIN_POSITION = (
@@ -153,8 +153,6 @@ JOINT_SINCE_REVERSAL = Variable(
     is_log=True,
     of_forms=True,
 )
-DRAGGED = (JOINT_SINCE_REVERSAL, replace(JOINT_ANGLE_DIRECTION, count=5, of_forms=True))
-"""Beside a joint off its place: friction drags the ball across its seat as the leg turns."""
 PLATFORM_TURNING = Variable(
     "platform_turning_rate",
     "platform_joint_rate_rad_s",
@@ -245,12 +243,15 @@ OF_GUIDEWAY = (
     *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION, TIME_POSITION_BENT),
 )
 OF_BALL = (TIME, FINE_TIME, SINCE_FIXING, ROLL, PITCH, YAW)
+PLATFORM_JOINT_ANGLE = Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5)
+DRAGGED_BY_ANGLE = replace(JOINT_ANGLE_DIRECTION, count=PLATFORM_JOINT_ANGLE.count, of_forms=True)
+"""As few splines as other functions of a platform's joint have: each pushes along three axes."""
 OF_PLATFORM_JOINT = (
     Variable("constant", "", "", "nothing: an offset"),
-    Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5),
+    PLATFORM_JOINT_ANGLE,
     Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of the leg about its guideway", 5),
     Variable("time", "time_s", "s", "time", 10, from_start=True),
-    *DRAGGED,
+    *(JOINT_SINCE_REVERSAL, DRAGGED_BY_ANGLE),
 )
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),

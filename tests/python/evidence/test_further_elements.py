@@ -47,7 +47,7 @@ def search(monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.setattr(further_elements, "missed", missed)
     monkeypatch.setattr(further_elements, "is_for_sure", lambda search, node: missed(search, node) < 0.5)
     found.is_form_alone = False
-    monkeypatch.setattr(further_elements, "has_form_alone", lambda search, node: search.is_form_alone)
+    monkeypatch.setattr(further_elements, "is_form_alone", lambda search, *of: search.is_form_alone)
     return found
 
 
