@@ -10,8 +10,8 @@ Beside = dict[Variable, tuple[Variable, ...]]
 EVERYWHERE: Beside = {
     # A delay, or a loop that lags, is a series in the derivatives of the motion, and a filter delays by the feed.
     v.VELOCITY: (v.ACCELERATION, v.VELOCITY_BY_FEED),
-    # What happens at a reversal may differ between the two ends of the travel. What sticks there is held by a spring for
-    # some travel; what decays afterwards does so with time.
+    # What happens at a reversal may differ between the two ends of the travel. What sticks there is held by a spring
+    # for some travel; what decays afterwards does so with time.
     v.SINCE_REVERSAL: (v.SINCE_REVERSAL_ALIKE, v.TRAVEL),
     v.TRAVEL: (v.TRAVEL_ALIKE, v.SINCE_REVERSAL),
 }
