@@ -144,9 +144,13 @@ def test_what_is_wrong_before_motion_is_refused_and_nothing_moves(
 
 @pytest.fixture
 def many_laps(tmp_path: Path) -> Path:
-    """Return a plan that takes long enough for a signal to come in the middle of it."""
-    path = tmp_path / "many-laps.toml"
-    path.write_text(PLAN.replace("laps = 1", "laps = 60"))
+    """Return a plan that is still captured when a signal comes: of 60 laps, captured in 3 s, it found the end."""
+    return plan_of(tmp_path / "many-laps.toml", laps=600)
+
+
+def plan_of(path: Path, laps: int) -> Path:
+    """Write the plan with so many laps a circle."""
+    path.write_text(PLAN.replace("laps = 1", f"laps = {laps}"))
     return path
 
 
@@ -244,11 +248,12 @@ def test_emergency_cut_short_stops_the_axes_and_keeps_cause_and_record(
 
 
 def test_full_disk_stops_the_axes_and_leaves_a_journal_to_recover(
-    start_rig: Callable[..., object], command: Callable[..., list[str]], many_laps: Path, tmp_path: Path
+    start_rig: Callable[..., object], command: Callable[..., list[str]], tmp_path: Path
 ) -> None:
     with start_rig() as rig:
-        line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
-        # No file beyond 1000 blocks: the system's own limit stands in for a full disk. The targets take 850.
+        line = command("--bus", rig.bus, "--yes", "--plan", plan_of(tmp_path / "plan.toml", laps=60))
+        # No file beyond 1000 blocks: the system's own limit stands in for a full disk. The targets of 60 laps take 850,
+        # and of more laps do not fit, which is said before anything moves.
         limited = ["bash", "-c", 'ulimit -f 1000; exec "$@"', "bash", *line]
         done = subprocess.run(limited, capture_output=True, text=True, timeout=120)
         assert rig.states(DRIVES) == [DriveState.QUICK_STOP_ACTIVE] * 6
