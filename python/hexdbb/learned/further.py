@@ -122,7 +122,9 @@ def _of_drives(variable: Variable) -> Iterator[Variable]:
         )
 
 
-CROSSTALK = (*_of_drives(v.VELOCITY), *_of_drives(v.ACCELERATION))
+CROSSED = tuple(_of_drives(v.VELOCITY))
+"""A controller gives one drive what is meant for another: a feed-forward, a velocity."""
+CROSSTALK = (*CROSSED, *_of_drives(v.ACCELERATION))
 """The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
 NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
 OF_PAIR_OF_SLIDERS = (
@@ -185,6 +187,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *_remembered(v.DRIVE_LOAD),
         *SETTLING_POSITION,
         *SINCE_START,
+        *CROSSED,
     ),
     "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE), *SETTLING_POSITION, *SINCE_START),
     "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),

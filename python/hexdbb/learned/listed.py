@@ -8,7 +8,7 @@ from dataclasses import replace
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
 from hexdbb.learned.hypothesis import Learned
-from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, single
+from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, members, single
 
 
 def hypotheses(*, of_forms: bool = False) -> Iterator[Learned]:
@@ -49,8 +49,17 @@ def further_hypotheses() -> Iterator[Learned]:
     for place, variables in further.FURTHER.items():
         for element in single(place):
             if element != ALL or place not in SHARED:
-                yield from (Learned(place, element, each) for each in variables)
+                every = (Learned(place, element, each) for each in variables)
+                yield from (each for each in every if not _is_of_own_pair(each))
     for place, variables in further.OF_PAIRS.items():
         yield from (Learned(place, pair, each) for pair in PAIRS.values() for each in variables)
     for place, variables in further.OF_WHOLE.items():
         yield from (Learned(place, ALL, each) for each in variables)
+
+
+def _is_of_own_pair(learned: Learned) -> bool:
+    """Check for a slider's function of its own velocity, or its neighbour's: both have shorter names."""
+    if learned.place != "slider" or learned.variable not in further.CROSSED:
+        return False
+    pairs = (members(each) for each in PAIRS.values())
+    return any({learned.element, 1 + further.CROSSED.index(learned.variable)} <= {*pair} for pair in pairs)

@@ -169,6 +169,8 @@ SWING_ANGLE = Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of 
 INCLINATION = Variable(
     "inclination", "leg_inclination_rad", "rad", "inclination of the leg to the vertical", 12, least=LEAST_TILT
 )
+FINE_TURN = 72
+"""Splines of a turn that tell a dent five degrees wide from none."""
 ANGLE = Variable("angle", "angle_rad", "rad", "polar angle", 24, period=TURN)
 ANGLE_DIRECTION = Variable(
     "angle_direction",
@@ -183,6 +185,10 @@ ANGLE_DIRECTION = Variable(
 BAR_ANGLE = Variable("bar_angle", "bar_angle_rad", "rad", "angle of the bar in the platform", 24, period=TURN)
 BAR_AZIMUTH = Variable("bar_azimuth", "bar_azimuth_rad", "rad", "angle of the bar in the base", 24, period=TURN)
 """A chip in the cup displaces the bar's ball for one direction of the bar in the base, whatever the platform's yaw."""
+FINE_BAR_ANGLE, FINE_BAR_AZIMUTH = (
+    replace(each, name=f"fine_{each.name}", count=FINE_TURN) for each in (BAR_ANGLE, BAR_AZIMUTH)
+)
+"""A ball that fell has a dent of a few degrees, on either end of the bar."""
 BAR_ELEVATION = Variable(
     "bar_elevation", "bar_elevation_rad", "rad", "angle of the bar to the horizontal", 8, least=LEAST_TILT
 )
@@ -256,6 +262,7 @@ OF_PLATFORM_JOINT = (
 OF_READING = (
     *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
     *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION, BAR_AZIMUTH),
+    *(FINE_BAR_ANGLE, FINE_BAR_AZIMUTH),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""
