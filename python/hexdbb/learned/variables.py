@@ -125,8 +125,6 @@ TURNING = Variable(
     "turning_rate", "slider_joint_rate_rad_s", "rad/s", "turning rate of the slider's joint", 12, signed=True
 )
 JOINT_ANGLE = Variable("joint_angle", "slider_joint_angle_rad", "rad", "angle of the slider's joint", 12)
-FINE_JOINT_ANGLE = replace(JOINT_ANGLE, name="fine_joint_angle", count=64)
-"""A joint that was struck has a dent of a degree or two, which is read like a dent in a rail beside it."""
 JOINT_ANGLE_DIRECTION = Variable(
     "joint_angle_direction",
     "slider_joint_angle_rad",
@@ -232,7 +230,6 @@ OF_LEG = (
     *(
         TURNING,
         JOINT_ANGLE,
-        FINE_JOINT_ANGLE,
         JOINT_ANGLE_DIRECTION,
         JOINT_SINCE_REVERSAL,
         TURNING_BY_ANGLE,
@@ -267,5 +264,5 @@ OF_READING = (
     *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION, BAR_AZIMUTH),
     *(FINE_BAR_ANGLE, FINE_BAR_AZIMUTH),
 )
-OF_ONE = (FINE_POSITION, FINE_TIME, FINE_JOINT_ANGLE)
+OF_ONE = (FINE_POSITION, FINE_TIME)
 """Variables of single elements: all sharing so detailed a function is no physics that anybody has seen."""

@@ -41,7 +41,6 @@ VARIABLES = {
     "bar_azimuth": ("angle",),
     "fine_bar_angle": ("angle",),
     "fine_bar_azimuth": ("angle",),
-    "fine_joint_angle": ("joint_angle",),
     "turned": ("angle", "direction"),
     "circle_direction": ("direction",),
     "deflection_direction": ("deflection", "direction"),
