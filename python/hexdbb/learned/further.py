@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from hexdbb.learned import variables as v
 from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, SETTLING, along, following
-from hexdbb.learned.variable import ELAPSED, OF_MEMORY, Variable, is_growing
+from hexdbb.learned.variable import ELAPSED, Variable, is_growing
 
 SPLINES = 6
 """Splines of a product: what multiplies sets most of its form already."""
@@ -117,7 +117,7 @@ def _of_drives(variable: Variable) -> Iterator[Variable]:
         yield replace(
             variable,
             name=f"slider_{slider}_{variable.name}",
-            column=f"{variable.column}{OF_MEMORY}of@{slider}",
+            of_element=slider,
             words=variable.words.replace("the slider", f"slider {slider}"),
         )
 

@@ -201,6 +201,8 @@ class Learned:
 
     def _by(self, pushed: int) -> int:
         """Return the element by whose variable another is pushed: two sliders share a guideway, 0 and 1 to 4 and 5."""
+        if self.variable.of_element:
+            return self.variable.of_element - 1
         return pushed ^ 1 if self.variable.of_neighbour else pushed
 
     def pushes(self, component: int, machine: Directed) -> tuple[Push, ...]:
@@ -220,7 +222,7 @@ class Learned:
             return tuple((self._by(each), ((first + each, 1.0),)) for each in self._pushed)
         pushed = ((each, self._axis(component, each, machine)) for each in self._pushed)
         return tuple(
-            (each, tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
+            (self._by(each), tuple((first + 3 * each + k, weight) for k, weight in enumerate(axis) if weight != 0.0))
             for each, axis in pushed
         )
 

@@ -58,8 +58,6 @@ def further_hypotheses() -> Iterator[Learned]:
 
 
 def _is_of_own_pair(learned: Learned) -> bool:
-    """Check for a slider's function of its own velocity, or its neighbour's: both have shorter names."""
-    if learned.place != "slider" or learned.variable not in further.CROSSED:
-        return False
-    pairs = (members(each) for each in PAIRS.values())
-    return any({learned.element, 1 + further.CROSSED.index(learned.variable)} <= {*pair} for pair in pairs)
+    """Check for an element's function of its own column, or its neighbour's, by number: both have shorter names."""
+    both = {learned.element, learned.variable.of_element}
+    return learned.place == "slider" and any(both <= {*members(pair)} for pair in PAIRS.values())

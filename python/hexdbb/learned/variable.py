@@ -60,6 +60,8 @@ class Variable:
         Whether functions are zero at the column's smallest value: they say what changes, not an offset that stays.
     of_neighbour : bool
         Whether the column is that of the other slider on the same guideway.
+    of_element : int
+        Slider or leg, from 1, whose column it is, whatever is pushed; 0: that of the element pushed.
     is_log : bool
         Whether the splines are those of the column's logarithm.
     axis : int
@@ -88,6 +90,7 @@ class Variable:
     is_even: bool = False
     from_start: bool = False
     of_neighbour: bool = False
+    of_element: int = 0
     is_log: bool = False
     axis: int = 0
     least: float = 0.0

@@ -43,7 +43,6 @@ OWN = {
     "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),
     "NAME.relaxing@S": ("sample", "1", "column `NAME` less the same"),
     "NAME.after@D": ("sample", "s", "time `NAME` and what a run-up of `D` degrees takes at the sweep's rate"),
-    "NAME.of@K": ("sample", "1", "column `NAME` of slider or leg `K`, in its unit"),
     "NAME.along@D": (
         "sample",
         "1",

@@ -6,8 +6,7 @@ sweeps no record says: it is taken to have run out along the circle and up along
 laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
 degrees is one to which is added what these take at the rate at which the circle is driven. What is `along` so many
 degrees is a vector's part along that direction in the base's x-y plane. What is `turning` is the sign of a rate, which
-is smoothed at zero: rate / sqrt(rate² + number²), as regularised Coulomb friction is. What is `of` a number is the
-state of that slider or leg alone.
+is smoothed at zero: rate / sqrt(rate² + number²), as regularised Coulomb friction is.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along|turning|of)@(?P<constant>[0-9.e+-]+)")
+NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along|turning)@(?P<constant>[0-9.e+-]+)")
 RUN_UP_RAD = np.pi / 4.0
 """Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 LONGEST = 30.0
@@ -48,18 +47,15 @@ def remembered_column(
     Parameters
     ----------
     how : str
-        `lagged`, `relaxing`, `after`, `along`, `turning` or `of`.
+        `lagged`, `relaxing`, `after`, `along` or `turning`.
     constant : float
-        Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `turning` a rate; for `of`
-        the number of a slider or leg.
+        Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `turning` a rate.
     column : ndarray, shape (n,) or (n, k)
     time_s, angle_rad : ndarray, shape (n,)
         Times rise within a sweep; polar angles with or without their turns.
     sweep : ndarray of int, shape (n,)
     """
     values = np.asarray(column, np.float64).reshape(len(column), -1)
-    if how == "of":
-        return np.asarray(values[:, int(constant) - 1])
     if how == "along":
         return np.asarray(values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))]))
     if how == "turning":

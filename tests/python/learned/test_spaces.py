@@ -1,4 +1,4 @@
-"""Functions that may be learned: dense about zero where a sign turns over, and by the neighbour's variable."""
+"""Functions that may be learned: dense about zero where a sign turns over, and by another element's variable."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pytest
 
 from hexdbb import _core
 from hexdbb.learned import Learned, Space
+from hexdbb.learned.listed import further_hypotheses
 
 LEAD_MM = 5.0
 
@@ -140,3 +141,18 @@ def test_a_joint_moves_in_time_from_where_it_was(columns: Rows) -> None:
     assert left_of(space, columns, warms, 2) < 0.01
     offset = np.ones(len(time_s))
     assert np.std(offset - design @ np.linalg.lstsq(design, offset, rcond=None)[0]) > 0.05
+
+
+@pytest.mark.parametrize("place", ["reading", "slider:2"])
+def test_what_follows_one_drive_is_a_function_of_its_column(place: str, columns: Rows) -> None:
+    space = Space.of(Learned.parse(f"learned:{place}:slider_4_velocity"), columns, LEAD_MM)
+    (element,) = space.hypothesis.elements
+    own = Space.of(Learned.parse("learned:slider:4:velocity"), columns, LEAD_MM)
+    assert np.array_equal(space.design(columns, element), own.design(columns, 3))
+    assert space.hypothesis.variable.words == "velocity of slider 4"
+
+
+def test_a_slider_may_follow_the_drives_of_other_guideways() -> None:
+    every = [each for each in further_hypotheses() if each.place == "slider" and each.variable.of_element]
+    assert {each.variable.of_element for each in every if each.element == 3} == {1, 2, 5, 6}
+    assert len(every) == 24
