@@ -123,7 +123,7 @@ def _of_drives(variable: Variable) -> Iterator[Variable]:
 
 
 CROSSED = tuple(_of_drives(v.VELOCITY))
-"""A controller gives one drive what is meant for another: a feed-forward, a velocity."""
+"""A controller may send the feed-forward of one drive to another."""
 CROSSTALK = (*CROSSED, *_of_drives(v.ACCELERATION))
 """The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
 NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))

@@ -170,7 +170,7 @@ INCLINATION = Variable(
     "inclination", "leg_inclination_rad", "rad", "inclination of the leg to the vertical", 12, least=LEAST_TILT
 )
 FINE_TURN = 72
-"""Splines of a turn that tell a dent five degrees wide from none."""
+"""Splines of a turn, one for every five degrees: the width of a dent in a ball."""
 ANGLE = Variable("angle", "angle_rad", "rad", "polar angle", 24, period=TURN)
 ANGLE_DIRECTION = Variable(
     "angle_direction",
@@ -188,7 +188,7 @@ BAR_AZIMUTH = Variable("bar_azimuth", "bar_azimuth_rad", "rad", "angle of the ba
 FINE_BAR_ANGLE, FINE_BAR_AZIMUTH = (
     replace(each, name=f"fine_{each.name}", count=FINE_TURN) for each in (BAR_ANGLE, BAR_AZIMUTH)
 )
-"""A ball that fell has a dent of a few degrees, on either end of the bar."""
+"""For a dent in a ball, which is a few degrees wide."""
 BAR_ELEVATION = Variable(
     "bar_elevation", "bar_elevation_rad", "rad", "angle of the bar to the horizontal", 8, least=LEAST_TILT
 )

@@ -144,7 +144,7 @@ def test_what_is_wrong_before_motion_is_refused_and_nothing_moves(
 
 @pytest.fixture
 def many_laps(tmp_path: Path) -> Path:
-    """Return a plan that is still captured when a signal comes: of 60 laps, captured in 3 s, it found the end."""
+    """Return a plan that still runs when a signal arrives. One of 60 laps ended within 3 s, under load before it."""
     return plan_of(tmp_path / "many-laps.toml", laps=600)
 
 
