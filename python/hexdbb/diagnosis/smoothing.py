@@ -49,6 +49,9 @@ def learned_effect(samples: Samples, model: Model, name: str, noise: Noise | Non
     space = space_of(samples, model, name)
     best, found = _smoothed(space, around)
     for other in _variants(space, samples, model):
+        splines = found.space.hypothesis.variable.count
+        if other.hypothesis.variable.count > 2 * splines:
+            continue  # twice as many gained nothing
         evidence, variant = _smoothed(other, around)
         if evidence > best + OTHER_NATS:
             best, found = evidence, variant

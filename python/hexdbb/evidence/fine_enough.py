@@ -10,14 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.refine import with_best_splines
-from hexdbb.evidence.search import Search
+from hexdbb.evidence.refine import refined, with_best_splines
 from hexdbb.evidence.settling import leaves_no_structure, predicts
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
 
 TRIED = 3
 """Functions that are tuned, each with several full fits: enough for both legs of a pair and one other place."""
@@ -30,11 +34,34 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Returned unchanged if it is one function without remaining structure, or known effects only.
+        Returned unchanged if it is one cause without remaining structure, or known effects for sure.
     """
-    if node.is_known or (len(node.members) == 1 and leaves_no_structure(search, node)):
+    if leaves_no_structure(search, node) and len(node.members) == 1:
+        return node
+    if node.members and node.is_known and is_for_sure(search, node):
         return node
     return max((node, *(each for each in _tuned(search) if predicts(search, each))), key=lambda each: each.score)
+
+
+def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
+    """Return one tuned function with others at its place, both alone and refined, where they say more than several causes.
+
+    Several causes that are not for sure describe what one does whose law no function has: so does the function that
+    comes nearest to it, with others of its place beside it, and it is one cause.
+
+    Parameters
+    ----------
+    search : Search
+    node, wider : Node
+        Causes, alone and refined; returned as they are where they are one, or for sure.
+    """
+    if len(node.members) < 2 or is_for_sure(search, node):
+        return node, wider
+    for alone in islice((each for each in _tuned(search) if not each.trial.is_of_time), 1):
+        refined_alone = refined(search, alone)
+        if predicts(search, alone) and refined_alone.score > wider.score:
+            return alone, refined_alone
+    return node, wider
 
 
 def _tuned(search: Search) -> Iterator[Node]:

@@ -35,13 +35,20 @@ class HeldOut:
 
 
 def first_error(trial: Trial, base: Trial, trials: Trials) -> float:
-    """Return the error of the first grouping that a set claims to predict, as `heldout` has it; nan where of none."""
+    """Return the error of the first grouping that a set claims to predict, as `heldout` has it; nan where of none.
+
+    A grouping that lies outside what the others determine, by what the fit expects of itself, tells one set of splines
+    from another by chance only: the next is asked, and the first where all do.
+    """
+    first = float("nan")
     for grouping in _groupings(trial):
         if trial.is_of_time and grouping != ARC:
             continue
         if found := heldout(trial, base, trials, (grouping,)):
-            return found[grouping].after
-    return float("nan")
+            if found[grouping].expected <= trials.criteria.extrapolates:
+                return found[grouping].after
+            first = found[grouping].after if np.isnan(first) else first
+    return first
 
 
 def heldout(trial: Trial, base: Trial, trials: Trials, groupings: tuple[str, ...] | None = None) -> dict[str, HeldOut]:

@@ -65,8 +65,13 @@ def functions_at(search: Search, trial: Trial, linear: Linear, places: Places | 
     search.learnable.propose(proposed)
     of_forms = all_varying(readings, of_forms=True)
     further = search.learnable.further.values() if any(map(search.learnable.is_further, causes)) else ()
+    by_direction = (each.by_direction for each in causes if isinstance(each, Learned))
     every = dict.fromkeys(
-        (*search.learnable.simple, *of_forms, *search.learnable.products, *further, *(p.hypothesis for p in proposed))
+        (
+            *(*search.learnable.simple, *of_forms, *search.learnable.products, *further),
+            *(each.hypothesis for each in proposed),
+            *filter(None, by_direction),
+        )
     )
     return [
         each

@@ -8,16 +8,19 @@ full, as long as what is left out is predicted better.
 from __future__ import annotations
 
 from itertools import islice
+from typing import TYPE_CHECKING
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import Places, functions_at
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known, Scored
-from hexdbb.evidence.search import Search
 from hexdbb.evidence.trial import Member
-from hexdbb.evidence.tuned import retunings, with_other_splines, with_tuned_numbers
+from hexdbb.evidence.tuned import axes_of, retunings, with_other_splines, with_tuned_numbers
 from hexdbb.learned import Learned, part_of
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
 
 TRIED = 2
 """Tunings of a function that get a full fit: what has the most evidence to first order may not predict."""
@@ -81,7 +84,8 @@ def _widened(search: Search, node: Node, places: Places | None = None) -> Node:
     The places are those of its causes where none are given.
     """
     for _ in range(search.criteria.most_refinements):
-        wider = None if _is_fine(search, node) else _with_one_more(search, node, places)
+        is_enough = _is_fine(search, node) or axes_of(node) >= search.criteria.most_tuned
+        wider = None if is_enough else _with_one_more(search, node, places)
         if wider is None:
             break
         node = wider
@@ -124,7 +128,7 @@ def _variable(scored: Scored) -> str:
 def _with(search: Search, node: Node, linear: Linear, scored: Scored) -> Node | None:
     """Return a set with a function of the best splines, where that gains and predicts better."""
     assert isinstance(scored.hypothesis, Learned)
-    variants = with_other_splines(search, linear, scored.hypothesis, node.trial.left)
+    variants = with_other_splines(search, linear, scored.hypothesis, node.trial.left, search.criteria.most_seen)
     member = search.member(max(variants, key=lambda each: each.log_evidence))
     return _tried(search, (*node.members, member), node, worth=search.criteria.detect_nats)
 

@@ -38,13 +38,17 @@ Hypothesis = Known | Learned
 
 @dataclass(frozen=True, eq=False)
 class Scored:
-    """A hypothesis screened: log evidence over the base (tempered), explained shares, and its most probable size."""
+    """A hypothesis screened: log evidence over the base (tempered), explained shares, and its most probable size.
+
+    `heldout_left` is the mean square (noise variances) that it leaves of circles left out.
+    """
 
     hypothesis: Hypothesis
     log_evidence: float
     share: float
     heldout_share: float
     marginal: Marginal
+    heldout_left: float = float("nan")
 
 
 class Screen:
@@ -73,6 +77,7 @@ class Screen:
     ) -> None:
         self._penalties = penalties or [(roughness, 0.0) for roughness in criteria.roughness]
         self.sums, self.criteria, self.thinned = sums, criteria, thinned
+        self._evidence: dict[Learned, float] = {}
         own = self.whole.own_values()
         self.left = squared_error(sums, self.whole.cells, own, None, None)
         self.excess = max(self.left - self.whole.rows, 1e-9)
@@ -97,16 +102,16 @@ class Screen:
 
     def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
         """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows."""
-        return self._held_out([self._of(each) for each in self._ranked(hypotheses)[: self.criteria.held_out]])
+        return self._held_out([self._of(each) for each in self.ranked(hypotheses)[: self.criteria.held_out]])
 
     def scored(self, hypothesis: Learned) -> Scored:
         """Score one learned hypothesis, held out too."""
         scored, block = self._of(hypothesis)
-        return replace(scored, heldout_share=self._heldout_share(block, scored.marginal))
+        return self._with_held_out(scored, block)
 
     def most_explained(self, hypotheses: Sequence[Learned]) -> float:
         """Return the largest share that one of some learned hypotheses explains, of the few with the most evidence."""
-        ranked = self._ranked(hypotheses)[: self.criteria.full_fits]
+        ranked = self.ranked(hypotheses)[: self.criteria.full_fits]
         return max((self._of(each)[0].share for each in ranked), default=0.0)
 
     def _of(self, hypothesis: Learned) -> tuple[Scored, Block]:
@@ -114,9 +119,12 @@ class Screen:
         block = self.sums.block(space.table)
         return self._scored(hypothesis, block, self._factors(space), self.sizes_mm), block
 
-    def _ranked(self, hypotheses: Sequence[Learned]) -> list[Learned]:
-        evidence = self.thinned.log_evidences(hypotheses, self.sums.linear, self.sizes_mm, self.temper)
-        return [hypotheses[place] for place in np.argsort(evidence)[::-1]]
+    def ranked(self, hypotheses: Sequence[Learned]) -> list[Learned]:
+        """Sort learned hypotheses by their evidence on few rows, the largest first."""
+        new = [each for each in hypotheses if each not in self._evidence]
+        found = self.thinned.log_evidences(new, self.sums.linear, self.sizes_mm, self.temper)
+        self._evidence.update(zip(new, found, strict=True))
+        return sorted(hypotheses, key=lambda each: -self._evidence[each])
 
     def _factors(self, space: Signature) -> list[Floats]:
         penalties = self._penalties if space.hypothesis.variable.is_smooth else self._penalties[:1]
@@ -142,10 +150,7 @@ class Screen:
     def _held_out(self, scored: list[tuple[Scored, Block]]) -> list[Scored]:
         """Add the held-out shares of those with the largest evidence."""
         ranked = sorted(scored, key=lambda each: -each[0].log_evidence)
-        chosen = [
-            replace(each, heldout_share=self._heldout_share(block, each.marginal))
-            for each, block in ranked[: self.criteria.held_out]
-        ]
+        chosen = [self._with_held_out(each, block) for each, block in ranked[: self.criteria.held_out]]
         return [*chosen, *(each for each, _ in ranked[self.criteria.held_out :])]
 
     def _scored(self, hypothesis: Hypothesis, block: Block, factors: list[Floats], sizes: Floats) -> Scored:
@@ -161,9 +166,9 @@ class Screen:
             found,
         )
 
-    def _heldout_share(self, block: Block, found: Marginal) -> float:
+    def _with_held_out(self, scored: Scored, block: Block) -> Scored:
         before = after = 0.0
-        rows = self.whole.rows
+        rows, found = self.whole.rows, scored.marginal
         for training, cells, base in self.folds:
             projected = training.project(block)
             size = found.size / np.sqrt(self.temper)
@@ -171,4 +176,5 @@ class Screen:
             own = training.own_values(projected, coefficients)
             before += base
             after += squared_error(self.sums, cells, own, block, coefficients)
-        return (before - after) / max(before - rows, 1e-9)
+        share = (before - after) / max(before - rows, 1e-9)
+        return replace(scored, heldout_share=share, heldout_left=after / rows)

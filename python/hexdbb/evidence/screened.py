@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +13,9 @@ from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.shortlist import better_shaped
+from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.together import KnownSets, Together
 from hexdbb.evidence.trial import Trial
 from hexdbb.learned import Learned, is_directed
@@ -22,9 +24,12 @@ if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
 
 Floats = NDArray[np.float64]
+FINER_TIMES = 4
+"""Multiple of splines with which functions are screened again where nothing settles: with 48 over its range the true
+one of a dent is ahead of what imitates it, and tuning doubles them as often as it must."""
 
 
-def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored], list[Scored]]:
+def screened(search: Search, base: Trial, screen: Screen, *, learns: bool) -> tuple[list[Scored], list[Scored]]:
     """Screen all hypotheses beside those of a trial: known effects, and learned functions where they are looked at.
 
     Parameters
@@ -33,9 +38,11 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
     base : Trial
     screen : Screen
         Of its linearisation.
+    learns : bool
+        Whether learned functions are looked at.
     """
     known = known_beside(search, base, screen)
-    if not search.learns:
+    if not learns:
         return known, []
     engine = search.engine
     signatures, whose = engine.absent.signatures(base.model, search.known)
@@ -43,8 +50,7 @@ def screened(search: Search, base: Trial, screen: Screen) -> tuple[list[Scored],
     search.learnable.propose(proposed)
     _add_kin(search, screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
     every = [*search.learnable.simple, *(each.hypothesis for each in proposed)]
-    present = {each.hypothesis for each in base.members}
-    return known, screen.learned([each for each in every if each not in present])
+    return known, screen.learned(_absent(base, every))
 
 
 def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
@@ -86,13 +92,39 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     """
     present = {each.hypothesis for each in base.members}
     along = {_directed(each) for each in present} - {None}
-    every = [e for e in search.learnable.further.values() if e not in present and _directed(e) not in along]
+    every = [e for e in _absent(base, search.learnable.further.values()) if _directed(e) not in along]
     # Those products that lend no functions to a known effect's form may still say the same as one, and so may those
     # that push in both directions of a guideway.
     others = [each for each in every if each.variable.times or each.components > 1]
     others = [each for each in others if each not in search.learnable.products]
     _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
     return screen.learned(every)
+
+
+def screened_finer(search: Search, base: Trial, screen: Screen) -> list[Scored]:
+    """Screen the simple functions beside those of a trial with several times as many splines.
+
+    Of a dent or a kink few splines describe so little that another place is looked at.
+
+    Parameters
+    ----------
+    search : Search
+    base : Trial
+    screen : Screen
+        Of its linearisation, which has ranked them with the splines that they have first.
+    """
+    criteria, readings = search.criteria, search.engine.readings
+    plain = [each for each in _absent(base, search.learnable.simple) if each.variable.is_smooth]
+    finer = [each.finer(FINER_TIMES) for each in screen.ranked(plain)[: criteria.made_finer]]
+    few = [each for each in finer if each.components * each.variable.columns <= criteria.most_seen]
+    # Their signatures are large, and serve once.
+    thinned = Thinned(readings, criteria.thinned_rows, criteria.ranking_roughness)
+    return Screen(screen.sums, criteria, thinned).learned(list(varying(few, readings)))
+
+
+def _absent(base: Trial, every: Iterable[Learned]) -> list[Learned]:
+    """Return the functions that a trial does not have, with however many splines."""
+    return [each for each in every if each.name not in base.names]
 
 
 def _directed(hypothesis: Hypothesis) -> tuple[str, str] | None:

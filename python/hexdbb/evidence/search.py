@@ -19,6 +19,7 @@ from hexdbb.evidence.admissible import Checked, check
 from hexdbb.evidence.beside import with_known_beside
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.engine import Engine
+from hexdbb.evidence.fine_enough import or_one_fine_enough
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import first_error
@@ -29,7 +30,7 @@ from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import in_other_words, screened, screened_further
+from hexdbb.evidence.screened import in_other_words, screened, screened_finer, screened_further
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form, settles
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
@@ -77,7 +78,7 @@ class Search:
         self.trials = Trials(self.engine, self.homes, self.criteria)
         self.root = Node(self.trials.of(()), self.trials.of(()).log_evidence)
         self.nodes.append(self.root)
-        self._expanded: dict[frozenset[str], list[Node]] = {}
+        self._expanded: dict[tuple[frozenset[str], bool], list[Node]] = {}
         self._checked: dict[int, Checked] = {}
         self._first_errors: dict[int, float] = {}
         self.screened_known: dict[int, list[Scored]] = {}
@@ -121,13 +122,15 @@ class Search:
     def run(self) -> Node:
         """Return the best set of hypotheses; the empty one where nothing is found."""
         best, beam = self.root, [self.root]
-        together = self.root
+        together, learns = self.root, self.learns
         for size in range(self.criteria.max_effects):
             beam = beam[: self.criteria.max_expansions - len(self._expanded)]
-            children = sorted((child for node in beam for child in self.expand(node)), key=lambda each: -each.score)
+            children = sorted((child for node in beam for child in self.expand(node, learns)), key=lambda e: -e.score)
             children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
             beam = self._kept(children)
             best = best_of(self, best, (each for each in beam if predicts(self, each)))
+            if size == 0 and self.learns and not (best.members and best.is_known):
+                best = or_one_fine_enough(self, best)
             if size == 0 and self._asks_for_sets(best):
                 together = or_known_together(self, best)
                 beam = [together, *beam] if len(together.members) > 1 else beam
@@ -138,6 +141,7 @@ class Search:
             if is_complete(self, best) and not (is_doubtful(self, best) and rests_on_form(self, best.trial)):
                 # A free function of time explains any drift: known effects beside each other are looked at further.
                 beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
+                learns = False
         return with_known_beside(self, or_at_several(self, best_of(self, best, [together])))
 
     def _asks_for_sets(self, best: Node) -> bool:
@@ -145,13 +149,21 @@ class Search:
         is_more = best.trial.left > self.criteria.refined_to or self.checked(best).excused
         return is_more or rests_on_form(self, best.trial)
 
-    def expand(self, node: Node) -> list[Node]:
-        """Rank what may be missing beside a set: screened, then fitted in full; the best first."""
-        key = frozenset(node.trial.names)
+    def expand(self, node: Node, learns: bool | None = None) -> list[Node]:
+        """Rank what may be missing beside a set: screened, then fitted in full; the best first.
+
+        Parameters
+        ----------
+        node : Node
+        learns : bool, optional
+            Whether learned functions are looked at; as the search does where not given.
+        """
+        learns = self.learns if learns is None else learns
+        key = frozenset(node.trial.names), learns
         if key not in self._expanded:
             if len(self._expanded) >= self.criteria.most_expansions:
                 return []
-            self._expanded[key] = self._children(node)
+            self._expanded[key] = self._children(node, learns)
             self.nodes += self._expanded[key]
         return self._expanded[key]
 
@@ -210,15 +222,17 @@ class Search:
         homes = (Learned.parse(name) for name in kin)
         return any(each.is_of_time and (each.place, each.element) == (learned.place, learned.element) for each in homes)
 
-    def _children(self, node: Node) -> list[Node]:
+    def _children(self, node: Node, learns: bool) -> list[Node]:
         screen = self.screen(node)
-        known, learned = screened(self, node.trial, screen)
+        known, learned = screened(self, node.trial, screen, learns=learns)
         count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
         most = self.criteria.most_of_one_effect
         chosen = [*shortlist(known, count, most), *shortlist(learned, count, most)]
         found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
-        if self.learns and not any(settles(self, each) for each in found):
+        if learns and not any(settles(self, each) for each in found):
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
+            if not any(settles(self, each) for each in found):
+                found += self.tried(node, shortlist(screened_finer(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 
     def screen(self, node: Node) -> Screen:
@@ -275,10 +289,10 @@ class Search:
         """Check whether an effect has one element only, so that its name needs none."""
         return len(self.engine.base.info(effect).elements) == 1
 
-    def member(self, scored: Scored) -> Member:
-        """Return a screened hypothesis with the prior that full fits give it."""
+    def member(self, scored: Scored, most_seen: int | None = None) -> Member:
+        """Return a screened hypothesis with the prior that full fits give it, of so many directions at most."""
         if isinstance(scored.hypothesis, Learned):
-            most = self.criteria.most_seen // scored.hypothesis.components
+            most = (most_seen or self.criteria.most_seen) // scored.hypothesis.components
             seen = scored.marginal.seen(self.criteria.least_seen, most)
             return Member(scored.hypothesis, seen, scored.marginal.size)
         return Member(scored.hypothesis)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.admissible import leads_away, missed_of
@@ -12,8 +12,10 @@ from hexdbb.evidence.heldout import HeldOut
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import explained_by_formulas, is_complete, leaves_room, missed
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
 
 Grade = Literal["none", "effect", "ambiguous", "unknown"]
 

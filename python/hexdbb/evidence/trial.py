@@ -46,6 +46,11 @@ class Member:
     factor: Floats | None = None
     size_mm: float = 0.0
 
+    @property
+    def axes(self) -> int:
+        """Number of values that a learned function has in a fit."""
+        return 0 if self.factor is None else self.factor.shape[1]
+
 
 @dataclass(frozen=True)
 class Trial:

@@ -8,6 +8,7 @@ splines, and for periods and time constants (`number.py`) that are right beside 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,11 +16,13 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Scored, Screen
-from hexdbb.evidence.search import Search
 from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.learned import Learned
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
 
 
 def around(search: Search, node: Node, member: Member) -> Linear:
@@ -36,7 +39,7 @@ def around(search: Search, node: Node, member: Member) -> Linear:
 
 
 def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
-    """Yield a member's function with other smoothness and splines, the one that predicts best first.
+    """Yield a member's function with other smoothness and splines: of those that predict best, the likeliest first.
 
     Parameters
     ----------
@@ -48,14 +51,24 @@ def retunings(search: Search, node: Node, member: Member) -> Iterator[Member]:
     hypothesis = member.hypothesis
     if not isinstance(hypothesis, Learned) or not hypothesis.variable.is_smooth:
         return
-    scored = with_other_splines(search, around(search, node, member), hypothesis, node.trial.left)
+    most = max(search.criteria.most_tuned - axes_of(node) + member.axes, search.criteria.most_seen)
+    scored = with_other_splines(search, around(search, node, member), hypothesis, node.trial.left, most)
+    scored.sort(key=lambda each: each.log_evidence, reverse=True)
     # A free function of time predicts no other circle.
-    by_share = not node.trial.is_free_in_time
-    scored.sort(key=lambda each: each.heldout_share if by_share else each.log_evidence, reverse=True)
-    yield from map(search.member, scored)
+    if not node.trial.is_free_in_time:
+        alike = search.criteria.predicts_alike * min(each.heldout_left for each in scored)
+        scored.sort(key=lambda each: max(each.heldout_left, alike))
+    yield from (search.member(each, most) for each in scored)
 
 
-def with_other_splines(search: Search, linear: Linear, hypothesis: Learned, left: float) -> list[Scored]:
+def axes_of(node: Node) -> int:
+    """Return the number of values that the learned functions of a set have in its fit."""
+    return sum(each.axes for each in node.members)
+
+
+def with_other_splines(
+    search: Search, linear: Linear, hypothesis: Learned, left: float, most: int | None = None
+) -> list[Scored]:
     """Score a hypothesis with every set of splines that a full fit can hold, over all penalties.
 
     Parameters
@@ -66,13 +79,24 @@ def with_other_splines(search: Search, linear: Linear, hypothesis: Learned, left
     hypothesis : Learned
     left : float
         Mean square (noise variances) that is left with it, about.
+    most : int, optional
+        Splines that the fit can hold; `Criteria.most_tuned` where not given.
     """
     criteria, readings = search.criteria, search.engine.readings
     sums = Sums(linear, readings, ("circle",))
     screen = Screen(sums, criteria, search.thinned, criteria.tuned_penalties, max(left - 1.0, 0.0))
     variants = [*varying(hypothesis.variants(), readings)] or [hypothesis]
-    held = [each for each in variants if each.components * each.variable.columns <= criteria.most_seen]
-    return [screen.scored(each) for each in held or variants[:1]]
+    held = [each for each in variants if each.components * each.variable.columns <= (most or criteria.most_tuned)]
+    found: list[Scored] = []
+    for each in held or variants[:1]:
+        if not (_is_too_fine(found) and each.variable.count > variants[0].variable.count):
+            found.append(screen.scored(each))
+    return found
+
+
+def _is_too_fine(found: list[Scored]) -> bool:
+    """Check whether the last doubling of splines lost evidence: a further one would lose more, and takes long."""
+    return len(found) > 1 and found[-1].log_evidence < found[-2].log_evidence
 
 
 def with_tuned_numbers(search: Search, node: Node) -> Node:

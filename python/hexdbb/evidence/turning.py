@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,12 +17,14 @@ from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Screen
-from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import leaves_no_structure
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
 from hexdbb.evidence.tuned import around
 from hexdbb.learned import Learned, turning, turns_with
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
 
 PARTS = (0.01, 0.03, 0.1, 0.3)
 """Initial transition rates, as parts of the rate's root mean square. Below the first, few readings of a circle lie in

@@ -8,7 +8,7 @@ from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
-from hexdbb.evidence.fine_enough import or_one_fine_enough
+from hexdbb.evidence.fine_enough import or_one_fine_enough, or_one_place
 from hexdbb.evidence.further_elements import with_elements_that_predict
 from hexdbb.evidence.hidden import with_what_forms_hide
 from hexdbb.evidence.known_words import in_known_words
@@ -125,7 +125,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)
-    node, wider = without_stand_ins(search, node, refined(search, node))
+    node, wider = or_one_place(search, *without_stand_ins(search, node, refined(search, node)))
     causes, refinements = _grouped(search, node)
     known = {each.name for each in node.hypotheses}
     for each in wider.hypotheses:

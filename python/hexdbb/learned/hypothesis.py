@@ -11,7 +11,7 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import variables as v
 from hexdbb.learned.beside import BESIDE, EVERYWHERE
-from hexdbb.learned.numbered import numbered, with_number
+from hexdbb.learned.numbered import by_direction, numbered, with_number
 from hexdbb.learned.places import (
     ALL,
     AXES,
@@ -28,9 +28,12 @@ from hexdbb.learned.places import (
 )
 from hexdbb.learned.variable import AXES_OF_VECTOR, Variable
 
-FINER = (2, 4)
-"""Multiples of a variable's splines that readings may ask for: four times twelve knots follow what is a fiftieth of the
-range wide, as far as a reading every millimetre or two determines it."""
+FINER = (2, 4, 8, 16)
+"""Multiples of a variable's splines that readings may ask for: sixteen times twelve knots follow a dent that is a
+hundredth of the range wide, or a kink, as far as a reading every millimetre or two determines it."""
+MOST_SPLINES = 640
+"""Splines of one function at most: sixteen times those of the finest function of time; a fit's time grows with their
+square."""
 
 
 class _Base(Protocol):
@@ -134,6 +137,12 @@ class Learned:
         return replace(self, variable=v.SINCE_FIXING) if is_there else None
 
     @property
+    def by_direction(self) -> Learned | None:
+        """The same times the direction of travel, where it repeats along a slider's travel; else None."""
+        is_along = self.variable.period != 0.0 and self.variable.name.startswith("position_period@")
+        return replace(self, variable=by_direction(self.variable)) if is_along else None
+
+    @property
     def of_its_form(self) -> tuple[Learned, ...]:
         """Functions of other variables in which the form of an effect may be wrong that lives in this one."""
         there = variables_of(self.place, self.element)
@@ -152,10 +161,11 @@ class Learned:
         return replace(self, variable=replace(self.variable, count=self.variable.count * times))
 
     def variants(self) -> Iterator[Learned]:
-        """Yield the same hypothesis, name and all, with every set of splines that its function may have."""
+        """Yield the same hypothesis, name and all, with every set of splines that its function may have, few first."""
         plain = Learned.parse(self.name)
         if plain.variable.is_smooth:
-            yield from (plain, *(plain.finer(times) for times in FINER))
+            yield plain
+            yield from (plain.finer(each) for each in FINER if each * plain.variable.count <= MOST_SPLINES)
             if plain.variable.signed:
                 yield replace(plain, variable=replace(plain.variable, is_even=True))
 

@@ -1,6 +1,7 @@
 """Variables whose names carry numbers, which the readings chose: instants, periods, and times that memory lasts.
 
-Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), what follows another variable
+Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), by the direction of travel
+besides (`direction_position_period@1.06`: balls that enter and leave a nut), what follows another variable
 late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
 less the same lag), what grows towards an end (`time_position_settling@470`, as what warms does), the time since a
 circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), a vector's part along a direction
@@ -67,6 +68,16 @@ def periodic(column: str, period: float) -> Variable:
     """Return the variable of what repeats with a period of `time` (s), `position` or `scale` (mm)."""
     name = f"{period:.7g}"
     return Variable(f"{column}_period@{name}", *REPEATING[column], PERIOD_SPLINES, period=float(name))
+
+
+def by_direction(variable: Variable) -> Variable:
+    """Return what repeats with a period of the slider's position and changes its sign with the direction of travel."""
+    return replace(
+        variable,
+        name=f"direction_{variable.name}",
+        words=f"{variable.words}, by direction of travel",
+        times="travel_direction",
+    )
 
 
 def following(variable: Variable, how: str, constant: float) -> Variable:
@@ -195,6 +206,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return None
     if kind in (f"{each}_period" for each in REPEATING):
         return periodic(kind.removesuffix("_period"), values[0])
+    if kind == "direction_position_period":
+        return by_direction(periodic("position", values[0]))
     of, _, how = kind.rpartition("_")
     if how == ALONG:
         return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None

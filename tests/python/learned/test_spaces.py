@@ -83,9 +83,11 @@ def test_even_splines_say_powers_exactly(columns: Rows, power: int) -> None:
 @pytest.mark.parametrize(
     ("name", "counts"),
     [
-        ("learned:slider:2:velocity", [12, 12, 24, 48]),
-        ("learned:slider:2:position", [14, 28, 56]),
-        ("learned:slider:2:position_period@7.3", [8, 16, 32]),
+        ("learned:slider:2:velocity", [12, 12, 24, 48, 96, 192]),
+        ("learned:slider:2:position", [14, 28, 56, 112, 224]),
+        ("learned:slider:2:fine_position", [64, 128, 256, 512]),
+        ("learned:slider:2:position_period@7.3", [8, 16, 32, 64, 128]),
+        ("learned:slider:2:direction_position_period@7.3", [8, 16, 32, 64, 128]),
         ("learned:slider:2:direction", []),
         ("learned:slider:2:step@3.5", []),
     ],

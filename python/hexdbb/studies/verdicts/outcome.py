@@ -59,6 +59,7 @@ VARIABLES = {
     "time_in_sweep": ("time_in_run",),
     "time_period": ("time",),
     "position_period": ("position",),
+    "direction_position_period": ("position", "direction"),
     "scale_period": ("deflection",),
     "acceleration_along": ("acceleration",),
     "position_along": ("position",),
