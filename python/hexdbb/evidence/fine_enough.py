@@ -44,7 +44,7 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
 
 
 def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
-    """Return one tuned function with others at its place, both alone and refined, where they say more than several causes.
+    """Return one tuned function, alone and with others of its place, where these say more than several causes.
 
     Several causes that are not for sure describe what one does whose law no function has: so does the function that
     comes nearest to it, with others of its place beside it, and it is one cause.

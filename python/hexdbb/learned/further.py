@@ -96,7 +96,6 @@ PRODUCTS_OF_LEG = (
     *(product("leg_force", each) for each in (v.JOINT_ANGLE, v.SWING_ANGLE)),
     *(product("joint_direction", each) for each in (v.FORCE, v.TIME)),
     *(product("time", each) for each in (v.JOINT_ANGLE,)),
-    v.JOINT_SINCE_REVERSAL,
 )
 PRODUCTS_OF_GUIDEWAY = (
     *(product("leg_force", each) for each in (v.POSITION,)),
