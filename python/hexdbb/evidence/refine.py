@@ -15,7 +15,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import Places, functions_at
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known, Scored
-from hexdbb.evidence.trial import Member
+from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.tuned import axes_of, retunings, with_other_splines, with_tuned_numbers
 from hexdbb.learned import Learned, part_of
 
@@ -142,7 +142,24 @@ def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float
     gain = trial.log_evidence - node.trial.log_evidence
     found = Node(trial, node.score + gain)
     is_better = gain > worth and not trial.refused and not _error(search, found) >= max(_error(search, node), enough)
-    return found if is_better else None
+    return found if is_better and _predicts_as_well(search, trial, node.trial) else None
+
+
+def _predicts_as_well(search: Search, trial: Trial, before: Trial) -> bool:
+    """Check that groupings which others determine still are, and are predicted about as well as before.
+
+    Fine functions may follow one lap and say little of others. The first grouping is compared closely by whoever asks;
+    here an error as many times larger (`Criteria.heldout_ratio`) counts. Free functions of time predict none.
+    """
+    if trial.is_free_in_time:
+        return True
+    criteria, held = search.criteria, search.checked_trial(trial).heldout
+    return all(
+        held[grouping].expected <= criteria.extrapolates
+        and held[grouping].after <= max(criteria.heldout_ratio * was.after, criteria.predicted_to)
+        for grouping, was in search.checked_trial(before).heldout.items()
+        if grouping in held and was.expected <= criteria.extrapolates
+    )
 
 
 def _is_asked_for(search: Search, scored: Scored) -> bool:

@@ -231,7 +231,8 @@ class Search:
         found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
         if learns and not any(settles(self, each) for each in found):
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
-            if not any(settles(self, each) for each in found):
+            # Beside a cause that leaves a form, fine functions describe that form, and no other lap.
+            if node is self.root and not any(settles(self, each) for each in found):
                 found += self.tried(node, shortlist(screened_finer(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 

@@ -204,8 +204,8 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("gauge-hysteresis", "learned:reading:deflection_since_turn", {"circle", "feed", "lap"}),
         # Twenty-six lobes: a first fit leaves some of them, which was put down to both legs of the pair.
         ("joint-waves", "learned:leg:5:joint_angle", {"circle", "feed", "direction", "lap"}),
-        # A dent, of which twelve splines say half: two bows and a third guideway stood before the leg. No circle is asked
-        # of, since the others hardly hold geometry.
+        # A dent, of which twelve splines say half: two bows and a third guideway stood before the leg. No circle is
+        # asked of, since the others hardly hold geometry.
         ("dent-in-joint", "learned:leg:6:joint_angle", {"feed", "direction"}),
         # By 1 - exp(-t/470 s), the truth: three known effects, legs and two screws, explained as much.
         ("rail-warms", "learned:vertical:2:time_position_settling@", {"circle", "feed", "direction"}),
