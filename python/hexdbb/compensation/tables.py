@@ -27,13 +27,13 @@ at most 2 % of its amplitude, so that no halving sees equal values at both ends 
 
 
 def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationTable]:
-    """Return the tables of a learned effect's term, one a component, knots close enough for `TOLERANCE_MM`."""
+    """Return the tables of a learned effect's term, one a function, knots close enough for `TOLERANCE_MM`."""
     effect = term.learned
     assert effect is not None
     space, tables = effect.space, effect.tables(term.values, machine)
     parts = effect.coefficients(term.values).reshape(len(tables), -1)
 
-    times, lead_mm = tables[0].times, machine.sliders.screw_lead_mm
+    times, lead_mm = tables[-1].times, machine.sliders.screw_lead_mm
 
     def values_mm(at: Floats) -> Floats:
         found: Floats = space.functions(at) @ parts.T
@@ -49,7 +49,7 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
             effect=effect.name,
             port=table.port,
             variable=table.column,
-            times="" if times in TURN else times,
+            times="" if times in TURN else table.times,
             period=table.period,
             pushes=within_port(table.port, table.pushes),
             knots=knots.tolist(),

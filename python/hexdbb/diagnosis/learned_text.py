@@ -17,8 +17,8 @@ def learned_parts(term: Term) -> Iterator[RenderableType]:
     effect = term.learned
     assert effect is not None
     yield f"\n{effect.name}"
-    for component, curve in enumerate(effect.curves(term.values)):
-        yield Text(f"  {sentence(effect.space.hypothesis, curve, effect.space.period, component)}")
+    for function, curve in enumerate(effect.curves(term.values)):
+        yield Text(f"  {sentence(effect.space.hypothesis, curve, effect.space.period, function)}")
         if len(curve.at) < 2:
             continue
         table = Table(box=None, header_style="bold", pad_edge=False)

@@ -31,7 +31,7 @@ class CauseForm:
     model : Model
         With it, fitted.
     formula : tuple of Curve
-        The known effect's own form, one a component; empty where the cause is learned.
+        The known effect's own form, one a function; empty where the cause is learned.
     """
 
     name: str
@@ -77,12 +77,14 @@ def _formula(found: Discovery, learned: Model, term: Term) -> tuple[Curve, ...]:
     values = learned.values.copy()
     values[free] += step
     own = [each.effect == term.effect for each in learned.parameters()]
-    assert term.learned is not None
-    curves = term.learned.curves(values[own])
-    if not term.learned.has_constant:
-        return curves
+    effect = term.learned
+    assert effect is not None
+    pairs = zip(effect.curves(values[own]), effect.curves(term.values), strict=True)
     # A constant push is a leg's or a slider's offset in other words: both are drawn with the same.
-    return tuple(map(_level, curves, term.learned.curves(term.values)))
+    return tuple(
+        _level(formula, function) if effect.has_constant(number) else formula
+        for number, (formula, function) in enumerate(pairs)
+    )
 
 
 def _level(formula: Curve, function: Curve) -> Curve:

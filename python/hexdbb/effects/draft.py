@@ -49,18 +49,18 @@ def draft(model: Model, name: str) -> str:
         raise InputError(f"{name}: no learned effect of {model.name} (expected the name of one it has)")
     space = term.learned.space
     parts = [HEAD]
-    for component, curve in enumerate(term.learned.curves(term.values)):
-        parts.append(_effect(space, curve, describe(curve, space.period), component, model.machine))
+    for function, curve in enumerate(term.learned.curves(term.values)):
+        parts.append(_effect(space, curve, describe(curve, space.period), function, model.machine))
     return "\n\n".join(parts)
 
 
-def drafted_name(space: Space, component: int) -> str:
+def drafted_name(space: Space, function: int) -> str:
     """Return the name of the drafted effect: ``learned_leg_5_turning_rate``."""
-    axis = space.hypothesis.axis_name(component)
-    return "_".join(filter(None, (re.sub(r"\W", "_", space.hypothesis.name), axis)))
+    part = space.hypothesis.part_name(function)
+    return "_".join(filter(None, (re.sub(r"\W", "_", space.hypothesis.name), part)))
 
 
-def _effect(space: Space, curve: Curve, form: Form, component: int, machine: MachineFile) -> str:
+def _effect(space: Space, curve: Curve, form: Form, number: int, machine: MachineFile) -> str:
     height, shapes, function = _function(space, curve, form)
     port, count = space.hypothesis.port, max(abs(height), 1e-6)
     declared = f'@effect(port="{port}", unit="mm", prior_sigma={_number(count)}'
@@ -69,15 +69,15 @@ def _effect(space: Space, curve: Curve, form: Form, component: int, machine: Mac
     arguments = ", ".join(["samples", *(each.split('"')[1] for each in shapes)])
     lines = [
         f"{declared})",
-        f"def {drafted_name(space, component)}({arguments}):",
-        f'    """{place_words(space.hypothesis, component)}: {form.text}.',
+        f"def {drafted_name(space, number)}({arguments}):",
+        f'    """{place_words(space.hypothesis, number)}: {form.text}.',
         "",
         f"    As learned its value is {_number(height)} mm.",
         '    """',
         *(f"    {line}".rstrip() for line in function),
         f"    push = np.zeros((len(samples), {int(np.prod(PUSH_SHAPES[port], dtype=int))}))",
-        f"    for element, pushed in {_pushed(space, component, machine)}:",
-        *(f"        {line}" for line in _value(space)),
+        f"    for element, pushed in {_pushed(space, number, machine)}:",
+        *(f"        {line}" for line in _value(space, curve.times)),
         "        for column, weight in pushed:",
         "            push[:, column] += weight * value",
         f"    return push.reshape(len(samples), *{PUSH_SHAPES[port]!r})",
@@ -85,17 +85,17 @@ def _effect(space: Space, curve: Curve, form: Form, component: int, machine: Mac
     return "\n".join(lines) + "\n"
 
 
-def _pushed(space: Space, component: int, machine: MachineFile) -> str:
+def _pushed(space: Space, function: int, machine: MachineFile) -> str:
     """Return elements and columns of the port, counted within it, as source."""
-    pushes = space.hypothesis.pushes(component, machine)
+    pushes = space.hypothesis.pushes(space.hypothesis.component_of(function), machine)
     width = {port: int(np.prod(shape, dtype=int)) for port, shape in PUSH_SHAPES.items()}
     ports = list(PUSH_SHAPES)
     first = sum(width[port] for port in ports[: ports.index(space.hypothesis.port)])
     return repr([(each, [(port - first, weight) for port, weight in columns]) for each, columns in pushes])
 
 
-def _value(space: Space) -> list[str]:
-    """Return the lines that evaluate the function for one element, as ``value``."""
+def _value(space: Space, times: str) -> list[str]:
+    """Return the lines that evaluate the function, with the column that multiplies, for one element, as ``value``."""
     variable = space.hypothesis.variable
     lines = ["value = np.ones(len(samples))"]
     if variable.column:
@@ -104,11 +104,11 @@ def _value(space: Space) -> list[str]:
         if variable.period:
             lines.append(f"x = np.mod(x, {_number(space.period)})")
         lines.append("value = function(x)")
-    if is_growing(variable.times):
+    if is_growing(times):
         lines.append(f'grown = (samples["time_s"] - {_number(space.since_s)}) / {_number(space.span_s)}')
         lines.append(f"value = value * {_grown(space)}")
-    elif variable.times:
-        lines.append(f'times = samples["{variable.times}"]')
+    elif times:
+        lines.append(f'times = samples["{times}"]')
         lines.append("value = value * (times[:, element] if times.ndim == 2 else times)")
     return lines
 

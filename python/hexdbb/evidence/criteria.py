@@ -58,9 +58,9 @@ class Criteria:
         The same of a function that is tuned about the fit of its set, which few are: a time constant of half a minute
         in a test of an hour needs 300, a joint between two pieces of rail 250. All functions of a set together have as
         many when no further one is added.
-    made_finer : int
-        Functions, of the largest evidence, that are screened again with more splines where nothing settles: the true
-        one of a dent was among the first twenty of 350.
+    most_finer : int
+        Values of a function that is screened again with more splines where nothing settles: four times those of a
+        slider's position by either direction of travel, and of nearly all others.
     predicts_alike : float
         Ratio of mean squares left of circles left out below which two sets of splines are taken to predict alike, so
         that evidence chooses: nine of ten readings are fitted either way, the rest say no more than this.
@@ -263,7 +263,7 @@ class Criteria:
     least_seen: float = 0.05
     most_seen: int = 100
     most_tuned: int = 400
-    made_finer: int = 100
+    most_finer: int = 128
     predicts_alike: float = 1.1
     step_mm: float = 1.0
     shortest_mm: float = 0.4

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import refined, with_best_splines
-from hexdbb.evidence.settling import leaves_no_structure, predicts
+from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, predicts
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.tuned import with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
@@ -40,7 +40,14 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
         return node
     if node.members and node.is_known and is_for_sure(search, node):
         return node
-    return max((node, *(each for each in _tuned(search) if predicts(search, each))), key=lambda each: each.score)
+    tuned = [each for each in _tuned(search, search.criteria.explained_min) if predicts(search, each)]
+    best = max((node, *tuned), key=lambda each: each.score)
+    if best is node or not search.learnable.is_further(best.hypotheses[0]):
+        return best
+    # A scale that bends is no scale that bends a few milliseconds late, though that fits a little better.
+    simple = (each for each in tuned if not search.learnable.is_further(each.hypotheses[0]))
+    as_good = (each for each in simple if explains_nearly(search, each.trial.left, best.trial.left))
+    return max((each for each in as_good if leaves_no_structure(search, each)), key=lambda e: e.score, default=best)
 
 
 def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
@@ -57,20 +64,28 @@ def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
     """
     if len(node.members) < 2 or is_for_sure(search, node):
         return node, wider
-    for alone in islice((each for each in _tuned(search) if not each.trial.is_of_time), 1):
-        refined_alone = refined(search, alone)
-        if predicts(search, alone) and refined_alone.score > wider.score:
-            return alone, refined_alone
+    for alone in islice((each for each in _tuned(search, search.criteria.far_better) if not each.trial.is_of_time), 1):
+        if predicts(search, alone) or _explains_far_more(search, alone, node):
+            refined_alone = refined(search, alone)
+            if refined_alone.score > wider.score:
+                return alone, refined_alone
     return node, wider
 
 
-def _tuned(search: Search) -> Iterator[Node]:
-    """Yield the single functions with the most evidence, tuned; each explains `explained_min` at least."""
+def _explains_far_more(search: Search, alone: Node, several: Node) -> bool:
+    """Check that causes explain too little to be named, and one function far more, whether it predicts or not."""
+    first, left = search.root.trial.left - 1.0, several.trial.left - 1.0
+    is_little = first - left < search.criteria.explained_min * first
+    return is_little and alone.trial.left - 1.0 < search.criteria.far_better * left
+
+
+def _tuned(search: Search, least: float) -> Iterator[Node]:
+    """Yield the single functions with the most evidence, tuned; each explains such a part of all at least."""
     excess = search.root.trial.left - 1.0
     alone = [each for each in search.nodes if len(each.members) == 1 and isinstance(each.hypotheses[0], Learned)]
     best: dict[str, Node] = {}
     for each in sorted(alone, key=lambda each: -each.score):
-        if search.root.trial.left - each.trial.left >= search.criteria.explained_min * excess:
+        if search.root.trial.left - each.trial.left >= least * excess:
             best.setdefault(each.hypotheses[0].name, each)
     for each in islice(best.values(), TRIED):
         yield with_turning(search, with_tuned_numbers(search, with_best_splines(search, with_turning(search, each))))

@@ -54,7 +54,7 @@ def _shifting() -> Iterator[tuple[str, int]]:
     for place in ("lateral", "vertical"):
         for element in range(1, 4):
             yield place, element
-    yield from (("ball", ALL), ("cup", ALL), ("reading", ALL))
+    yield from (("ball", ALL), ("cup", ALL), ("platform", ALL), ("reading", ALL))
 
 
 def _answers(readings: Readings, place: str, element: int) -> Floats:

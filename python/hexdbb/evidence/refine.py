@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 TRIED = 2
 """Tunings of a function that get a full fit: what has the most evidence to first order may not predict."""
+ENOUGH = 0.8
+"""Part of what a further function must explain that it must explain to first order to be fitted in full: about a fit,
+first order is off by less than a fifth."""
 
 
 def refined(search: Search, node: Node) -> Node:
@@ -100,18 +103,31 @@ def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | 
         each for each in screen.learned(functions_at(search, node.trial, linear, places)) if _is_asked_for(search, each)
     ]
     variables = {each.variable.name for each in node.hypotheses if isinstance(each, Learned)}
-    most = 1.0 + (1.0 - search.criteria.refined_by) * (node.trial.left - 1.0)
+    share = _least_share(search, node)
+    most = 1.0 + (1.0 - share) * (node.trial.left - 1.0)
     by_evidence = sorted(worth, key=lambda each: -each.log_evidence)
     # Elements that differ in what all have alike are the simplest form, though others may seem to explain more; then
     # what is no product of two states.
     of_elements = [each for each in by_evidence if _variable(each) in variables]
     simple = [each for each in by_evidence if each.hypothesis in search.learnable.simple]
     for tried in (of_elements[:1], _best_two(simple), _best_two(by_evidence)):
-        found = [_with(search, node, linear, each) for each in tried]
+        found = [_with(search, node, linear, each, share) for each in tried]
         good = [each for each in found if each is not None and each.trial.left < most]
         if good:
             return max(good, key=lambda each: each.score)
     return None
+
+
+def _least_share(search: Search, node: Node) -> float:
+    """Return the part of what is left beyond the noise that a further function must explain.
+
+    As much as leaves no structure with twice as many such functions as a set may have: what explains less where much is
+    left describes another cause than the one that was found, and takes most of a search's time.
+    """
+    criteria = search.criteria
+    nothing = criteria.leaves_structure - 1.0
+    kept: float = (nothing / max(node.trial.left - 1.0, nothing)) ** (0.5 / criteria.most_refinements)
+    return max(criteria.refined_by, 1.0 - kept)
 
 
 def _best_two(by_evidence: list[Scored]) -> list[Scored]:
@@ -125,12 +141,17 @@ def _variable(scored: Scored) -> str:
     return scored.hypothesis.variable.name
 
 
-def _with(search: Search, node: Node, linear: Linear, scored: Scored) -> Node | None:
-    """Return a set with a function of the best splines, where that gains and predicts better."""
+def _with(search: Search, node: Node, linear: Linear, scored: Scored, share: float) -> Node | None:
+    """Return a set with a function of the best splines, where that explains enough, gains and predicts better.
+
+    What explains far less to first order is not fitted in full.
+    """
     assert isinstance(scored.hypothesis, Learned)
     variants = with_other_splines(search, linear, scored.hypothesis, node.trial.left, search.criteria.most_seen)
-    member = search.member(max(variants, key=lambda each: each.log_evidence))
-    return _tried(search, (*node.members, member), node, worth=search.criteria.detect_nats)
+    best = max(variants, key=lambda each: each.log_evidence)
+    if best.share < ENOUGH * share:
+        return None
+    return _tried(search, (*node.members, search.member(best)), node, worth=search.criteria.detect_nats)
 
 
 def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float, enough: float = 0.0) -> Node | None:
@@ -146,7 +167,7 @@ def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float
 
 
 def _predicts_as_well(search: Search, trial: Trial, before: Trial) -> bool:
-    """Check that groupings which others determine still are, and are predicted about as well as before.
+    """Check that groupings which others determine still are, or err no more, and are predicted about as well as before.
 
     Fine functions may follow one lap and say little of others. The first grouping is compared closely by whoever asks;
     here an error as many times larger (`Criteria.heldout_ratio`) counts. Free functions of time predict none.
@@ -155,7 +176,7 @@ def _predicts_as_well(search: Search, trial: Trial, before: Trial) -> bool:
         return True
     criteria, held = search.criteria, search.checked_trial(trial).heldout
     return all(
-        held[grouping].expected <= criteria.extrapolates
+        (held[grouping].expected <= criteria.extrapolates or held[grouping].after <= was.after)
         and held[grouping].after <= max(criteria.heldout_ratio * was.after, criteria.predicted_to)
         for grouping, was in search.checked_trial(before).heldout.items()
         if grouping in held and was.expected <= criteria.extrapolates

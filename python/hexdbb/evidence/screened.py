@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.place import kin_of
 from hexdbb.evidence.proposals import proposals
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
@@ -18,7 +19,8 @@ from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.together import KnownSets, Together
 from hexdbb.evidence.trial import Trial
-from hexdbb.learned import Learned, is_directed
+from hexdbb.evidence.two_states import relays
+from hexdbb.learned import Learned, is_directed, part_of
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -81,7 +83,7 @@ def _known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
 
 
 def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored]:
-    """Screen the further learned hypotheses beside those of a trial: products, memory, neighbours, pairs.
+    """Screen the further learned hypotheses beside those of a trial: products, memory, neighbours, pairs, two states.
 
     Parameters
     ----------
@@ -98,27 +100,36 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     others = [each for each in every if each.variable.times or each.components > 1]
     others = [each for each in others if each not in search.learnable.products]
     _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
-    return screen.learned(every)
+    proposed = relays(screen.sums.linear, search.engine.readings, search.thinned, search.criteria)
+    search.learnable.propose(proposed)
+    in_two_states = varying((each.hypothesis for each in proposed), search.engine.readings)
+    return screen.learned([*every, *in_two_states])
 
 
 def screened_finer(search: Search, base: Trial, screen: Screen) -> list[Scored]:
-    """Screen the simple functions beside those of a trial with several times as many splines.
+    """Screen the functions beside those of a trial with several times as many splines, at other places than its own.
 
-    Of a dent or a kink few splines describe so little that another place is looked at.
+    Of a dent or a kink few splines describe so little that another place is looked at. At the place of a known effect
+    fine functions describe its form, and no other lap.
 
     Parameters
     ----------
     search : Search
     base : Trial
     screen : Screen
-        Of its linearisation, which has ranked them with the splines that they have first.
+        Of its linearisation.
     """
     criteria, readings = search.criteria, search.engine.readings
-    plain = [each for each in _absent(base, search.learnable.simple) if each.variable.is_smooth]
-    finer = [each.finer(FINER_TIMES) for each in screen.ranked(plain)[: criteria.made_finer]]
-    few = [each for each in finer if each.components * each.variable.columns <= criteria.most_seen]
+    every = (*search.learnable.simple, *search.learnable.further.values())
+    taken = {(part_of(home), home.element) for member in base.members for home in kin_of(search, member.hypothesis)}
+    finer = [
+        each.finer(FINER_TIMES)
+        for each in _absent(base, every)
+        if each.variable.is_smooth and not any(each.is_within(*place) for place in taken)
+    ]
+    few = [each for each in finer if each.components * each.variable.columns <= criteria.most_finer]
     # Their signatures are large, and serve once.
-    thinned = Thinned(readings, criteria.thinned_rows, criteria.ranking_roughness)
+    thinned = Thinned(readings, criteria.fewest_rows, criteria.ranking_roughness)
     return Screen(screen.sums, criteria, thinned).learned(list(varying(few, readings)))
 
 

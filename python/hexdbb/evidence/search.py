@@ -7,7 +7,7 @@ so that two faults of one size, of which either alone explains half, are found t
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -124,18 +124,24 @@ class Search:
         best, beam = self.root, [self.root]
         together, learns = self.root, self.learns
         for size in range(self.criteria.max_effects):
-            beam = beam[: self.criteria.max_expansions - len(self._expanded)]
-            children = sorted((child for node in beam for child in self.expand(node, learns)), key=lambda e: -e.score)
-            children = [c for c in children if not c.trial.refused and needs(self, c, c.members[-1])]
+            starts = beam[: self.criteria.max_expansions - len(self._expanded)]
+            children = self._needed(child for node in starts for child in self.expand(node, learns))
             beam = self._kept(children)
             best = best_of(self, best, (each for each in beam if predicts(self, each)))
             if size == 0 and self.learns and not (best.members and best.is_known):
                 best = or_one_fine_enough(self, best)
             if size == 0 and self._asks_for_sets(best):
                 together = or_known_together(self, best)
-                beam = [together, *beam] if len(together.members) > 1 else beam
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
+            if learns and not is_complete(self, best):
+                finer = self._needed(child for node in starts for child in self._finer(node))
+                beam = self._kept([*children, *finer])
+                best = best_of(self, best, (each for each in finer if predicts(self, each)))
+                if size == 0 and finer and not best.is_known:
+                    best = or_one_fine_enough(self, best)
+            if size == 0 and len(together.members) > 1:
+                beam = [together, *beam]
             if not beam:
                 break
             if is_complete(self, best) and not (is_doubtful(self, best) and rests_on_form(self, best.trial)):
@@ -231,9 +237,21 @@ class Search:
         found = self.tried(node, [*chosen, *in_other_words(self, known, learned, chosen)])
         if learns and not any(settles(self, each) for each in found):
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
-            # Beside a cause that leaves a form, fine functions describe that form, and no other lap.
-            if node is self.root and not any(settles(self, each) for each in found):
-                found += self.tried(node, shortlist(screened_finer(self, node.trial, screen), count, most))
+        return sorted(found, key=lambda each: -each.score)
+
+    def _finer(self, node: Node) -> list[Node]:
+        """Return sets with a function of many splines beside known effects that predict, or beside nothing."""
+        if not (node.is_known and predicts(self, node)):
+            return []
+        scored = screened_finer(self, node.trial, self.screen(node))
+        count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
+        found = self.tried(node, shortlist(scored, count, self.criteria.most_of_one_effect))
+        self.nodes += found
+        return found
+
+    def _needed(self, children: Iterable[Node]) -> list[Node]:
+        """Return those whose last member is needed and refused by nothing, the best first."""
+        found = (each for each in children if not each.trial.refused and needs(self, each, each.members[-1]))
         return sorted(found, key=lambda each: -each.score)
 
     def screen(self, node: Node) -> Screen:
@@ -276,6 +294,7 @@ class Search:
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only."""
         kept: list[Node] = []
+        children = sorted(children, key=lambda each: -each.score)
         for child in children:
             alike = any(_alike(self, child, other) for other in kept)
             if len(kept) < self.criteria.beam and not alike and predicts(self, child):

@@ -62,8 +62,13 @@ def _is_needed(search: Search, wider: Node, member: Member) -> bool:
 
 
 def _says_the_same(search: Search, node: Node, wider: Node) -> bool:
-    """Check that a set leaves no more than forms may hide of what another explains, and predicts."""
+    """Check that a set leaves no more than forms may hide of what another explains, predicts, and is as likely.
+
+    Functions of the reading's angles say whatever repeats: beside many of them nothing else is needed.
+    """
     more = node.trial.left - wider.trial.left
     if node.trial.refused or more >= search.criteria.secondary * must_explain(search, node.trial):
+        return False
+    if node.score < wider.score - search.criteria.margin_nats:
         return False
     return not search.checked(node).reasons

@@ -14,6 +14,7 @@ from hexdbb.learned.numbered import (
     step,
     turning,
     turns_with,
+    two_states,
 )
 from hexdbb.learned.places import ALL
 from hexdbb.learned.space import Columns, Space
@@ -46,4 +47,5 @@ __all__ = [
     "step",
     "turning",
     "turns_with",
+    "two_states",
 ]

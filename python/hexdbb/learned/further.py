@@ -67,6 +67,27 @@ def product(factor: str, variable: Variable) -> Variable:
     )
 
 
+def each_way(variable: Variable, by: str, words: str) -> Variable:
+    """Return a function of its own for either direction: what catches one way only is neither even nor odd.
+
+    Parameters
+    ----------
+    variable : Variable
+    by : str
+        Column of the direction's sign.
+    words : str
+        What that direction is called.
+    """
+    return replace(
+        variable,
+        name=f"{variable.name}_each_way",
+        words=f"{variable.words}, for either {words} of its own",
+        times=by,
+        parts=(variable.name,),
+        each_way=True,
+    )
+
+
 def _neighbour(variable: Variable) -> Variable:
     words = variable.words.replace("of the slider", "of the other slider on the guideway")
     words = words.replace("of the leg", "of the other leg of the pair")
@@ -79,6 +100,15 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
             yield from (following(each, how, constant_s) for constant_s in CONSTANTS_S)
 
 
+BY_TRAVEL = "travel_direction", "direction of travel"
+BY_CIRCLE = "direction", "direction of the circle"
+POSITION_EACH_WAY = each_way(v.POSITION, *BY_TRAVEL)
+RAIL_EACH_WAY = each_way(v.OF_GUIDEWAY[0], *BY_TRAVEL)
+JOINT_ANGLE_EACH_WAY = each_way(v.JOINT_ANGLE, "slider_joint_direction", "sense of the joint's turning")
+READING_EACH_WAY = (
+    *(each_way(each, *BY_CIRCLE) for each in (v.ANGLE, v.BAR_ANGLE)),
+    each_way(v.DEFLECTION, "deflection_direction", "sense in which the gauge moves"),
+)
 SINCE_START = tuple(following(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
 SETTLING_POSITION = tuple(following(v.TIME_POSITION, SETTLING, each) for each in GROWTHS_S)
 WARMING_POSITION = product("warming", v.POSITION)
@@ -101,6 +131,7 @@ PRODUCTS_OF_GUIDEWAY = (
     *(product("leg_force", each) for each in (v.POSITION,)),
     *(product("direction", each) for each in (v.CARRIAGE_LOAD, v.TIME)),
     product("velocity", v.POSITION),
+    RAIL_EACH_WAY,
 )
 PRODUCTS_OF_READING = (
     product("deflection", v.TIME),
@@ -166,7 +197,10 @@ OF_GUIDEWAY = (
     *SETTLING_POSITION,
 )
 """Variables of a guideway that pushes its joints in both directions, when the direction is not known."""
-OF_SLIDER_JOINT = (v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD)
+OF_SLIDER_JOINT = (
+    *(v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_IN_SWEEP),
+    POSITION_EACH_WAY,
+)
 """Variables of one carriage that is pushed across its guideway: it tilts, floats or yields. What depends on the
 position alone is a fault of the rail, which both carriages of a guideway have."""
 OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM)
@@ -188,18 +222,33 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *SETTLING_POSITION,
         *SINCE_START,
         *CROSSED,
+        POSITION_EACH_WAY,
     ),
-    "leg": (*PRODUCTS_OF_LEG, *NEIGHBOURS, *_remembered(v.FORCE, v.JOINT_ANGLE), *SETTLING_POSITION, *SINCE_START),
+    "leg": (
+        *PRODUCTS_OF_LEG,
+        *NEIGHBOURS,
+        *_remembered(v.FORCE, v.JOINT_ANGLE),
+        *SETTLING_POSITION,
+        *SINCE_START,
+        JOINT_ANGLE_EACH_WAY,
+    ),
     "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),
     "vertical": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),
     "guideway": OF_GUIDEWAY,
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,
     "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
-    "cup": (*OF_BALL, *COURSES, *LEANING),
-    "reading": (*PRODUCTS_OF_READING, *_remembered(v.DEFLECTION), *SINCE_START, *CROSSTALK),
+    "cup": (*OF_BALL, *COURSES, *LEANING, *_of_drives(v.POSITION)),
+    "reading": (*PRODUCTS_OF_READING, *READING_EACH_WAY, *_remembered(v.DEFLECTION), *SINCE_START, *CROSSTALK),
 }
 """Further variables of single elements by place."""
+RELAYS: dict[str, tuple[Variable, ...]] = {
+    "slider": (v.POSITION, v.DRIVE_LOAD),
+    "leg": (v.FORCE, v.JOINT_ANGLE),
+    "slider_joint": (v.POSITION, v.JOINT_ANGLE),
+    "platform_joint": (v.FORCE, v.PLATFORM_JOINT_ANGLE),
+}
+"""Variables by place, at whose values a stop, a seat or a spring may give way, so that there are two states."""
 OF_PAIRS: dict[str, tuple[Variable, ...]] = {
     "slider": OF_PAIR_OF_SLIDERS,
     "leg": OF_PAIR_OF_LEGS,

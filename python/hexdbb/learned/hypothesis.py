@@ -11,6 +11,7 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import variables as v
 from hexdbb.learned.beside import BESIDE, EVERYWHERE
+from hexdbb.learned.further import RELAYS
 from hexdbb.learned.numbered import by_direction, numbered, with_number
 from hexdbb.learned.places import (
     ALL,
@@ -93,7 +94,7 @@ class Learned:
         rest = ":".join(parts[2:] if elements else parts[1:])
         every = variables_of(place, element)
         known = {each.name: each for each in reversed(every)}
-        variable = known.get(rest) or numbered(rest, every)
+        variable = known.get(rest) or numbered(rest, (*every, *RELAYS.get(place, ())))
         if variable is None:
             raise InputError(f"{name}: variable {rest!r} (expected one of {', '.join(each.name for each in every)})")
         return cls(place, element, variable)
@@ -186,12 +187,30 @@ class Learned:
 
     @property
     def components(self) -> int:
-        """Number of functions: one for each axis where the direction is not known."""
+        """Number of axes along which it pushes: more than one where the direction is not known."""
         return 1 if self.variable.is_vector else COMPONENTS.get(self.place, 1)
 
-    def axis_name(self, component: int) -> str:
-        """Name of the axis along which one of its functions pushes; empty where it has one function only."""
-        return AXES.get(self.place, "xyz")[component] if self.components > 1 else ""
+    @property
+    def functions(self) -> int:
+        """Number of functions of the variable, all components together."""
+        return self.components * self.variable.ways
+
+    def component_of(self, function: int) -> int:
+        """Return the component that a function, from 0, belongs to: both ways of one come after each other."""
+        return function // self.variable.ways
+
+    def times_of(self, function: int) -> str:
+        """Return the column that multiplies a function; empty where none does."""
+        return "" if self.variable.each_way and function % self.variable.ways == 0 else self.variable.times
+
+    def axis_name(self, function: int) -> str:
+        """Name of the axis along which a function, from 0, pushes; empty where there is one axis only."""
+        return AXES.get(self.place, "xyz")[self.component_of(function)] if self.components > 1 else ""
+
+    def part_name(self, function: int) -> str:
+        """Name of a function, from 0, among its own: axis, and `by_direction`; empty where there is one only."""
+        is_turning = self.variable.each_way and self.times_of(function)
+        return "_".join(filter(None, (self.axis_name(function), "by_direction" if is_turning else "")))
 
     @property
     def elements(self) -> tuple[int, ...]:

@@ -28,7 +28,7 @@ def products() -> Iterator[Learned]:
     """
     for place, variables in further.FURTHER.items():
         for element in single(place):
-            every = (Learned(place, element, each) for each in variables if each.times)
+            every = (Learned(place, element, each) for each in variables if each.times and not each.each_way)
             yield from (each for each in every if not each.is_of_time and not further.is_slow(each.variable))
 
 

@@ -6,7 +6,9 @@ late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`
 less the same lag), what grows towards an end (`time_position_settling@470`, as what warms does), the time since a
 circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), a vector's part along a direction
 (`acceleration_along@45`, degrees in the base's x-y plane), and a function whose sign changes smoothly with the
-direction of motion, as friction does (`direction_position_turning@0.5`, transition rate in mm/s or rad/s).
+direction of motion, as friction does (`direction_position_turning@0.5`, transition rate in mm/s or rad/s), and two
+states, of which one begins where a variable rises to a number and the other where it falls to a lower one
+(`leg_force_relay@7.1/14.5`).
 """
 
 from __future__ import annotations
@@ -34,19 +36,24 @@ POSITION_SPLINES = 12
 """Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
 such a bend was taken for a leg's swing."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
+RELAY = "relay"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
     RELAXING: "change of the {} within about {:.3g} s",
     SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
     TURNING: "{}, its sign change smoothed over about {:.3g} {unit}",
+    RELAY: "two states of the {}: over at {:.3g} {unit}, back at {:.3g} {unit}",
 }
 """How a variable may be derived from another one by a number, in words: delayed, high-passed, growing by the law of a
-first-order lag in place of evenly, counted from the start of the run-up, or with a smooth change of sign."""
+first-order lag in place of evenly, counted from the start of the run-up, with a smooth change of sign, or in two states
+that two numbers part."""
 RATES = {"travel_direction": ("velocity_mm_s", "mm/s"), "slider_joint_direction": ("slider_joint_rate_rad_s", "rad/s")}
 """For each column that holds a direction of motion: the column of the rate whose sign it is, and the rate's unit."""
 NUMBER_DIGITS = 4
 """Significant digits of such a number: readings determine it to a few per cent."""
+LEVEL_DIGITS = 6
+"""The same of the numbers between which a relay keeps its state: a thousandth of a range far from zero."""
 DIRECTED = {
     "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages", FOLLOWING_SPLINES),
     "position": ("position_mm", "mm", "position of the platform", POSITION_SPLINES),
@@ -119,6 +126,30 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     )
 
 
+def two_states(variable: Variable, low: float, high: float) -> Variable:
+    """Return the variable of what snaps over where another one rises to a number, and back where it falls to a lower.
+
+    Its one coefficient is half of the distance of the two states.
+    """
+    numbers = "/".join(f"{each:.{LEVEL_DIGITS}g}" for each in (low, high))
+    return replace(
+        variable,
+        name=f"{variable.name}_{RELAY}@{numbers}",
+        column=f"{variable.column}{OF_MEMORY}{RELAY}@{numbers}",
+        unit="",
+        words=BY_NUMBER[RELAY].format(variable.words, high, low, unit=variable.unit).replace(" ,", ",").rstrip(),
+        count=1,
+        times="",
+        signed=False,
+        is_log=False,
+    )
+
+
+def is_relay(variable: Variable) -> bool:
+    """Whether a variable has two states."""
+    return f"{OF_MEMORY}{RELAY}@" in variable.column
+
+
 def turns_with(variable: Variable) -> str | None:
     """Return the column at whose zero a variable's functions change sign abruptly; None if they do not."""
     if variable.turns_within:
@@ -163,7 +194,7 @@ def along(vector: str, direction_deg: float) -> Variable:
 
 def has_chosen_number(variable: Variable) -> bool:
     """Whether its name carries a number that readings chose, and that can be moved a little: a period, a constant."""
-    return "@" in variable.name and not variable.instants
+    return "@" in variable.name and not variable.instants and not is_relay(variable)
 
 
 def number_of(variable: Variable) -> float:
@@ -197,11 +228,15 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         Those at the place, of which it may remember one.
     """
     kind, _, numbers = name.partition("@")
-    if not re.fullmatch(r"-?\d+(\.\d+)?(e[+-]?\d+)?(/-?\d+(\.\d+)?)*", numbers):
+    if not re.fullmatch(r"-?\d+(\.\d+)?(e[+-]?\d+)?(/-?\d+(\.\d+)?(e[+-]?\d+)?)*", numbers):
         return None
     values = [float(each) for each in numbers.split("/")]
     if kind == "step":
         return step(values)
+    if kind.endswith(f"_{RELAY}"):
+        whose = next((each for each in variables if each.name == kind.removesuffix(f"_{RELAY}")), None)
+        is_pair = len(values) == 2 and values[0] < values[1]
+        return two_states(whose, *values) if whose is not None and is_pair else None
     if len(values) != 1 or values[0] <= 0.0:
         return None
     if kind in (f"{each}_period" for each in REPEATING):

@@ -38,9 +38,9 @@ ACROSS = {"x": ", sideways", "z": ", up and down"}
 """Axes of a guideway in words."""
 
 
-def place_words(hypothesis: Learned, component: int = 0) -> str:
+def place_words(hypothesis: Learned, function: int = 0) -> str:
     """Return where a function pushes, in words."""
-    axis = hypothesis.axis_name(component)
+    axis = hypothesis.axis_name(function)
     across = ACROSS if hypothesis.place in AXES else {}
     return whole_place_words(hypothesis) + (across.get(axis, f" along {axis}") if axis else "")
 
@@ -54,13 +54,13 @@ def whole_place_words(hypothesis: Learned) -> str:
     return PLACES[hypothesis.place].format(hypothesis.element)
 
 
-def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, component: int = 0) -> str:
+def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, function: int = 0) -> str:
     """Return what a function is, in one sentence: where it pushes, on what it depends, its form."""
     form = describe(curve, period)
     band = float(np.median(curve.sigma_mm)) * UM_PER_MM
     known = "" if np.isnan(band) else f" (± {band:.2f} µm)"
     over = f" over the {curve.variable}" if curve.column and form.kind != "step" else ""
-    return f"{place_words(hypothesis, component)}{over}: {form.text}{known}"
+    return f"{place_words(hypothesis, function)}{over}: {form.text}{known}"
 
 
 def rows(curve: Curve) -> list[tuple[str, str, str]]:

@@ -133,14 +133,14 @@ class Space:
         return 0.0 if variable.instants else (self.high - self.low) / max(variable.count - SPLINES_MIN, 1)
 
     def prior_factor(self, roughness: float, steepness: float = 0.0) -> Floats:
-        """Return T of the prior covariance T T' of one function's coefficients, shape (columns, columns)."""
+        """Return T of the prior covariance T T' of one component's coefficients, shape (columns, columns)."""
         variable = self.hypothesis.variable
         factor = np.eye(variable.columns)
         if variable.instants:
             return factor
-        factor[: variable.count, : variable.count] = splines.prior_factor(
-            variable.count, roughness, steepness, periodic=self.period > 0.0
-        )
+        one = splines.prior_factor(variable.count, roughness, steepness, periodic=self.period > 0.0)
+        for first in range(0, variable.columns, variable.columns // variable.ways):
+            factor[first : first + variable.count, first : first + variable.count] = one
         return factor
 
     def design(self, samples: Columns, element: int) -> Floats:
@@ -152,8 +152,9 @@ class Space:
             weight = _times(samples, variable, element) if variable.times else np.ones(len(samples))
         if not variable.column:
             return weight[:, None].copy()
-        found: Floats = weight[:, None] * self.functions(_of(samples, variable, element))
-        return found
+        functions = self.functions(_of(samples, variable, element))
+        found: Floats = weight[:, None] * functions
+        return np.hstack([functions, found]) if variable.each_way else found
 
     def argument(self, samples: Columns, element: int) -> Floats:
         """Return what the splines are functions of, in every sample for the variable of one element, shape (n,)."""
@@ -165,7 +166,7 @@ class Space:
         return np.log(np.maximum(known, SHORTEST)) if is_log else _warped(known, self.warp_width)
 
     def functions(self, at: Floats) -> Floats:
-        """Return the functions at some values of the column, what multiplies them aside; shape (m, columns)."""
+        """Return the splines of a function at some values of the column, what multiplies aside; shape (m, its own)."""
         variable = self.hypothesis.variable
         if not variable.column:
             return np.ones((len(at), 1))
@@ -227,13 +228,13 @@ class Space:
         """
         found, points, variable = [], self.points(), self.hypothesis.variable
         basis = self.functions(points)
-        for component, part in enumerate(coefficients.reshape(self.hypothesis.components, -1)):
+        for function, part in enumerate(coefficients.reshape(self.hypothesis.functions, -1)):
             table = Table(
                 port=self.hypothesis.port,
                 column=variable.column,
-                times=at_once(variable.times),
+                times=at_once(self.hypothesis.times_of(function)),
                 period=self.period,
-                pushes=self.hypothesis.pushes(component, machine),
+                pushes=self.hypothesis.pushes(self.hypothesis.component_of(function), machine),
                 knots=tuple(map(float, points)),
                 values_mm=tuple(map(float, basis @ part)),
             )

@@ -76,6 +76,9 @@ class Variable:
         For a product of two states, the names of their variables; a place need not have them.
     is_vector : bool
         Whether `times` is a vector; one function then pushes along each of its three axes.
+    each_way : bool
+        Whether either direction, of which `times` holds the sign, has a function of its own: one alike both ways, and
+        one times that sign.
     """
 
     name: str
@@ -98,15 +101,21 @@ class Variable:
     instants: tuple[float, ...] = ()
     parts: tuple[str, ...] = ()
     is_vector: bool = False
+    each_way: bool = False
 
     def __hash__(self) -> int:
         """Return a hash of what tells nearly all variables apart: one of all fields takes a twentieth of a search."""
         return hash((self.name, self.column, self.count, self.times, self.period))
 
     @property
+    def ways(self) -> int:
+        """Number of functions of the column: two where either direction has its own."""
+        return 2 if self.each_way else 1
+
+    @property
     def columns(self) -> int:
-        """Number of functions."""
-        return self.count + int(self.signed)
+        """Number of coefficients of one component."""
+        return self.ways * (self.count + int(self.signed))
 
     @property
     def needs(self) -> frozenset[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
-from hexdbb.learned.numbered import turns_gradually
+from hexdbb.learned.numbered import RELAY, turns_gradually
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 
@@ -50,9 +50,10 @@ class Form:
     Attributes
     ----------
     kind : str
-        `nothing`, `constant`, `linear`, `drift`, `step`, `sine`, `bump`; `varies` where none of these.
+        `nothing`, `constant`, `two states`, `linear`, `drift`, `step`, `sine`, `bump`; `varies` where none of these.
     fit : Fit or None
-        The form in numbers, variable in its own unit, function in mm; None for `nothing`, `constant` and `varies`.
+        The form in numbers, variable in its own unit, function in mm; None for `nothing`, `constant`,
+        `two states` and `varies`.
     text : str
         In words.
     """
@@ -77,6 +78,9 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
         return Form("nothing", None, "not distinguishable from zero")
     if len(curve.at) < 2:
         return Form("constant", None, f"{curve.value_mm[0] * UM_PER_MM:.2f} µm{turned}")
+    if len(curve.at) == 2 and f"{OF_MEMORY}{RELAY}@" in curve.column:
+        apart_um = UM_PER_MM * float(np.ptp(curve.value_mm))
+        return Form("two states", None, f"{apart_um:.3g} µm from one to the other")
     if len(curve.at) == 2:
         fit = next(fits(curve.at, curve.value_mm, np.ones(2)))
         return Form("linear", fit, _words(fit, curve) + turned)

@@ -89,7 +89,7 @@ def _sizes_of_learned(effect: LearnedEffect, term: Term) -> tuple[Size, ...]:
         name = "range" if len(curve.at) > 1 else "size"
         value = float(np.ptp(curve.value_mm)) if len(curve.at) > 1 else float(curve.value_mm[0])
         sigma = float(np.median(curve.sigma_mm)) * UM_PER_MM
-        named = "_".join(filter(None, (name, effect.space.hypothesis.axis_name(number))))
+        named = "_".join(filter(None, (name, effect.space.hypothesis.part_name(number))))
         sizes.append(Size(element, named, value * UM_PER_MM, None if np.isnan(sigma) else sigma, "um"))
     return tuple(sizes)
 

@@ -36,7 +36,7 @@ class LearnedEffect:
     prior_sigma_mm : float
         Prior standard deviation of the values.
     sigma_mm : tuple of float
-        Standard deviation of the function at `Space.points`, one component after another; empty before it is fitted.
+        Standard deviation of the function at `Space.points`, one function after another; empty before it is fitted.
         Where a constant belongs to the function, that of the function less its mean over the samples: a constant push
         is a leg's or a slider's offset in other words.
     samples : tuple of float
@@ -64,11 +64,10 @@ class LearnedEffect:
         """T, shape (columns, columns); the same for every component."""
         return self.space.prior_factor(self.roughness)
 
-    @property
-    def has_constant(self) -> bool:
-        """Whether a push that is the same in all samples is among its functions."""
-        variable = self.space.hypothesis.variable
-        return bool(variable.column) and variable.count > 1 and not variable.times
+    def has_constant(self, function: int) -> bool:
+        """Check whether a push that is the same in all samples belongs to one of its functions, from 0."""
+        hypothesis = self.space.hypothesis
+        return bool(hypothesis.variable.column) and hypothesis.variable.count > 1 and not hypothesis.times_of(function)
 
     def info(self) -> _core.EffectInfo:
         """Describe it as the engine's own are described."""
@@ -109,29 +108,30 @@ class LearnedEffect:
         return np.concatenate([self.factor @ part for part in np.split(values, self.space.hypothesis.components)])
 
     def tables(self, values: Floats, machine: Directed) -> tuple[Table, ...]:
-        """Return the function as a compensation of a machine needs it, one table a component."""
+        """Return the function as a compensation of a machine needs it, one table a function."""
         return self.space.tables(self.coefficients(values), machine)
 
     def curves(self, values: Floats) -> tuple[Curve, ...]:
-        """Return the function over its variable, one a component: the effect's values, shape (size,), set it."""
-        variable, points = self.space.hypothesis.variable, self.space.points()
-        parts = self.coefficients(values).reshape(self.space.hypothesis.components, -1)
+        """Return its functions over their variable: the effect's values, shape (size,), set them."""
+        hypothesis, points = self.space.hypothesis, self.space.points()
+        parts = self.coefficients(values).reshape(hypothesis.functions, -1)
         sigma = np.array(self.sigma_mm or [np.nan] * len(parts) * len(points)).reshape(len(parts), -1)
         samples = np.array(self.samples or [np.nan] * len(points))
-        basis = self.space.functions(points)
+        basis, variable = self.space.functions(points), hypothesis.variable
+        words, unit, column = variable.words, variable.unit, variable.column
         return tuple(
-            Curve(variable.words, variable.unit, variable.column, variable.times, points, basis @ part, band, samples)
-            for part, band in zip(parts, sigma, strict=True)
+            Curve(words, unit, column, hypothesis.times_of(function), points, basis @ part, band, samples)
+            for function, (part, band) in enumerate(zip(parts, sigma, strict=True))
         )
 
     def fitted(self, covariance: Floats, samples: Any) -> LearnedEffect:
         """Return the same effect with the band of a fit: covariance of its values, mm², and the samples fitted to."""
-        basis = self.space.functions(self.space.points()) @ self.factor
-        counts = self.space.counts(samples)
-        if self.has_constant:
-            basis = basis - np.average(basis, axis=0, weights=counts)
-        columns, sigma = basis.shape[1], []
-        for component in range(self.space.hypothesis.components):
-            own = slice(component * columns, (component + 1) * columns)
-            sigma += np.sqrt(np.sum((basis @ covariance[own, own]) * basis, axis=1)).tolist()
+        splines = self.space.functions(self.space.points())
+        own = splines.shape[1]
+        basis, counts = splines @ self.factor[:own, :own], self.space.counts(samples)
+        changes, sigma = basis - np.average(basis, axis=0, weights=counts), []
+        for function in range(self.space.hypothesis.functions):
+            at = slice(function * own, (function + 1) * own)
+            shown = changes if self.has_constant(function) else basis
+            sigma += np.sqrt(np.sum((shown @ covariance[at, at]) * shown, axis=1)).tolist()
         return replace(self, sigma_mm=tuple(sigma), samples=tuple(map(float, counts)))

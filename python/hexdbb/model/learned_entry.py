@@ -66,7 +66,7 @@ def learned_effect(name: str, entry: LearnedEntry) -> LearnedEffect:
     )
     points = len(space.points())
     for key, given, expected in (
-        ("sigma_um", entry.sigma_um, hypothesis.components * points),
+        ("sigma_um", entry.sigma_um, hypothesis.functions * points),
         ("samples", entry.samples, points),
     ):
         if given and len(given) != expected:

@@ -36,7 +36,7 @@ def learned_figure(model: Model, name: str, formula: Sequence[Curve] = (), title
     name : str
         As in `learned:leg:5:turning_rate`.
     formula : sequence of Curve, optional
-        What a known effect has in its place, one a component, drawn beside it.
+        What a known effect has in its place, one a function, drawn beside it.
     title : str
         Above all; the effect's name where not given.
 
@@ -52,11 +52,11 @@ def learned_figure(model: Model, name: str, formula: Sequence[Curve] = (), title
     curves, space = term.learned.curves(term.values), term.learned.space
     figure = sheet(1.0 + 3.6 * len(curves))
     panels = figure.subplots(2 * len(curves), 1, squeeze=False, height_ratios=[4.0, 1.0] * len(curves))[:, 0]
-    for component, curve in enumerate(curves):
-        above, below = panels[2 * component], panels[2 * component + 1]
-        _draw_function(above, curve, formula[component] if formula else None)
-        place = place_words(space.hypothesis, component)
-        said = place if formula else sentence(space.hypothesis, curve, space.period, component)
+    for number, curve in enumerate(curves):
+        above, below = panels[2 * number], panels[2 * number + 1]
+        _draw_function(above, curve, formula[number] if formula else None)
+        place = place_words(space.hypothesis, number)
+        said = place if formula else sentence(space.hypothesis, curve, space.period, number)
         above.set_title(_wrapped(said, TITLE_CHARACTERS))
         if space.hypothesis.variable.is_log:
             above.set_xscale("log")

@@ -53,6 +53,11 @@ OWN = {
         "1",
         "sign of the rate `NAME`, smoothed at zero: NAME / sqrt(NAME² + R²)",
     ),
+    "NAME.relay@L/H": (
+        "sample",
+        "1",
+        "+1 once column `NAME` has risen to `H`, -1 once it has fallen to `L`, else as it was; of its shape",
+    ),
 }
 """What they belong to, unit and meaning of the columns that are no part of the engine's state."""
 INSIDE_THE_ENGINE = {"row"}

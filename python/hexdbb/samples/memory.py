@@ -6,13 +6,15 @@ sweeps no record says: it is taken to have run out along the circle and up along
 laps, and to have gone evenly from the one to the other. Before the first sweep it stood. A time after a run-up of some
 degrees is one to which is added what these take at the rate at which the circle is driven. What is `along` so many
 degrees is a vector's part along that direction in the base's x-y plane. What is `turning` is the sign of a rate, which
-is smoothed at zero: rate / sqrt(rate² + number²), as regularised Coulomb friction is.
+is smoothed at zero: rate / sqrt(rate² + number²), as regularised Coulomb friction is. What is a `relay` has two states:
++1 once a column has risen to the higher of two numbers, -1 once it has fallen to the lower, between them the state that
+it came with.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -23,6 +25,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along|turning)@(?P<constant>[0-9.e+-]+)")
+NUMBER = r"-?[0-9.]+(?:e[+-]?[0-9]+)?"
+RELAY = re.compile(rf"(?P<column>\w+)\.relay@(?P<low>{NUMBER})/(?P<high>{NUMBER})")
 RUN_UP_RAD = np.pi / 4.0
 """Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 LONGEST = 30.0
@@ -60,20 +64,75 @@ def remembered_column(
         return np.asarray(values[:, :2] @ np.array([np.cos(np.radians(constant)), np.sin(np.radians(constant))]))
     if how == "turning":
         return np.asarray((values / np.hypot(values, constant)).reshape(column.shape))
-    begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
-    sweeps = [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(values)), strict=True)]
+    sweeps = _sweeps(sweep)
     if how == "after":
         run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]
         added = np.repeat(run_up_s, [rows.stop - rows.start for rows in sweeps])
         return np.asarray((values + added[:, None]).reshape(column.shape))
-    lagged = np.empty_like(values)
-    for chain in _chains(sweeps, time_s):
-        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows]) for rows in chain])
-        whole = _lagged(given, (at_s - at_s[0]) / constant, given[0])
-        for rows in chain:
-            lagged[rows] = whole[np.searchsorted(at_s, time_s[rows])]
+    lagged = _followed(
+        lambda at_s, given: _lagged(given, (at_s - at_s[0]) / constant, given[0]), values, time_s, sweeps, angle_rad
+    )
     found: Floats = lagged if how == "lagged" else values - lagged
     return found.reshape(column.shape)
+
+
+def relay_of(name: str) -> re.Match[str] | None:
+    """Return the parts of the name of a column of two states; None where it is not of that kind."""
+    return RELAY.fullmatch(name)
+
+
+def relay_column(
+    low: float,
+    high: float,
+    column: Floats,
+    time_s: Floats,
+    sweep: NDArray[np.integer[Any]],
+    angle_rad: Floats,
+) -> Floats:
+    """Return the state of a relay, of a column's shape: +1, -1, or 0 where the column reaches neither number.
+
+    Parameters
+    ----------
+    low, high : float
+        In the column's unit.
+    column : ndarray, shape (n,) or (n, k)
+    time_s, sweep, angle_rad : ndarray, shape (n,)
+        As of `remembered_column`.
+    """
+    values = np.asarray(column, np.float64).reshape(len(column), -1)
+    found = _followed(lambda _, given: two_states(given, low, high), values, time_s, _sweeps(sweep), angle_rad)
+    return found.reshape(column.shape)
+
+
+def two_states(values: Floats, low: float | Floats, high: float | Floats) -> Floats:
+    """Return the states of relays over values in order of time, shape (n, k); before the first change the other one."""
+    towards = (values >= high).astype(np.int8) - (values <= low).astype(np.int8)
+    rows = np.arange(len(values))[:, None]
+    last = np.maximum.accumulate(np.where(towards != 0, rows, -1), axis=0)
+    first = np.take_along_axis(towards, np.argmax(towards != 0, axis=0)[None, :], axis=0)
+    return np.where(last >= 0, np.take_along_axis(towards, np.maximum(last, 0), axis=0), -first).astype(np.float64)
+
+
+def _sweeps(sweep: NDArray[np.integer[Any]]) -> list[slice]:
+    begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
+    return [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(sweep)), strict=True)]
+
+
+def _followed(
+    follow: Callable[[Floats, Floats], Floats],
+    values: Floats,
+    time_s: Floats,
+    sweeps: Sequence[slice],
+    angle_rad: Floats,
+) -> Floats:
+    """Return what follows values over time, between the sweeps too: of times (m,) and values (m, k) there."""
+    found = np.empty_like(values)
+    for chain in _chains(sweeps, time_s):
+        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows]) for rows in chain])
+        whole = follow(at_s, given)
+        for rows in chain:
+            found[rows] = whole[np.searchsorted(at_s, time_s[rows])]
+    return found
 
 
 def _rate_rad_s(time_s: Floats, angle_rad: Floats) -> float:

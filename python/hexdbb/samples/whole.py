@@ -32,7 +32,7 @@ from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
-from hexdbb.samples.memory import remembered_column, remembered_of
+from hexdbb.samples.memory import relay_column, relay_of, remembered_column, remembered_of
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
@@ -87,6 +87,8 @@ class Whole:
             # There are as many columns that remember as numbers in their names: none is kept.
             if (how := remembered_of(name)) is not None:
                 return self._remembered(how["column"], how["how"], float(how["constant"]))
+            if (relay := relay_of(name)) is not None:
+                return self._relay(relay["column"], float(relay["low"]), float(relay["high"]))
             self._make(name)
         return self.columns.get(name)
 
@@ -124,6 +126,11 @@ class Whole:
         if name not in self.names:
             return None
         return remembered_column(how, constant, *self._known(name, "time_s", "sweep", "angle_rad"))
+
+    def _relay(self, name: str, low: float, high: float) -> Floats | None:
+        if name not in self.names:
+            return None
+        return relay_column(low, high, *self._known(name, "time_s", "sweep", "angle_rad"))
 
     def block(self, mounts: tuple[MountKey, ...], needs: frozenset[str]) -> tuple[frozenset[str], _core.Samples]:
         """Return the engine's form with at least some columns of the state, and the names of those that it holds.

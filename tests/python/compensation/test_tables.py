@@ -168,6 +168,7 @@ def test_little_is_left_where_the_correction_s_own_motion_counts(name: str, left
     ("name", "since", "rate", "scale"),
     [
         ("learned:slider:3:direction_position", "since_reversal_mm", "velocity_mm_s", 1.0),
+        ("learned:slider:3:position_each_way", "since_reversal_mm", "velocity_mm_s", 1.0),
         ("learned:leg:6:direction", "since_reversal_mm", "velocity_mm_s", 1.0),
         (
             "learned:leg:2:joint_angle_direction",

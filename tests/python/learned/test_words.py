@@ -78,3 +78,10 @@ def test_what_lies_within_its_band_is_nothing() -> None:
 def test_what_multiplies_the_function_is_said() -> None:
     form = describe(curve(AT, 0.05 * AT, times="travel_direction"))
     assert form.text.endswith("turning over with the direction of travel")
+
+
+def test_two_states_are_told_by_how_far_they_are_apart() -> None:
+    ends = np.array([-1.0, 1.0])
+    form = describe(curve(ends, 6.0 * ends, column="leg_force.relay@7.1/14.5", unit=""))
+    assert form.kind == "two states"
+    assert numbers(form.text) == pytest.approx([12.0], rel=0.02)

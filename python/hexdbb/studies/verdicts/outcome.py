@@ -8,6 +8,7 @@ anything on a clean machine).
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -67,6 +68,8 @@ VARIABLES = {
     "course_speed": ("direction", "velocity"),
 }
 """The truth's words for the variables of learned hypotheses, where they differ."""
+OF_ANOTHER = r"^(neighbour|slider_\d)_"
+"""Beginning of the name of a variable of another element than the one that is pushed."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +186,7 @@ def _place_of(name: str, label: Label) -> str:
 
 def _truths_words(variable: Variable) -> list[set[str]]:
     """Return the truth's words for a variable; of a product those of either part, of which the truth must have both."""
-    whole = name = variable.name.partition("@")[0].removeprefix("neighbour_")
+    whole = name = re.sub(OF_ANOTHER, "", variable.name.partition("@")[0])
     for how in BY_NUMBER:
         name = name.removesuffix(f"_{how}")
     parts = (name,) if name in VARIABLES or not variable.parts else variable.parts

@@ -1,0 +1,130 @@
+"""Two states of what snaps over where a variable rises to one number, and back where it falls to a lower one.
+
+A seat that is split, a spring that buckles, a stud loose in its hole: no function of the variable says them, since
+between the two numbers both states occur. All pairs of some levels of each variable are tried at once, to first order;
+around the best pair finer levels are, on all rows. What the choice costs, the log of the average over all pairs
+relative to the best, is the hypothesis' log prior.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.proposals import Proposal
+from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.thinned import Thinned
+from hexdbb.learned import Learned, two_states
+from hexdbb.learned.further import RELAYS
+from hexdbb.samples.memory import two_states as states_of
+
+Floats = NDArray[np.float64]
+
+LEVELS = 14
+"""Levels of a variable that are tried first, evenly between its extremes: of a state they place the ends to a thirtieth
+of the range, by which a relay that is right explains nine tenths."""
+ROUNDS, FINER = 5, 3
+"""Rounds about the best pair, and levels tried on either side of each of its numbers: thirds of the distance before,
+down to a few thousandths of what a variable changes from one reading to the next."""
+
+
+def relays(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
+    """Return the hypotheses of two states that are worth a look.
+
+    Parameters
+    ----------
+    linear : Linear
+        About what is found already.
+    readings : Readings
+    thinned : Thinned
+        Rows on which all pairs of levels are tried.
+    criteria : Criteria
+    """
+    if "time_s" in readings.state.unmeasured:
+        return []
+    few = _Rows(thinned.linear(linear), thinned.readings, criteria)
+    tried = [(few.best_of_all(each), each) for each in _all() if not each.variable.needs & readings.state.unmeasured]
+    worth = sorted((each for each in tried if each[0].worth > criteria.detect_nats), key=lambda each: -each[0].worth)
+    whole, found = _Rows(linear, readings, criteria), []
+    for best, of in worth[: criteria.full_fits]:
+        relay = two_states(of.variable, *whole.refined(of, best.pair))
+        found.append(Proposal(replace(of, variable=relay), best.log_prior))
+    return found
+
+
+def _all() -> Iterator[Learned]:
+    """Yield functions of what may have two states, at all elements."""
+    for place, variables in RELAYS.items():
+        for variable in variables:
+            yield from (Learned(place, element, variable) for element in range(1, 7))
+
+
+class _Best(NamedTuple):
+    """What a pair of levels gains less what its values and its choice cost, the latter, and the pair."""
+
+    worth: float
+    log_prior: float
+    pair: tuple[float, float]
+
+
+class _Rows:
+    """Rows in order of time, the model's own values eliminated."""
+
+    def __init__(self, linear: Linear, readings: Readings, criteria: Criteria) -> None:
+        self._readings, self._step_mm = readings, criteria.step_mm
+        self._order = np.argsort(readings.state["time_s"], kind="stable")
+        information = linear.normal[:-1, :-1] + np.eye(linear.own.shape[1])
+        inverse = np.linalg.inv(np.linalg.cholesky(information))
+        self._white = linear.own[self._order] @ inverse.T
+        self._residual = linear.residual[self._order]
+        self._fitted = inverse @ (linear.normal[:-1, -1] - linear.standing)
+        self._temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
+
+    def best_of_all(self, of: Learned) -> _Best:
+        """Return the best pair of levels of a variable."""
+        values = self._values(of)
+        levels = np.linspace(values.min(), values.max(), LEVELS + 2)[1:-1]
+        low, high = (levels[each] for each in np.triu_indices(LEVELS, 1))
+        gains = self._gains(of, low, high)
+        best = int(np.argmax(gains))
+        spread = float(np.logaddexp.reduce(gains)) - float(np.log(len(gains))) - float(gains[best])
+        cost = 0.5 * of.components * float(np.log(len(values)))  # Schwarz (1978), as of steps
+        return _Best(float(gains[best]) + spread - cost, spread, (float(low[best]), float(high[best])))
+
+    def refined(self, of: Learned, pair: tuple[float, float]) -> tuple[float, float]:
+        """Return the best pair of finer levels about one."""
+        step = float(np.ptp(self._values(of))) / (LEVELS + 1)
+        for _ in range(ROUNDS):
+            step /= FINER
+            offsets = step * np.arange(-FINER, FINER + 1)
+            low, high = (each.ravel() for each in np.meshgrid(pair[0] + offsets, pair[1] + offsets))
+            low, high = low[low < high], high[low < high]
+            best = int(np.argmax(self._gains(of, low, high)))
+            pair = float(low[best]), float(high[best])
+        return pair
+
+    def _values(self, of: Learned) -> Floats:
+        found: Floats = self._readings.state[of.variable.column][self._order, of.element - 1]
+        return found
+
+    def _gains(self, of: Learned, low: Floats, high: Floats) -> Floats:
+        """Return the log likelihood that two states gain, by pairs of levels, shape (m,)."""
+        states = states_of(self._values(of)[:, None], low, high)
+        axes = [of.pushes(axis, self._readings.state.machine) for axis in range(of.components)]
+        answers = (self._readings.answer([push for _, ports in each for push in ports]) for each in axes)
+        pushes = np.stack([each[self._order] for each in answers])
+        columns = pushes.T[:, :, None] * states[:, None, :]  # (n, axes, m)
+        half = np.tensordot(self._white, columns, axes=(0, 0))
+        gradient = np.tensordot(self._residual, columns, axes=(0, 0)) - np.tensordot(self._fitted, half, axes=(0, 0))
+        # The square of a state is one, but where neither number is reached.
+        square = np.abs(states)
+        information = np.einsum("an,bn,nm->mab", pushes, pushes, square) - np.einsum("kam,kbm->mab", half, half)
+        known = information + np.eye(len(axes)) / self._step_mm**2
+        solved = np.linalg.solve(known, gradient.T[:, :, None])[:, :, 0]
+        gains: Floats = 0.5 * np.einsum("ma,ma->m", gradient.T, solved) / self._temper
+        return gains
