@@ -100,7 +100,7 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     others = [each for each in every if each.variable.times or each.components > 1]
     others = [each for each in others if each not in search.learnable.products]
     _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
-    proposed = relays(screen.sums.linear, search.engine.readings, search.thinned, search.criteria)
+    proposed = relays(screen.sums.linear, search.engine.readings, search.criteria)
     search.learnable.propose(proposed)
     in_two_states = varying((each.hypothesis for each in proposed), search.engine.readings)
     return screen.learned([*every, *in_two_states])

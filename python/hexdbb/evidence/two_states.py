@@ -25,15 +25,19 @@ from hexdbb.samples.memory import two_states as states_of
 
 Floats = NDArray[np.float64]
 
-LEVELS = 14
-"""Levels of a variable that are tried first, evenly between its extremes: of a state they place the ends to a thirtieth
+LEVELS = 12
+"""Levels of a variable that are tried first, evenly between its extremes: of a state they place the ends to a 26th
 of the range, by which a relay that is right explains nine tenths."""
-ROUNDS, FINER = 5, 3
-"""Rounds about the best pair, and levels tried on either side of each of its numbers: thirds of the distance before,
-down to a few thousandths of what a variable changes from one reading to the next."""
+NEAR = 0.7
+"""Part of what the best pair of all is worth that another must be worth to get finer levels, by which it may gain a
+tenth."""
+ROUNDS, FINER, EITHER_SIDE = 7, 2, 3
+"""Rounds about the best pair, how much finer the levels of each are, and how many are tried on either side of each of
+its numbers: one and a half of the distance before, since a gain with so many jumps has more than one maximum. In the
+end they are a thousandth of the range apart, less than what a variable changes from one reading to the next."""
 
 
-def relays(linear: Linear, readings: Readings, thinned: Thinned, criteria: Criteria) -> list[Proposal]:
+def relays(linear: Linear, readings: Readings, criteria: Criteria) -> list[Proposal]:
     """Return the hypotheses of two states that are worth a look.
 
     Parameters
@@ -41,20 +45,22 @@ def relays(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     linear : Linear
         About what is found already.
     readings : Readings
-    thinned : Thinned
-        Rows on which all pairs of levels are tried.
     criteria : Criteria
+        Has the number of rows on which all pairs of levels are tried (`fewest_rows`).
     """
     if "time_s" in readings.state.unmeasured:
         return []
+    thinned = Thinned(readings, criteria.fewest_rows)
     few = _Rows(thinned.linear(linear), thinned.readings, criteria)
     tried = [(few.best_of_all(each), each) for each in _all() if not each.variable.needs & readings.state.unmeasured]
     worth = sorted((each for each in tried if each[0].worth > criteria.detect_nats), key=lambda each: -each[0].worth)
     whole, found = _Rows(linear, readings, criteria), []
     for best, of in worth[: criteria.full_fits]:
-        relay = two_states(of.variable, *whole.refined(of, best.pair))
-        found.append(Proposal(replace(of, variable=relay), best.log_prior))
-    return found
+        if best.worth < NEAR * worth[0][0].worth:
+            break
+        gain, pair = whole.refined(of, best.pair)
+        found.append((gain, Proposal(replace(of, variable=two_states(of.variable, *pair)), best.log_prior)))
+    return [each for _, each in sorted(found, key=lambda each: -each[0])]
 
 
 def _all() -> Iterator[Learned]:
@@ -96,17 +102,19 @@ class _Rows:
         cost = 0.5 * of.components * float(np.log(len(values)))  # Schwarz (1978), as of steps
         return _Best(float(gains[best]) + spread - cost, spread, (float(low[best]), float(high[best])))
 
-    def refined(self, of: Learned, pair: tuple[float, float]) -> tuple[float, float]:
-        """Return the best pair of finer levels about one."""
+    def refined(self, of: Learned, pair: tuple[float, float]) -> tuple[float, tuple[float, float]]:
+        """Return what the best pair of finer levels about one gains, and the pair."""
+        gain = 0.0
         step = float(np.ptp(self._values(of))) / (LEVELS + 1)
         for _ in range(ROUNDS):
             step /= FINER
-            offsets = step * np.arange(-FINER, FINER + 1)
+            offsets = step * np.arange(-EITHER_SIDE, EITHER_SIDE + 1)
             low, high = (each.ravel() for each in np.meshgrid(pair[0] + offsets, pair[1] + offsets))
             low, high = low[low < high], high[low < high]
-            best = int(np.argmax(self._gains(of, low, high)))
-            pair = float(low[best]), float(high[best])
-        return pair
+            gains = self._gains(of, low, high)
+            best = int(np.argmax(gains))
+            gain, pair = float(gains[best]), (float(low[best]), float(high[best]))
+        return gain, pair
 
     def _values(self, of: Learned) -> Floats:
         found: Floats = self._readings.state[of.variable.column][self._order, of.element - 1]
@@ -118,13 +126,12 @@ class _Rows:
         axes = [of.pushes(axis, self._readings.state.machine) for axis in range(of.components)]
         answers = (self._readings.answer([push for _, ports in each for push in ports]) for each in axes)
         pushes = np.stack([each[self._order] for each in answers])
-        columns = pushes.T[:, :, None] * states[:, None, :]  # (n, axes, m)
-        half = np.tensordot(self._white, columns, axes=(0, 0))
-        gradient = np.tensordot(self._residual, columns, axes=(0, 0)) - np.tensordot(self._fitted, half, axes=(0, 0))
+        half = np.stack([(self._white * each[:, None]).T @ states for each in pushes])  # (axes, k, m)
+        gradient = (pushes * self._residual) @ states - np.tensordot(half, self._fitted, axes=(1, 0))
         # The square of a state is one, but where neither number is reached.
-        square = np.abs(states)
-        information = np.einsum("an,bn,nm->mab", pushes, pushes, square) - np.einsum("kam,kbm->mab", half, half)
+        square = (pushes[:, None, :] * pushes[None, :, :]) @ np.abs(states)
+        information = (square - np.einsum("akm,bkm->abm", half, half)).transpose(2, 0, 1)
         known = information + np.eye(len(axes)) / self._step_mm**2
         solved = np.linalg.solve(known, gradient.T[:, :, None])[:, :, 0]
-        gains: Floats = 0.5 * np.einsum("ma,ma->m", gradient.T, solved) / self._temper
+        gains: Floats = 0.5 * np.einsum("am,ma->m", gradient, solved) / self._temper
         return gains

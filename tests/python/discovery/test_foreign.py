@@ -208,7 +208,7 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         # asked of, since the others hardly hold geometry.
         ("dent-in-joint", "learned:leg:6:joint_angle", {"feed", "direction"}),
         # Disc springs that snap through at one force along the guideway and back at another: nothing predicted.
-        ("spring-snaps", "learned:slider:6:drive_load_relay@", {"feed", "direction", "lap"}),
+        ("spring-snaps", "learned:slider:6:drive_load_relay@", {"circle", "feed", "direction"}),
         # A lip that catches on the way up only: what is alike both ways and what turns over are one cause.
         ("lip-catches", "learned:slider:1:position_each_way", {"feed", "direction", "lap"}),
         # By 1 - exp(-t/470 s), the truth: three known effects, legs and two screws, explained as much.

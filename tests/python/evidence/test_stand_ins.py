@@ -20,9 +20,10 @@ PAIR, LEG, OTHER_LEG = (Member(Learned.parse(f"learned:leg:{each}:joint_angle"))
 LEARNED = Member(Learned.parse("learned:guideway:3:time_position"))
 
 
-def node_of(*members: Member, left: float) -> Any:
+def node_of(*members: Member, left: float, score: float = 0.0) -> Any:
     return SimpleNamespace(
         members=members,
+        score=score,
         is_known=all(isinstance(each.hypothesis, Known) for each in members),
         trial=SimpleNamespace(left=left, refused=()),
         without=lambda member: tuple(each for each in members if each is not member),
@@ -35,12 +36,16 @@ def answered(
     reasons: tuple[str, ...],
     *,
     is_needed: bool,
+    less_likely: float = 0.0,
     first: Member = KNOWN,
     second: Member = LEARNED,
 ) -> bool:
-    """Return whether the first member stays, where the other one refined leaves so much of 101 noise variances."""
+    """Return whether the first member stays, where the other one refined leaves so much of 101 noise variances.
+
+    `less_likely` is the log evidence by which the other one is behind both.
+    """
     node, wider, others = node_of(first, second, left=3.0), node_of(first, second, left=1.0), node_of(second, left=5)
-    again = node_of(second, left=left)
+    again = node_of(second, left=left, score=-less_likely)
     monkeypatch.setattr(stand_ins, "needs", lambda search, node, member: is_needed)
     monkeypatch.setattr(stand_ins, "refined", lambda search, node: again)
     search: Any = SimpleNamespace(
@@ -56,18 +61,24 @@ def answered(
 
 
 @pytest.mark.parametrize(
-    ("left", "reasons", "is_needed", "stays"),
+    ("left", "reasons", "is_needed", "less_likely", "stays"),
     [
-        (1.2, (), False, False),
-        (1.2, (), True, True),  # the refined others need it
-        (2.0, (), False, True),  # refined without it they explain less by more than a form may hide
-        (1.2, ("does not predict",), False, True),
+        (1.2, (), False, 3.0, False),
+        (1.2, (), True, 0.0, True),  # the refined others need it
+        (2.0, (), False, 0.0, True),  # refined without it they explain less by more than a form may hide
+        (1.2, ("does not predict",), False, 0.0, True),
+        (1.2, (), False, 600.0, True),  # many functions of the reading say what play does, and are less likely
     ],
 )
 def test_it_goes_where_the_others_refined_say_the_same(
-    monkeypatch: pytest.MonkeyPatch, left: float, reasons: tuple[str, ...], is_needed: bool, stays: bool
+    monkeypatch: pytest.MonkeyPatch,
+    left: float,
+    reasons: tuple[str, ...],
+    is_needed: bool,
+    less_likely: float,
+    stays: bool,
 ) -> None:
-    assert answered(monkeypatch, left, reasons, is_needed=is_needed) == stays
+    assert answered(monkeypatch, left, reasons, is_needed=is_needed, less_likely=less_likely) == stays
 
 
 @pytest.mark.parametrize(

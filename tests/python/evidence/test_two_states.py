@@ -9,7 +9,6 @@ import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
 from hexdbb.evidence.readings import Linear, Readings, State
-from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.two_states import relays
 from hexdbb.learned import Learned
 from hexdbb.learned.further import RELAYS
@@ -58,7 +57,7 @@ def test_the_place_and_both_numbers_are_found(
     pushes = [push for _, ports in at.pushes(0, varied.state.machine) for push in ports]
     state = snapped(varied.state[column][:, element - 1], low, high)
     residual = linear.residual + 5e-3 * varied.answer(pushes) * state
-    best = relays(replace(linear, residual=residual), varied, Thinned(varied), DEFAULT)[0]
+    best = relays(replace(linear, residual=residual), varied, DEFAULT)[0]
     assert best.hypothesis.name.startswith(f"{name}_relay@")
     numbers = [float(each) for each in best.hypothesis.name.partition("@")[2].split("/")]
     # Between two rows nothing is known of where it snapped.
@@ -69,9 +68,9 @@ def test_the_place_and_both_numbers_are_found(
 
 
 def test_noise_has_no_states(varied: Readings, linear: Linear) -> None:
-    assert relays(linear, varied, Thinned(varied), DEFAULT) == []
+    assert relays(linear, varied, DEFAULT) == []
 
 
 def test_nothing_is_asked_of_what_is_not_measured(varied: Readings, linear: Linear) -> None:
     unmeasured = replace(varied, state=State(varied.state._columns, varied.state.machine, frozenset({"time_s"})))
-    assert relays(linear, unmeasured, Thinned(varied), DEFAULT) == []
+    assert relays(linear, unmeasured, DEFAULT) == []
