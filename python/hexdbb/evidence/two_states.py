@@ -21,7 +21,7 @@ from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned, two_states
 from hexdbb.learned.further import RELAYS
-from hexdbb.samples.memory import two_states as states_of
+from hexdbb.samples.two_states import two_states as states_of
 
 Floats = NDArray[np.float64]
 

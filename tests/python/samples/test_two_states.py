@@ -7,7 +7,7 @@ import pytest
 
 from hexdbb.plan import load_plan
 from hexdbb.samples import Samples
-from hexdbb.samples.memory import relay_column, two_states
+from hexdbb.samples.two_states import relay_column, two_states
 
 PLAN = load_plan("thesis")
 

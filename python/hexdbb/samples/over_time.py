@@ -1,0 +1,113 @@
+"""What follows a column over time, from sweep to sweep.
+
+What the machine did between two sweeps no record says: it is taken to have run out along the circle and up along the
+next one, as it came round in other laps, and to have gone evenly from the one to the other. Before the first sweep it
+stood.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+RUN_UP_RAD = np.pi / 4.0
+"""Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
+
+
+def sweeps_of(sweep: NDArray[np.integer[Any]]) -> list[slice]:
+    """Return the rows of each sweep, of numbers that rise from sweep to sweep, shape (n,)."""
+    begins = np.flatnonzero(np.diff(sweep, prepend=sweep[0] - 1))
+    return [slice(*ends) for ends in zip(begins, np.append(begins[1:], len(sweep)), strict=True)]
+
+
+def followed(
+    follow: Callable[[Floats, Floats], Floats],
+    values: Floats,
+    time_s: Floats,
+    sweeps: Sequence[slice],
+    angle_rad: Floats,
+) -> Floats:
+    """Return what follows values over time, shape (n, k).
+
+    Parameters
+    ----------
+    follow : callable
+        Of times, shape (m,), and values there, shape (m, k), from the first sweep of a record to its last, with those
+        between the sweeps: what follows them, shape (m, k).
+    values : ndarray, shape (n, k)
+    time_s, angle_rad : ndarray, shape (n,)
+        Times rise within a sweep; polar angles with or without their turns.
+    sweeps : sequence of slice
+        Rows of each.
+    """
+    found = np.empty_like(values)
+    for chain in _chains(sweeps, time_s):
+        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows]) for rows in chain])
+        whole = follow(at_s, given)
+        for rows in chain:
+            found[rows] = whole[np.searchsorted(at_s, time_s[rows])]
+    return found
+
+
+def _chains(sweeps: Sequence[slice], time_s: Floats) -> list[list[slice]]:
+    """Return the sweeps of each stretch of time: with every record it begins anew."""
+    found = [[sweeps[0]]]
+    for before, rows in pairwise(sweeps):
+        if time_s[rows.start] > time_s[before.stop - 1]:
+            found[-1].append(rows)
+        else:
+            found.append([rows])
+    return found
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A sweep: times and values of its samples, of the run-up before them and of the run-out behind."""
+
+    at_s: Floats
+    values: Floats
+    up_s: Floats
+    up: Floats
+    out_s: Floats
+    out: Floats
+
+
+def _way(time_s: Floats, angle_rad: Floats, values: Floats) -> _Way:
+    """Return a sweep with run-up and run-out, as it came round a lap later and before; none of less than a lap."""
+    turned = np.abs(np.unwrap(angle_rad) - angle_rad[0])
+    lap, back = np.searchsorted(turned, [2.0 * np.pi, turned[-1] - 2.0 * np.pi])
+    first, last = np.searchsorted(turned, [2.0 * np.pi - RUN_UP_RAD, turned[-1] - 2.0 * np.pi + RUN_UP_RAD])
+    if turned[-1] < 2.0 * np.pi:
+        first = lap = back = last = 0
+    lap = min(int(lap), len(turned) - 1)
+    up, out = slice(first, lap), slice(back + 1, last)
+    return _Way(
+        at_s=time_s,
+        values=values,
+        up_s=time_s[up] - time_s[lap] + time_s[0],
+        up=values[up],
+        out_s=time_s[out] - time_s[back] + time_s[-1],
+        out=values[out],
+    )
+
+
+def _joined(ways: Sequence[_Way]) -> tuple[Floats, Floats]:
+    """Return times and values of all, where there is time between two sweeps with the run-out and the run-up."""
+    times, values = [ways[0].up_s], [ways[0].up]
+    for way, following in zip(ways, (*ways[1:], None), strict=True):
+        times.append(way.at_s)
+        values.append(way.values)
+        if following is None:
+            break
+        left, begins = np.max(way.out_s, initial=way.at_s[-1]), np.min(following.up_s, initial=following.at_s[0])
+        if left < begins:
+            times += [way.out_s, following.up_s]
+            values += [way.out, following.up]
+    return np.concatenate(times), np.vstack(values)
