@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from hexdbb import _core
-from hexdbb.compensation.own_tables import NoTableError, own_tables
-from hexdbb.compensation.tables import learned_tables
+from hexdbb.compensation.own_tables import own_tables
+from hexdbb.compensation.tables import NoTableError, learned_tables
 from hexdbb.errors import InputError
 from hexdbb.files.atomic_file import write_text
 from hexdbb.kinematics import engine_machine
@@ -85,13 +85,13 @@ def _tables(model: Model) -> tuple[list[_core.CompensationTable], list[tuple[str
     tables, left_out = [], []
     for term in model.terms:
         own = model.own(term.effect)
-        if term.learned is not None:
-            tables += learned_tables(term, model.machine)
-        elif own is not None:
-            try:
+        try:
+            if term.learned is not None:
+                tables += learned_tables(term, model.machine)
+            elif own is not None:
                 tables += own_tables(own, term.values, model.machine)
-            except NoTableError as why:
-                left_out.append((term.effect, str(why)))
+        except NoTableError as why:
+            left_out.append((term.effect, str(why)))
     return tables, left_out
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.compensation.probe import NO_FACTORS, SWITCHES, WHOLE, Probe, drawn_state, places, ranges
-from hexdbb.compensation.tables import TOLERANCE_MM
+from hexdbb.compensation.tables import TOLERANCE_MM, NoTableError
 from hexdbb.errors import InputError
 from hexdbb.machine import MachineFile
 from hexdbb.model import OwnEffect, is_shaped
@@ -35,10 +35,6 @@ STEEPEST = 0.05
 slider itself, and the compensator's iteration would need more than its four steps."""
 JUMP_SHARE = 0.2
 """Part of a function's range between two neighbours of `GRID` places above which it jumps: no table follows that."""
-
-
-class NoTableError(Exception):
-    """An effect that is no table; the message is the reason, as a compensation file states it."""
 
 
 @dataclass(frozen=True)

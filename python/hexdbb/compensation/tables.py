@@ -21,16 +21,33 @@ drive can follow."""
 MOST_HALVINGS = 6
 """Bound on the size of a file: the knots of a learned function lie at least three to a spline, where six halvings leave
 less than a thousandth of what a cubic bends between two of them."""
+SWITCHED_PART = 0.1
+"""Part of a drive's largest velocity, or a joint's, over which a smoothed change of sign may extend: a table switches
+it, so that slower motion is corrected too much."""
 KNOTS_PER_TURN = 16
 """Knots for each turn of a screw, before intervals are halved: straight lines between 16 of them deviate from a sine by
 at most 2 % of its amplitude, so that no halving sees equal values at both ends and the middle of a whole turn."""
 
 
+class NoTableError(Exception):
+    """An effect that is no table; the message is the reason, as a compensation file states it."""
+
+
 def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationTable]:
-    """Return the tables of a learned effect's term, one a function, knots close enough for `TOLERANCE_MM`."""
+    """Return the tables of a learned effect's term, one a function, knots close enough for `TOLERANCE_MM`.
+
+    Raises
+    ------
+    NoTableError
+        Where a smoothed change of sign extends over rates at which the machine moves.
+    """
     effect = term.learned
     assert effect is not None
     space, tables = effect.space, effect.tables(term.values, machine)
+    fastest = ranges(machine)
+    for each in tables:
+        if each.rate and each.turns_over > SWITCHED_PART * fastest[each.rate][1]:
+            raise NoTableError(f"changes its sign over {each.turns_over:g} of {each.rate}, too gradually for a table")
     parts = effect.coefficients(term.values).reshape(len(tables), -1)
 
     times, lead_mm = tables[-1].times, machine.sliders.screw_lead_mm
@@ -41,7 +58,7 @@ def learned_tables(term: Term, machine: MachineFile) -> list[_core.CompensationT
         return found * turns(at, lead_mm)[times][:, None] if times in TURN else found
 
     # What multiplies makes the error between two knots as much larger as it is itself.
-    largest = max(map(abs, ranges(machine).get(times, (1.0, 1.0))))
+    largest = max(map(abs, fastest.get(times, (1.0, 1.0))))
     first = np.array(tables[0].knots)
     knots = halved(_with_turns(first, lead_mm) if times in TURN else first, values_mm, TOLERANCE_MM / largest)
     return [

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from hexdbb.errors import RunError
+from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial, Trials
-from hexdbb.learned import Learned, has_chosen_number, number_of
+from hexdbb.learned import Learned, Variable, has_chosen_number, number_of
+from hexdbb.learned.numbered import rate_of
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -27,6 +29,9 @@ TURN_STEP = 0.02
 large against the rounding of single precision."""
 CONSTANT_STEP = 0.05
 """The same of a time constant, relative to it: a lag bends by its square, a thousandth."""
+MOST_TURNING = 0.5
+"""Largest transition rate of a change of sign, as a part of the rate's root mean square: at that rate it is over but
+for a tenth. Beyond, a function would be in proportion to the rate, which a controller takes for one that switches."""
 MOST_STEPS = 12.0
 """Such changes that a number may move by: a quarter of a turn, beyond which a line is no approximation of a wave, or a
 factor of nearly two, from one of the constants first tried to the next."""
@@ -64,7 +69,14 @@ def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
     column = 0.5 * (ahead - behind)
     wider = replace(linear, own=np.column_stack([linear.own, column]), standing=np.append(linear.standing, 0.0))
     moved = float(Sums(wider, readings, ()).whole.own_values()[-1])
-    return learned.with_number(number * (1.0 + step * float(np.clip(moved, -MOST_STEPS, MOST_STEPS))))
+    found = number * (1.0 + step * float(np.clip(moved, -MOST_STEPS, MOST_STEPS)))
+    return learned.with_number(min(found, _most(readings, variable)))
+
+
+def _most(readings: Readings, variable: Variable) -> float:
+    """Return the largest number that a variable may have: that over which a direction turns is limited."""
+    rate = rate_of(variable.times)
+    return np.inf if rate is None else MOST_TURNING * float(np.sqrt(np.mean(np.square(readings.state[rate]))))
 
 
 def with_best_number(search: Search, trial: Trial, place: int) -> Trial:

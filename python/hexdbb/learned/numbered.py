@@ -176,7 +176,18 @@ def is_directed(variable: Variable) -> bool:
 
 def turns_gradually(times: str) -> bool:
     """Whether a multiplying column is a direction whose change of sign is smoothed."""
-    return times.partition(OF_MEMORY)[2].startswith(TURNING)
+    return rate_of(times) is not None
+
+
+def rate_of(times: str) -> str | None:
+    """Return the rate at whose zero a multiplying column changes its sign smoothly; None where it does not."""
+    rate, _, how = times.partition(OF_MEMORY)
+    return rate if how.startswith(f"{TURNING}@") else None
+
+
+def transition_rate(times: str) -> float:
+    """Return over what rate such a column changes its sign, in the rate's unit."""
+    return float(times.partition("@")[2])
 
 
 def along(vector: str, direction_deg: float) -> Variable:

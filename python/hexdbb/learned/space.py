@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
-from hexdbb.learned.numbered import INSTANT_S, at_once
+from hexdbb.learned.numbered import INSTANT_S, at_once, rate_of, transition_rate
 from hexdbb.learned.tables import Table
 from hexdbb.learned.variable import AXES_OF_VECTOR, BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
 
@@ -229,14 +229,18 @@ class Space:
         found, points, variable = [], self.points(), self.hypothesis.variable
         basis = self.functions(points)
         for function, part in enumerate(coefficients.reshape(self.hypothesis.functions, -1)):
+            times = self.hypothesis.times_of(function)
+            rate = rate_of(times)
             table = Table(
                 port=self.hypothesis.port,
                 column=variable.column,
-                times=at_once(self.hypothesis.times_of(function)),
+                times=at_once(times),
                 period=self.period,
                 pushes=self.hypothesis.pushes(self.hypothesis.component_of(function), machine),
                 knots=tuple(map(float, points)),
                 values_mm=tuple(map(float, basis @ part)),
+                rate=rate or "",
+                turns_over=transition_rate(times) if rate else 0.0,
             )
             found.append(table)
         return tuple(found)

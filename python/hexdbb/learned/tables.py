@@ -61,6 +61,10 @@ class Table:
         Elements of the variable, and what each pushes.
     knots, values_mm : tuple of float
         Knots rise.
+    rate : str
+        Where `times` is a direction in place of a smoothed change of sign: the column of the rate whose sign it is.
+    turns_over : float
+        Transition rate of that change, in the rate's unit.
     """
 
     port: str
@@ -70,3 +74,5 @@ class Table:
     pushes: tuple[Push, ...]
     knots: tuple[float, ...]
     values_mm: tuple[float, ...]
+    rate: str = ""
+    turns_over: float = 0.0

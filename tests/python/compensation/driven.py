@@ -67,9 +67,10 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     columns["leg_force.lagged@12"] = remembered_column(
         "lagged", 12.0, columns["leg_force"], state["time_s"], zeros, state["angle_rad"]
     )
-    columns["velocity_mm_s.turning@0.2"] = remembered_column(
-        "turning", 0.2, columns["velocity_mm_s"], state["time_s"], zeros, state["angle_rad"]
-    )
+    for rate in (0.2, 1925.0):
+        columns[f"velocity_mm_s.turning@{rate:g}"] = remembered_column(
+            "turning", rate, columns["velocity_mm_s"], state["time_s"], zeros, state["angle_rad"]
+        )
     columns |= _turns(sliders_mm, machine)
     columns["warming_k"] = 5.0 * np.sin(np.arange(count))  # a range for functions of it; replaced below
     return Table(columns, machine), block

@@ -246,6 +246,17 @@ def test_what_a_controller_cannot_know_is_left_out_with_the_reason(name: str, re
     assert data.text().startswith('schema = "hexdbb.compensation/1"\n')
 
 
+@pytest.mark.parametrize("name", ["learned:slider:2:position_each_way", "learned:leg:3:direction"])
+def test_a_change_of_sign_over_all_rates_is_no_switch(name: str, nominal: Table) -> None:
+    """In proportion to the velocity then: switched by a table it made a machine's error forty times as large."""
+    (sharp,) = {each.effect for each in make_compensation(model_of(f"{name}_turning@0.2", nominal)).tables}
+    assert sharp == f"{name}_turning@0.2"
+    data = make_compensation(model_of(f"{name}_turning@1925", nominal))
+    reason = "changes its sign over 1925 of velocity_mm_s, too gradually for a table"
+    assert data.left_out == [(f"{name}_turning@1925", reason)]
+    assert data.tables == []
+
+
 def test_growth_needs_a_reference_temperature(nominal: Table) -> None:
     data = make_compensation(model_of("learned:leg:1:warming", nominal))
     assert [why for _, why in data.left_out] == [
