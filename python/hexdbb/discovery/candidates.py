@@ -10,6 +10,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.search import Search
 from hexdbb.learned import Learned
+from hexdbb.learned.numbered import NUMBERED
 from hexdbb.model import Choice
 
 MAX_CANDIDATES = 6
@@ -32,11 +33,16 @@ def shown_candidates(search: Search, node: Node, checked: int = MAX_CHECKED) -> 
     """
     single = [each for each in search.nodes if len(each.members) == 1 and each is not node]
     single.sort(key=lambda each: -each.score)
-    shown: dict[tuple[str, ...], Node] = {} if node is search.root else {node.trial.names: node}
+    shown: dict[tuple[str, ...], Node] = {} if node is search.root else {_unnumbered(node): node}
     for each in single:
-        shown.setdefault(each.trial.names, each)
+        shown.setdefault(_unnumbered(each), each)
     nodes = list(shown.values())[:MAX_CANDIDATES]
     return tuple(_candidate(search, each, rank < checked) for rank, each in enumerate(nodes))
+
+
+def _unnumbered(node: Node) -> tuple[str, ...]:
+    """Return names without the numbers that readings chose: a function with each number it was tuned by is one."""
+    return tuple(name.partition(NUMBERED)[0] for name in node.trial.names)
 
 
 def _candidate(search: Search, node: Node, is_checked: bool) -> Candidate:

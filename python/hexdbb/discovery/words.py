@@ -7,14 +7,13 @@ from collections.abc import Mapping, Sequence
 from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned import Learned, describe
+from hexdbb.learned.numbered import NUMBERED, is_relay
 from hexdbb.learned.shown import sentence, whole_place_words
 from hexdbb.model import Term
 
 GROUPS: dict[Grouping, str] = {"circle": "circles", "feed": "feeds", "direction": "directions", "lap": "laps"}
 NOTHING = "nothing is missing: what is left is noise"
 KNOWN_ALONE = "known effects alone were tried: a function learned from the readings may explain as much"
-NUMBERED = "@"
-"""In the names of variables whose instants or period the readings chose: these say more than the function's form."""
 SMALLEST_DEVIATION = 0.01
 """Deviation of form from which it is stated: below, a machine's effect is as the formula has it."""
 
@@ -27,7 +26,7 @@ def function_clause(term: Term) -> str:
     effect = term.learned
     assert effect is not None
     space = effect.space
-    if NUMBERED in space.hypothesis.variable.name:
+    if NUMBERED in space.hypothesis.variable.name:  # instants or a period say more than the function's form
         return place_clause(space.hypothesis)
     curves = effect.curves(term.values)
     clear = [k for k, curve in enumerate(curves) if describe(curve, space.period).kind != "nothing"]
@@ -39,6 +38,8 @@ def place_clause(hypothesis: Learned) -> str:
     place, variable = whole_place_words(hypothesis), hypothesis.variable
     if variable.instants:
         return f"{place}: shifts at {joined([f'{each:.0f} s' for each in variable.instants])}"
+    if is_relay(variable):
+        return f"{place}: in {variable.words}"
     if NUMBERED in variable.name:
         repeats = f"repeats every {variable.period:.4g} {variable.unit}"
         return f"{place}: {repeats if variable.period else f'follows the {variable.words}'}"

@@ -8,6 +8,7 @@ splines, and for periods and time constants (`number.py`) that are right beside 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +20,8 @@ from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member
-from hexdbb.learned import Learned
+from hexdbb.learned import Learned, has_chosen_number, number_of
+from hexdbb.learned.numbered import NUMBERED
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -97,6 +99,27 @@ def with_other_splines(
 def _is_too_fine(found: list[Scored]) -> bool:
     """Check whether the last doubling of splines lost evidence: a further one would lose more, and takes long."""
     return len(found) > 1 and found[-1].log_evidence < found[-2].log_evidence
+
+
+def with_numbers_of(search: Search, node: Node, wider: Node) -> Node:
+    """Return a set with the periods and time constants that its functions have in a refined one: one name for each."""
+    for place, member in enumerate(node.members):
+        hypothesis = member.hypothesis
+        if not isinstance(hypothesis, Learned) or hypothesis.name in wider.trial.names:
+            continue
+        others = (each.hypothesis for each in wider.members if each.hypothesis.name not in node.trial.names)
+        same = (each for each in others if isinstance(each, Learned) and _is_renumbered(hypothesis, each))
+        if (tuned := next(same, None)) is not None:
+            moved = hypothesis.with_number(number_of(tuned.variable))
+            search.count_as(moved, hypothesis)
+            members = (*node.members[:place], replace(member, hypothesis=moved), *node.members[place + 1 :])
+            node = search.node(members, near=node)
+    return node
+
+
+def _is_renumbered(one: Learned, other: Learned) -> bool:
+    """Check for the same function by another number."""
+    return has_chosen_number(one.variable) and one.name.partition(NUMBERED)[0] == other.name.partition(NUMBERED)[0]
 
 
 def with_tuned_numbers(search: Search, node: Node) -> Node:

@@ -25,7 +25,7 @@ from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.stand_ins import without_stand_ins
 from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.sure import Grade, graded, is_for_sure
-from hexdbb.evidence.tuned import with_tuned_numbers
+from hexdbb.evidence.tuned import with_numbers_of, with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
 
@@ -126,6 +126,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)
     node, wider = or_one_place(search, *without_stand_ins(search, node, refined(search, node)))
+    node = with_numbers_of(search, node, wider)
     causes, refinements = _grouped(search, node)
     known = {each.name for each in node.hypotheses}
     for each in wider.hypotheses:

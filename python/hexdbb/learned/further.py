@@ -81,7 +81,7 @@ def each_way(variable: Variable, by: str, words: str) -> Variable:
     return replace(
         variable,
         name=f"{variable.name}_each_way",
-        words=f"{variable.words}, for either {words} of its own",
+        words=f"{variable.words}, each {words} by itself",
         times=by,
         parts=(variable.name,),
         each_way=True,

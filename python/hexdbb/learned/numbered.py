@@ -20,6 +20,8 @@ from dataclasses import replace
 
 from hexdbb.learned.variable import OF_MEMORY, Variable
 
+NUMBERED = "@"
+"""In the name of a variable: what follows are the numbers."""
 PERIOD_SPLINES = 8
 """Splines of a period that the readings chose: a sine with two harmonics."""
 REPEATING = {

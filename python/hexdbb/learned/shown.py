@@ -60,7 +60,8 @@ def sentence(hypothesis: Learned, curve: Curve, period: float = 0.0, function: i
     band = float(np.median(curve.sigma_mm)) * UM_PER_MM
     known = "" if np.isnan(band) else f" (± {band:.2f} µm)"
     over = f" over the {curve.variable}" if curve.column and form.kind != "step" else ""
-    return f"{place_words(hypothesis, function)}{over}: {form.text}{known}"
+    both = ", alike both ways" if hypothesis.variable.each_way and not curve.times else ""
+    return f"{place_words(hypothesis, function)}{over}: {form.text}{both}{known}"
 
 
 def rows(curve: Curve) -> list[tuple[str, str, str]]:

@@ -26,7 +26,7 @@ def discovery_pages(found: Discovery) -> list[Page]:
         if form is not None:
             title = _form_title(found, cause) if form.formula else ""
             drawn = partial(learned_figure, form.model, form.name, form.formula, title)
-            pages.append(Page(f"cause-{cause.choice.replace(':', '-')}", drawn))
+            pages.append(Page(f"cause-{_in_a_file_name(cause.choice)}", drawn))
     return [*pages, Page("residual", partial(_residual, found))]
 
 
@@ -36,7 +36,7 @@ def diagnosis_pages(found: Diagnosis) -> list[Page]:
     title = f"Residual of the fitted model: {found.rms_after_um:.2f} µm RMS, noise {noise_um:.2f} µm"
     residual = Page("residual", partial(residual_figure, found.samples, found.residual_mm, title=title))
     names = [term.effect for term in found.model.learned]
-    return [residual, *(Page(each.replace(":", "-"), partial(learned_figure, found.model, each)) for each in names)]
+    return [residual, *(Page(_in_a_file_name(each), partial(learned_figure, found.model, each)) for each in names)]
 
 
 def _form_title(found: Discovery, cause: Cause) -> str:
@@ -58,3 +58,8 @@ def _residual(found: Discovery) -> Figure:
 
 def _title(causes: tuple[Cause, ...]) -> str:
     return f"Residual before and after {' + '.join(each.choice for each in causes)}"
+
+
+def _in_a_file_name(effect: str) -> str:
+    """Return an effect's name as a part of a file's: numbers of instants, or of two states, are parted by slashes."""
+    return effect.replace(":", "-").replace("/", "-")

@@ -17,6 +17,7 @@ from hexdbb import _core
 from hexdbb.discovery import Discovery, discover
 from hexdbb.kinematics import engine_machine
 from hexdbb.model import new_model
+from hexdbb.plots.analysis_pages import discovery_pages
 from hexdbb.record import read_record
 from hexdbb.samples import Samples
 
@@ -286,3 +287,11 @@ def test_forms_of_their_own_do_not_hide_effects(name: str, causes: set[str]) -> 
     assert {each.choice for each in found.causes} == causes
     deviations = [each.form_deviation for each in found.causes]
     assert max(deviations) < 0.25
+
+
+@pytest.mark.long
+def test_pictures_of_two_states_are_files_of_one_folder() -> None:
+    """Their two numbers are parted by a slash, as instants of steps are."""
+    names = [each.suffix for each in discovery_pages(found_in("spring-snaps"))]
+    assert names[0].startswith("cause-learned-slider-6-drive_load_relay@")
+    assert not any("/" in each or ":" in each for each in names)
