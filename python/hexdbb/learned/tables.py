@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.learned.hypothesis import Push
+from hexdbb.learned.numbered import RELAY
+from hexdbb.learned.variable import OF_MEMORY
 
 Floats = NDArray[np.float64]
 
@@ -40,6 +42,11 @@ class Curve:
     value_mm: Floats
     sigma_mm: Floats
     samples: Floats
+
+    @property
+    def has_states(self) -> bool:
+        """Whether its places are two states, between which there is nothing."""
+        return f"{OF_MEMORY}{RELAY}@" in self.column
 
 
 @dataclass(frozen=True)

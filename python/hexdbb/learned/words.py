@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hexdbb.learned.forms import Fit, Floats, fits
-from hexdbb.learned.numbered import RELAY, turns_gradually
+from hexdbb.learned.numbered import turns_gradually
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.variable import BENT, ELAPSED, OF_MEMORY
 
@@ -78,7 +78,7 @@ def describe(curve: Curve, period: float = 0.0) -> Form:
         return Form("nothing", None, "not distinguishable from zero")
     if len(curve.at) < 2:
         return Form("constant", None, f"{curve.value_mm[0] * UM_PER_MM:.2f} µm{turned}")
-    if len(curve.at) == 2 and f"{OF_MEMORY}{RELAY}@" in curve.column:
+    if curve.has_states:
         apart_um = UM_PER_MM * float(np.ptp(curve.value_mm))
         return Form("two states", None, f"{apart_um:.3g} µm from one to the other")
     if len(curve.at) == 2:

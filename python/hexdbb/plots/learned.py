@@ -24,6 +24,9 @@ SUPTITLE_CHARACTERS = 85
 BAND_SIGMAS = 2.0
 """Half the band's width in standard deviations: 95 % of the probability."""
 
+STATES, STATE_NAMES = (-1.0, 1.0), ("back", "over")
+"""Values of a variable of two states, and what a picture calls them."""
+
 
 @styled
 def learned_figure(model: Model, name: str, formula: Sequence[Curve] = (), title: str = "") -> Figure:
@@ -75,9 +78,13 @@ def _draw_function(axes: Axes, curve: Curve, formula: Curve | None) -> None:
     _, at = shown_places(curve)
     value_um, band_um = UM_PER_MM * curve.value_mm, BAND_SIGMAS * UM_PER_MM * np.nan_to_num(curve.sigma_mm)
     marker = "o" if len(at) == 1 else None
-    axes.fill_between(at, value_um - band_um, value_um + band_um, color=BAND_COLOUR, alpha=0.3, linewidth=0.0)
     label = f"as the readings have it, ± {BAND_SIGMAS:g} standard deviations"
-    axes.plot(at, value_um, color=FUNCTION_COLOUR, linewidth=1.5, label=label, marker=marker)
+    if curve.has_states:
+        axes.errorbar(at, value_um, band_um, color=FUNCTION_COLOUR, label=label, fmt="o", capsize=4.0)
+        axes.set_xticks(STATES, STATE_NAMES)
+    else:
+        axes.fill_between(at, value_um - band_um, value_um + band_um, color=BAND_COLOUR, alpha=0.3, linewidth=0.0)
+        axes.plot(at, value_um, color=FUNCTION_COLOUR, linewidth=1.5, label=label, marker=marker)
     if formula is not None:
         axes.plot(
             at,
@@ -95,6 +102,11 @@ def _draw_function(axes: Axes, curve: Curve, formula: Curve | None) -> None:
 def _draw_samples(axes: Axes, curve: Curve, above: Axes, is_log: bool) -> None:
     """Draw how densely the samples lie along the variable."""
     unit, at = shown_places(curve)
+    if curve.has_states:
+        axes.bar(at, np.nan_to_num(curve.samples), 0.1, color=RULE_COLOUR)
+        axes.set_xticks(STATES, STATE_NAMES)
+        axes.set(yticks=[], xlim=above.get_xlim(), xlabel=curve.variable, ylabel="samples")
+        return
     widths = np.gradient(np.log(at) if is_log else at) if len(at) > 1 else np.ones(1)
     axes.fill_between(at, np.nan_to_num(curve.samples) / widths, color=RULE_COLOUR, step="mid")
     axes.set(yticks=[], xlim=above.get_xlim(), ylim=(0.0, None))
