@@ -86,6 +86,8 @@ def with_best_number(search: Search, trial: Trial, place: int) -> Trial:
     for _ in range(1 if hypothesis.variable.period else search.criteria.constant_rounds):
         member = trial.members[place]
         moved = best_number(search.trials, trial, member)
+        if moved.name != member.hypothesis.name and moved.name in trial.names:
+            break  # another function of the set has this number already: at the limit two may meet
         search.count_as(moved, hypothesis)
         try:
             members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])

@@ -52,7 +52,7 @@ def with_turning(search: Search, node: Node) -> Node:
 def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
     assert isinstance(member.hypothesis, Learned)
     gained, gradual = max(_scored(search, node, member, member.hypothesis), key=lambda each: each[0])
-    if gained < search.criteria.detect_nats:
+    if gained < search.criteria.detect_nats or gradual.name in node.trial.names:
         return node
     turned = replace(member, hypothesis=gradual)
     try:
