@@ -70,7 +70,7 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     few = thinned.linear(linear)
     few_s = thinned.readings.state["time_s"]
     temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
-    in_time = _InTime(few, thinned.readings, criteria)
+    in_time = InTime(few, thinned.readings, criteria)
     scans = [(_Scan(in_time, _answers(thinned.readings, *at), temper, criteria), *at) for at in _shifting()]
     # One step tells which places shift; a second and further ones are sought at the best of them only.
     scans = sorted(scans, key=lambda each: -each[0].gains([]).max())[: criteria.full_fits]
@@ -82,7 +82,7 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     if not found:
         return []
     found.sort(key=lambda each: -each[0])
-    chosen, in_time = [], _InTime(linear, readings, criteria)
+    chosen, in_time = [], InTime(linear, readings, criteria)
     for _, place, element, instants, log_prior in found:
         whole = _Scan(in_time, _answers(readings, place, element), temper, criteria)
         refined = whole.refined(instants, float(np.median(np.diff(np.unique(few_s)))))
@@ -90,7 +90,7 @@ def _steps(linear: Linear, readings: Readings, thinned: Thinned, criteria: Crite
     return chosen
 
 
-class _InTime:
+class InTime:
     """Rows in order of time, the model's own values eliminated: white columns J L^-T of L L' = J'J + I."""
 
     def __init__(self, linear: Linear, readings: Readings, criteria: Criteria) -> None:
@@ -113,7 +113,7 @@ class _Scan:
 
     Parameters
     ----------
-    rows : _InTime
+    rows : InTime
     pushes : ndarray, shape (n, c)
         Of what shifts, in the readings' order.
     temper : float
@@ -121,7 +121,7 @@ class _Scan:
     criteria : Criteria
     """
 
-    def __init__(self, rows: _InTime, pushes: Floats, temper: float, criteria: Criteria) -> None:
+    def __init__(self, rows: InTime, pushes: Floats, temper: float, criteria: Criteria) -> None:
         self.step_mm = criteria.step_mm
         self.of, self.pushes, self.temper = rows, pushes[rows.order], temper
         self.at_change, self.time_s = rows.at_change, rows.time_s

@@ -8,11 +8,13 @@ splines, and for periods and time constants (`number.py`) that are right beside 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.readings import Linear
@@ -113,7 +115,8 @@ def with_numbers_of(search: Search, node: Node, wider: Node) -> Node:
             moved = hypothesis.with_number(number_of(tuned.variable))
             search.count_as(moved, hypothesis)
             members = (*node.members[:place], replace(member, hypothesis=moved), *node.members[place + 1 :])
-            node = search.node(members, near=node)
+            with suppress(RunError):
+                node = search.node(members, near=node)
     return node
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.proposals import Proposal
+from hexdbb.evidence.proposals import InTime, Proposal
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned, two_states
@@ -83,12 +83,7 @@ class _Rows:
 
     def __init__(self, linear: Linear, readings: Readings, criteria: Criteria) -> None:
         self._readings, self._step_mm = readings, criteria.step_mm
-        self._order = np.argsort(readings.state["time_s"], kind="stable")
-        information = linear.normal[:-1, :-1] + np.eye(linear.own.shape[1])
-        inverse = np.linalg.inv(np.linalg.cholesky(information))
-        self._white = linear.own[self._order] @ inverse.T
-        self._residual = linear.residual[self._order]
-        self._fitted = inverse @ (linear.normal[:-1, -1] - linear.standing)
+        self._in_time = InTime(linear, readings, criteria)
         self._temper = 1.0 + criteria.temper**2 * max(float(np.mean(linear.residual**2)) - 1.0, 0.0)
 
     def best_of_all(self, of: Learned) -> _Best:
@@ -117,7 +112,7 @@ class _Rows:
         return gain, pair
 
     def _values(self, of: Learned) -> Floats:
-        found: Floats = self._readings.state[of.variable.column][self._order, of.element - 1]
+        found: Floats = self._readings.state[of.variable.column][self._in_time.order, of.element - 1]
         return found
 
     def _gains(self, of: Learned, low: Floats, high: Floats) -> Floats:
@@ -125,9 +120,9 @@ class _Rows:
         states = states_of(self._values(of)[:, None], low, high)
         axes = [of.pushes(axis, self._readings.state.machine) for axis in range(of.components)]
         answers = (self._readings.answer([push for _, ports in each for push in ports]) for each in axes)
-        pushes = np.stack([each[self._order] for each in answers])
-        half = np.stack([(self._white * each[:, None]).T @ states for each in pushes])  # (axes, k, m)
-        gradient = (pushes * self._residual) @ states - np.tensordot(half, self._fitted, axes=(1, 0))
+        pushes = np.stack([each[self._in_time.order] for each in answers])
+        half = np.stack([(self._in_time.white * each[:, None]).T @ states for each in pushes])  # (axes, k, m)
+        gradient = (pushes * self._in_time.residual) @ states - np.tensordot(half, self._in_time.fitted, axes=(1, 0))
         # The square of a state is one, but where neither number is reached.
         square = (pushes[:, None, :] * pushes[None, :, :]) @ np.abs(states)
         information = (square - np.einsum("akm,bkm->abm", half, half)).transpose(2, 0, 1)
