@@ -11,7 +11,7 @@ from hexdbb.evidence.proposals import Proposal
 from hexdbb.evidence.readings import Readings
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying, varying
-from hexdbb.learned import ALL, Learned, further_hypotheses, grown_with_warmth, products
+from hexdbb.learned import ALL, Learned, crossed_hypotheses, further_hypotheses, grown_with_warmth, products
 from hexdbb.learned.numbered import step
 from hexdbb.learned.variables import BAR_AZIMUTH
 
@@ -82,6 +82,7 @@ class Learnable:
         self.products = list(varying(products(), readings)) if learns else []
         self.of_forms = _of_forms(readings) if learns else []
         self._further: dict[str, Learned] = {}
+        self._crossed: dict[str, Learned] = {}
         self._chosen: dict[Learned, float] = {}
 
     @property
@@ -91,6 +92,14 @@ class Learnable:
             every = varying(further_hypotheses(), self._readings)
             self._further = {each.name: each for each in every if not self._is_angle(each)}
         return self._further
+
+    @property
+    def crossed(self) -> dict[str, Learned]:
+        """Those that are looked at last: every state at every place, and products of any two; made when first asked."""
+        if not self._crossed:
+            every = varying(crossed_hypotheses(), self._readings)
+            self._crossed = {each.name: each for each in every if not self._is_angle(each)}
+        return self._crossed
 
     def _is_angle(self, learned: Learned) -> bool:
         """Check for a function of the platform's position if that follows from the circle's angle."""
@@ -106,16 +115,19 @@ class Learnable:
 
     def is_further(self, hypothesis: Hypothesis) -> bool:
         """Check whether a hypothesis is one of those that are looked at where no simple one settles."""
-        return hypothesis.name in self._further
+        return hypothesis.name in self._further or hypothesis.name in self._crossed
 
     @property
     def by_name(self) -> dict[str, Learned]:
         """All that were looked at, those that the readings propose among them."""
-        return self._further | {each.name: each for each in (*self.products, *self.simple, *self._chosen)}
+        return (
+            self._further | self._crossed | {each.name: each for each in (*self.products, *self.simple, *self._chosen)}
+        )
 
     def log_prior(self, hypothesis: Learned) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
         count = len(self.simple) + (len(self._further) if self.is_further(hypothesis) else 0)
+        count += len(self._crossed) if hypothesis.name in self._crossed else 0
         return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
 
     def propose(self, proposed: Sequence[Proposal]) -> None:

@@ -120,17 +120,36 @@ def screened_finer(search: Search, base: Trial, screen: Screen) -> list[Scored]:
         Of its linearisation.
     """
     criteria, readings = search.criteria, search.engine.readings
-    every = (*search.learnable.simple, *search.learnable.further.values())
-    taken = {(part_of(home), home.element) for member in base.members for home in kin_of(search, member.hypothesis)}
-    finer = [
-        each.finer(FINER_TIMES)
-        for each in _absent(base, every)
-        if each.variable.is_smooth and not any(each.is_within(*place) for place in taken)
-    ]
+    every = _elsewhere(search, base, (*search.learnable.simple, *search.learnable.further.values()))
+    finer = [each.finer(FINER_TIMES) for each in every if each.variable.is_smooth]
     few = [each for each in finer if each.components * each.variable.columns <= criteria.most_finer]
-    # Their signatures are large, and serve once.
-    thinned = Thinned(readings, criteria.fewest_rows, criteria.ranking_roughness)
-    return Screen(screen.sums, criteria, thinned).learned(list(varying(few, readings)))
+    return _screened_once(search, screen, list(varying(few, readings)))
+
+
+def screened_crossed(search: Search, base: Trial, screen: Screen) -> list[Scored]:
+    """Screen the functions that are looked at last beside those of a trial, at other places than its own.
+
+    Parameters
+    ----------
+    search : Search
+    base : Trial
+    screen : Screen
+        Of its linearisation.
+    """
+    return _screened_once(search, screen, _elsewhere(search, base, search.learnable.crossed.values()))
+
+
+def _screened_once(search: Search, screen: Screen, every: list[Learned]) -> list[Scored]:
+    """Screen functions on few rows: signatures of thousands of functions are large, and serve once."""
+    criteria = search.criteria
+    thinned = Thinned(search.engine.readings, criteria.fewest_rows, criteria.ranking_roughness)
+    return Screen(screen.sums, criteria, thinned).learned(every)
+
+
+def _elsewhere(search: Search, base: Trial, every: Iterable[Learned]) -> list[Learned]:
+    """Return the functions that a trial does not have, at other places than those of its members."""
+    taken = {(part_of(home), home.element) for member in base.members for home in kin_of(search, member.hypothesis)}
+    return [each for each in _absent(base, every) if not any(each.is_within(*place) for place in taken)]
 
 
 def _absent(base: Trial, every: Iterable[Learned]) -> list[Learned]:

@@ -7,7 +7,7 @@ so that two faults of one size, of which either alone explains half, are found t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -30,7 +30,7 @@ from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import in_other_words, screened, screened_finer, screened_further
+from hexdbb.evidence.screened import in_other_words, screened, screened_crossed, screened_finer, screened_further
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form, settles
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
@@ -40,6 +40,7 @@ from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned, settling
 
 Floats = NDArray[np.float64]
+ScreenedLast = Callable[["Search", Trial, Screen], list[Scored]]
 
 
 @dataclass
@@ -134,11 +135,14 @@ class Search:
                 together = or_known_together(self, best)
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
-            if learns and not is_complete(self, best):
-                finer = self._needed(child for node in starts for child in self._finer(node))
-                beam = self._kept([*children, *finer])
-                best = best_of(self, best, (each for each in finer if predicts(self, each)))
-                if size == 0 and finer and not best.is_known:
+            for screened_last in (screened_finer, screened_crossed) if learns else ():
+                if is_complete(self, best):
+                    break
+                found = self._needed(child for node in starts for child in self._last(node, screened_last))
+                children = [*children, *found]
+                beam = self._kept(children)
+                best = best_of(self, best, (each for each in found if predicts(self, each)))
+                if size == 0 and found and not best.is_known:
                     best = or_one_fine_enough(self, best)
             if size == 0 and len(together.members) > 1:
                 beam = [together, *beam]
@@ -239,11 +243,11 @@ class Search:
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 
-    def _finer(self, node: Node) -> list[Node]:
-        """Return sets with a function of many splines beside known effects that predict, or beside nothing."""
+    def _last(self, node: Node, screened_last: ScreenedLast) -> list[Node]:
+        """Return sets with a function that is looked at last beside known effects that predict, or beside nothing."""
         if not (node.is_known and predicts(self, node)):
             return []
-        scored = screened_finer(self, node.trial, self.screen(node))
+        scored = screened_last(self, node.trial, self.screen(node))
         count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
         found = self.tried(node, shortlist(scored, count, self.criteria.most_of_one_effect))
         self.nodes += found

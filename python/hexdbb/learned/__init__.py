@@ -5,7 +5,14 @@ its function is a penalised spline (`splines`), and `words` puts the fitted func
 """
 
 from hexdbb.learned.hypothesis import FINER, Directed, Learned, part_of
-from hexdbb.learned.listed import further_hypotheses, grown_with_warmth, hypotheses, products, settling
+from hexdbb.learned.listed import (
+    crossed_hypotheses,
+    further_hypotheses,
+    grown_with_warmth,
+    hypotheses,
+    products,
+    settling,
+)
 from hexdbb.learned.numbered import (
     has_chosen_number,
     is_directed,
@@ -34,6 +41,7 @@ __all__ = [
     "Table",
     "Variable",
     "describe",
+    "crossed_hypotheses",
     "further_hypotheses",
     "grown_with_warmth",
     "has_chosen_number",

@@ -6,7 +6,7 @@ load contains a lag. So they are no candidates while a simpler function explains
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
@@ -43,8 +43,16 @@ FACTORS = {
     "speed": ("speed_mm_s", "speed of the platform"),
     "circle_direction": ("direction", "direction of the circle"),
     "deflection_direction": ("deflection_direction", "sense in which the gauge moves"),
+    "drive_load": ("drive_load", "force along the guideway"),
+    "joint_rate": ("slider_joint_rate_rad_s", "turning rate of the slider's joint"),
+    "joint_angle": ("slider_joint_angle_rad", "angle of the slider's joint"),
 }
 """What may multiply a function: name, column and words."""
+FACTORS |= {
+    f"neighbour_{name}": (f"neighbour_{column}", f"{words} of the other slider on the guideway")
+    for name, (column, words) in FACTORS.items()
+    if name in ("velocity", "acceleration", "direction")
+}
 
 
 def is_slow(variable: Variable) -> bool:
@@ -88,7 +96,8 @@ def each_way(variable: Variable, by: str, words: str) -> Variable:
     )
 
 
-def _neighbour(variable: Variable) -> Variable:
+def neighbour(variable: Variable) -> Variable:
+    """Return the variable of the other slider, or leg, on the guideway."""
     words = variable.words.replace("of the slider", "of the other slider on the guideway")
     words = words.replace("of the leg", "of the other leg of the pair")
     return replace(variable, name=f"neighbour_{variable.name}", words=words, of_neighbour=True)
@@ -143,21 +152,23 @@ PRODUCTS_OF_READING = (
 )
 
 
-def _of_drives(variable: Variable) -> Iterator[Variable]:
-    for slider in range(1, 7):
-        yield replace(
-            variable,
-            name=f"slider_{slider}_{variable.name}",
-            of_element=slider,
-            words=variable.words.replace("the slider", f"slider {slider}"),
-        )
+def of_drives(variables: Iterable[Variable]) -> Iterator[Variable]:
+    """Yield each variable of each slider and its leg, whatever is pushed."""
+    for variable in variables:
+        for slider in range(1, 7):
+            yield replace(
+                variable,
+                name=f"slider_{slider}_{variable.name}",
+                of_element=slider,
+                words=variable.words.replace("the slider", f"slider {slider}").replace("the leg", f"leg {slider}"),
+            )
 
 
-CROSSED = tuple(_of_drives(v.VELOCITY))
+CROSSED = tuple(of_drives((v.VELOCITY,)))
 """A controller may send the feed-forward of one drive to another."""
-CROSSTALK = (*CROSSED, *_of_drives(v.ACCELERATION))
+CROSSTALK = (*CROSSED, *of_drives((v.ACCELERATION,)))
 """The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
-NEIGHBOURS = tuple(map(_neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
+NEIGHBOURS = tuple(map(neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
 OF_PAIR_OF_SLIDERS = (
     *(v.POSITION, v.FINE_POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.FORCE),
     *(v.TIME, v.TIME_POSITION, v.WARMING, v.SCREW_PHASE, v.GAP),
@@ -238,7 +249,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,
     "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
-    "cup": (*OF_BALL, *COURSES, *LEANING, *_of_drives(v.POSITION)),
+    "cup": (*OF_BALL, *COURSES, *LEANING, *of_drives((v.POSITION,))),
     "reading": (*PRODUCTS_OF_READING, *READING_EACH_WAY, *_remembered(v.DEFLECTION), *SINCE_START, *CROSSTALK),
 }
 """Further variables of single elements by place."""

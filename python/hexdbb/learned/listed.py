@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
+from hexdbb.learned.crossed import CROSSED
 from hexdbb.learned.hypothesis import Learned
 from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, members, single
 
@@ -55,6 +56,13 @@ def further_hypotheses() -> Iterator[Learned]:
         yield from (Learned(place, pair, each) for pair in PAIRS.values() for each in variables)
     for place, variables in further.OF_WHOLE.items():
         yield from (Learned(place, ALL, each) for each in variables)
+
+
+def crossed_hypotheses() -> Iterator[Learned]:
+    """Yield the hypotheses that are looked at last: every state of single elements, and products of any two."""
+    for place, variables in CROSSED.items():
+        for element in single(place):
+            yield from (Learned(place, element, each) for each in variables if element != ALL or place not in SHARED)
 
 
 def _is_of_own_pair(learned: Learned) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
+from hexdbb.learned.crossed import CROSSED
 from hexdbb.learned.variable import Variable
 
 PREFIX = "learned"
@@ -61,12 +62,12 @@ def is_learned(name: str) -> bool:
 
 
 def variables_of(place: str, element: int) -> tuple[Variable, ...]:
-    """Return the variables of an element of a place, the simple ones first."""
+    """Return the variables of an element of a place, the simple ones first, those that are looked at last at the end."""
     if element in PAIRS.values():
         return further.OF_PAIRS[place]
     if element == ALL and place in further.OF_WHOLE:
         return further.OF_WHOLE[place]
-    return (*VARIABLES[place], *further.FURTHER.get(place, ()))
+    return (*VARIABLES[place], *further.FURTHER.get(place, ()), *CROSSED.get(place, ()))
 
 
 def single(place: str) -> list[int]:

@@ -39,6 +39,11 @@ TIMES = {
     "course_in_platform": ", along the direction in which the platform moves",
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
+    "drive_load": ", for each unit of force along the guideway",
+    "slider_joint_angle_rad": ", for each rad of the joint's angle",
+    "neighbour_velocity_mm_s": ", for each mm/s of the other slider's velocity",
+    "neighbour_acceleration_mm_s2": ", for each mm/s² of the other slider's acceleration",
+    "neighbour_travel_direction": ", its sign turning over with the other slider's direction of travel",
 }
 GRADUAL = ", its sign changing smoothly with the direction of motion"
 

@@ -31,6 +31,7 @@ from hexdbb.samples.deflection import (
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
+from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
@@ -45,6 +46,8 @@ STATE = tuple(column.name for column in _core.state_columns() if column.name not
 """Columns of the engine's state that a table may have; the engine itself numbers the rows of a part."""
 GIVEN = ("time_s", "sweep", "angle_rad")
 """Columns of the state from which, with the sliders, all that the engine derives follows."""
+OF_GAUGE = (DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
+"""Columns of the gauge."""
 PLANNED = "planned"
 """Takes the place of a record's hash in the mounts of a plan, of which no record exists."""
 
@@ -78,7 +81,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, *TURN, DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, *NEIGHBOURS, *TURN, *OF_GAUGE)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -112,6 +115,9 @@ class Whole:
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
         elif name == GAP:
             self.columns[name] = gaps_mm(*self._known(GAP_FROM))
+        elif name in NEIGHBOURS:
+            (own,) = self._known(NEIGHBOURS[name])
+            self.columns[name] = of_neighbours(own)
         elif name in TURN:
             (sliders_mm,) = self._known(TURN_FROM)
             self.columns |= turns(sliders_mm, self.machine.sliders.screw_lead_mm)

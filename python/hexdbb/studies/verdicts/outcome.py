@@ -46,6 +46,8 @@ VARIABLES = {
     "circle_direction": ("direction",),
     "deflection_direction": ("deflection", "direction"),
     "joint_direction": ("joint_turning",),
+    "joint_rate": ("joint_turning",),
+    "joint_since_reversal": ("since_reversal", "joint_turning"),
     "deflection_since_turn": ("deflection", "direction"),
     "drive_load": ("leg_force",),
     "carriage_load": ("leg_force",),
@@ -191,7 +193,8 @@ def _truths_words(variable: Variable) -> list[set[str]]:
         name = name.removesuffix(f"_{how}")
     parts = (name,) if name in VARIABLES or not variable.parts else variable.parts
     # The truth may ask for the memory itself.
-    return [{whole, *VARIABLES.get(each, (each,))} for each in parts]
+    own = (re.sub(OF_ANOTHER, "", each) for each in parts)
+    return [{whole, *VARIABLES.get(each, (each,))} for each in own]
 
 
 def _is_stated(label: Label, effect: str, number: str) -> bool:

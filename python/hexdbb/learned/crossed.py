@@ -1,0 +1,102 @@
+"""Every state at every place, and products of any two of them: looked at last, where nothing else explains enough.
+
+`variables.py` and `further.py` list what machines are known to do. A machine may do something else: the ones here follow
+from no experience but from closure, so that a cause which is a function of one state, or of one state times another,
+is found at its place whatever it is. There are several times as many as of all others, and most differ little from
+one of those: hence last, and each with the prior of one among them all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from hexdbb.learned import variables as v
+from hexdbb.learned.further import (
+    FACTORS,
+    FURTHER,
+    OF_BALL,
+    SPLINES,
+    neighbour,
+    of_drives,
+    product,
+)
+from hexdbb.learned.variable import Variable
+
+JOINT_TRAVEL = replace(v.JOINT_SINCE_REVERSAL, of_forms=False)
+OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.ROLL, v.PITCH, v.YAW)
+"""States of the platform and of its path."""
+OF_TIME = (v.TIME, v.FINE_TIME, v.TIME_IN_SWEEP, v.SINCE_FIXING, v.WARMING)
+OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)
+OF_SWING = (v.SWING, v.SWING_ANGLE, v.INCLINATION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE)
+OF_CARRIAGE = (
+    *(v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.VELOCITY, v.ACCELERATION),
+    *(v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.GAP),
+)
+OF_OTHER = tuple(
+    neighbour(each)
+    for each in (
+        *(v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.ACCELERATION, v.FORCE),
+        *(v.TURNING, v.JOINT_ANGLE),
+    )
+)
+"""States of the other slider and leg on the guideway."""
+OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
+OF_BAR = (v.BAR_ANGLE, v.BAR_AZIMUTH, v.BAR_ELEVATION, v.DEFLECTION, v.SINCE_TURN, v.TURNED)
+OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
+
+_MOVING = (v.POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.JOINT_ANGLE, v.TURNING)
+MULTIPLIED = (*_MOVING, v.SWING_ANGLE, v.TIME, v.TIME_IN_SWEEP, v.WARMING, v.SPEED, v.ANGLE, v.SCREW_PHASE)
+"""Variables of which functions are multiplied, at an element."""
+FACTORS_OF_ELEMENT = (
+    *("velocity", "acceleration", "leg_force", "drive_load", "direction", "joint_direction", "joint_rate"),
+    *("joint_angle", "time", "warming", "speed", "circle_direction"),
+    *("neighbour_velocity", "neighbour_direction", "neighbour_acceleration"),
+)
+MULTIPLIED_OF_BAR = (*OF_BAR[:4], v.ANGLE, v.SPEED, v.TIME, v.TIME_IN_SWEEP, v.WARMING, v.ROLL, v.PITCH, v.YAW)
+FACTORS_OF_BAR = ("deflection", "time", "warming", "speed", "circle_direction", "deflection_direction")
+
+
+def _products(factors: Iterable[str], variables: Iterable[Variable]) -> Iterator[Variable]:
+    """Yield functions of each variable times each factor, not times the variable itself."""
+    for variable in variables:
+        for factor in factors:
+            column, _ = FACTORS[factor]
+            if column != variable.column and factor != variable.name:
+                yield product(factor, variable)
+
+
+def _besides(place: str, every: Iterable[Variable], count: int = 0) -> tuple[Variable, ...]:
+    """Return variables that a place does not have yet, one of each name, `count` splines at most where that is given."""
+    simple = {"slider": v.OF_SLIDER, "leg": v.OF_LEG, "platform_joint": v.OF_PLATFORM_JOINT, "reading": v.OF_READING}
+    simple |= {"lateral": v.OF_GUIDEWAY, "vertical": v.OF_GUIDEWAY, "ball": v.OF_BALL, "cup": v.OF_BALL}
+    known = {each.name for each in (*simple.get(place, ()), *FURTHER[place])}
+    new = {each.name: each for each in every if each.name not in known}
+    few = (replace(each, count=min(each.count, count)) if count else each for each in new.values())
+    return tuple(few)
+
+
+CROSSED: dict[str, tuple[Variable, ...]] = {
+    place: _besides(place, (*OF_ELEMENT, *_products(FACTORS_OF_ELEMENT, MULTIPLIED)))
+    for place in ("slider", "leg", "lateral", "vertical")
+}
+"""Variables by place that neither the simple nor the further ones of that place are."""
+CROSSED |= {
+    # Along several axes each function costs several times as much, and bends little.
+    "slider_joint": _besides("slider_joint", OF_ELEMENT, SPLINES),
+    "platform_joint": _besides("platform_joint", OF_ELEMENT, SPLINES),
+    "reading": _besides(
+        "reading",
+        (*OF_BAR, *OF_PATH, *OF_TIME, *of_drives(OF_EACH_DRIVE), *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR)),
+    ),
+    **{
+        place: _besides(
+            place,
+            (
+                *(*OF_BAR, *OF_PATH, *OF_TIME, *OF_BALL, *of_drives(OF_EACH_DRIVE)),
+                *_products(("time", "speed", "circle_direction"), (v.BAR_ANGLE, v.ANGLE, v.TIME, v.SPEED)),
+            ),
+        )
+        for place in ("ball", "cup")
+    },
+}
