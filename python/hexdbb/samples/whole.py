@@ -31,9 +31,9 @@ from hexdbb.samples.deflection import (
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
-from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
+from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
