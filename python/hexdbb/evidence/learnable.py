@@ -115,7 +115,11 @@ class Learnable:
 
     def is_further(self, hypothesis: Hypothesis) -> bool:
         """Check whether a hypothesis is one of those that are looked at where no simple one settles."""
-        return hypothesis.name in self._further or hypothesis.name in self._crossed
+        return hypothesis.name in self._further or self.is_crossed(hypothesis)
+
+    def is_crossed(self, hypothesis: Hypothesis) -> bool:
+        """Check whether a hypothesis is one of those that are looked at last."""
+        return hypothesis.name in self._crossed
 
     @property
     def by_name(self) -> dict[str, Learned]:
@@ -127,7 +131,7 @@ class Learnable:
     def log_prior(self, hypothesis: Learned) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""
         count = len(self.simple) + (len(self._further) if self.is_further(hypothesis) else 0)
-        count += len(self._crossed) if hypothesis.name in self._crossed else 0
+        count += len(self._crossed) if self.is_crossed(hypothesis) else 0
         return self._chosen.get(hypothesis, 0.0) - float(np.log(max(count, 1)))
 
     def propose(self, proposed: Sequence[Proposal]) -> None:

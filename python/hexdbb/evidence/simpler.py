@@ -36,7 +36,9 @@ def _instead(search: Search, node: Node, member: Member) -> Iterator[Node]:
     product = member.hypothesis
     if not isinstance(product, Learned):
         return
-    varying = {*search.learnable.simple, *search.learnable.further.values()}
+    learnable = search.learnable
+    last = learnable.crossed.values() if learnable.is_crossed(product) else ()
+    varying = {*learnable.simple, *learnable.further.values(), *last}
     parts = [each for each in product.parts if each in varying and each not in node.hypotheses]
     if not parts:
         return

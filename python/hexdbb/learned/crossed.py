@@ -1,9 +1,9 @@
 """Every state at every place, and products of any two of them: looked at last, where nothing else explains enough.
 
-`variables.py` and `further.py` list what machines are known to do. A machine may do something else: the ones here follow
-from no experience but from closure, so that a cause which is a function of one state, or of one state times another,
-is found at its place whatever it is. There are several times as many as of all others, and most differ little from
-one of those: hence last, and each with the prior of one among them all.
+`variables.py` and `further.py` list what machines are known to do. A machine may do something else: with the ones here,
+a cause which is a function of one state, or of one state times another, is found at its place whatever the two are.
+There are several times as many of them as of all others, and most differ little from one of those: hence they come
+last, each with the prior of one among them all.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def _products(factors: Iterable[str], variables: Iterable[Variable]) -> Iterator
 
 
 def _besides(place: str, every: Iterable[Variable], count: int = 0) -> tuple[Variable, ...]:
-    """Return variables that a place does not have yet, one of each name, `count` splines at most where that is given."""
+    """Return variables that a place does not have yet, one of each name, of `count` splines at most where given."""
     simple = {"slider": v.OF_SLIDER, "leg": v.OF_LEG, "platform_joint": v.OF_PLATFORM_JOINT, "reading": v.OF_READING}
     simple |= {"lateral": v.OF_GUIDEWAY, "vertical": v.OF_GUIDEWAY, "ball": v.OF_BALL, "cup": v.OF_BALL}
     known = {each.name for each in (*simple.get(place, ()), *FURTHER[place])}

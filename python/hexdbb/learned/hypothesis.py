@@ -24,6 +24,7 @@ from hexdbb.learned.places import (
     SHARED,
     VARIABLES,
     elements_by_name,
+    every_variable_of,
     members,
     variables_of,
 )
@@ -92,11 +93,14 @@ class Learned:
             raise InputError(f"{name}: element {given!r} (expected one of {', '.join(elements)})")
         element = elements.get(given, ALL)
         rest = ":".join(parts[2:] if elements else parts[1:])
-        every = variables_of(place, element)
+        every = every_variable_of(place, element)
         known = {each.name: each for each in reversed(every)}
         variable = known.get(rest) or numbered(rest, (*every, *RELAYS.get(place, ())))
         if variable is None:
-            raise InputError(f"{name}: variable {rest!r} (expected one of {', '.join(each.name for each in every)})")
+            listed = ", ".join(each.name for each in variables_of(place, element))
+            raise InputError(
+                f"{name}: variable {rest!r} (expected one of {listed}, or a state or product of another place)"
+            )
         return cls(place, element, variable)
 
     @property
@@ -111,7 +115,7 @@ class Learned:
 
     def with_number(self, number: float) -> Learned:
         """Return the same with another period or time constant in the variable's name."""
-        variables = variables_of(self.place, self.element)
+        variables = every_variable_of(self.place, self.element)
         return replace(self, variable=with_number(self.variable, number, variables))
 
     def is_within(self, place: str, element: int) -> bool:
@@ -154,7 +158,7 @@ class Learned:
     @property
     def parts(self) -> tuple[Learned, ...]:
         """Where the variable is a product of two states: the hypotheses of either state alone at this place."""
-        variables = {each.name: each for each in variables_of(self.place, self.element)}
+        variables = {each.name: each for each in every_variable_of(self.place, self.element)}
         return tuple(replace(self, variable=variables[name]) for name in self.variable.parts if name in variables)
 
     def finer(self, times: int) -> Learned:

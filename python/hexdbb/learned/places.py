@@ -62,12 +62,18 @@ def is_learned(name: str) -> bool:
 
 
 def variables_of(place: str, element: int) -> tuple[Variable, ...]:
-    """Return the variables of an element of a place, the simple ones first, those that are looked at last at the end."""
+    """Return the variables of an element of a place that are listed for it, the simple ones first."""
     if element in PAIRS.values():
         return further.OF_PAIRS[place]
     if element == ALL and place in further.OF_WHOLE:
         return further.OF_WHOLE[place]
-    return (*VARIABLES[place], *further.FURTHER.get(place, ()), *CROSSED.get(place, ()))
+    return (*VARIABLES[place], *further.FURTHER.get(place, ()))
+
+
+def every_variable_of(place: str, element: int) -> tuple[Variable, ...]:
+    """Return those, and the ones that are looked at last."""
+    is_single = element not in PAIRS.values() and not (element == ALL and place in (*SHARED, *further.OF_WHOLE))
+    return (*variables_of(place, element), *(CROSSED.get(place, ()) if is_single else ()))
 
 
 def single(place: str) -> list[int]:

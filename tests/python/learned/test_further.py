@@ -8,7 +8,7 @@ import pytest
 
 from hexdbb import _core
 from hexdbb.errors import InputError
-from hexdbb.learned import Learned, further_hypotheses, hypotheses, products
+from hexdbb.learned import Learned, crossed_hypotheses, further_hypotheses, hypotheses, products
 from hexdbb.learned.shown import place_words
 from hexdbb.machine import MachineFile
 from hexdbb.plan import load_plan
@@ -17,7 +17,7 @@ MACHINE: MachineFile = load_plan("thesis").machine_file()
 
 
 def test_every_name_is_parsed_back_and_stands_for_one_hypothesis() -> None:
-    every = [*hypotheses(), *further_hypotheses()]
+    every = [*hypotheses(), *further_hypotheses(), *crossed_hypotheses()]
     names = [each.name for each in every]
     assert len(set(names)) == len(names)
     assert [Learned.parse(name) for name in names] == every
