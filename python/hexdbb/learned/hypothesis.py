@@ -98,9 +98,7 @@ class Learned:
         variable = known.get(rest) or numbered(rest, (*every, *RELAYS.get(place, ())))
         if variable is None:
             listed = ", ".join(each.name for each in variables_of(place, element))
-            raise InputError(
-                f"{name}: variable {rest!r} (expected one of {listed}, or a state or product of another place)"
-            )
+            raise InputError(f"{name}: variable {rest!r} (expected one of {listed})")
         return cls(place, element, variable)
 
     @property
