@@ -148,6 +148,9 @@ class Criteria:
         Mean square (noise variances) left from which a hypothesis' remainder bends geometry, and from which a learned
         function settles nothing: it may be too coarse, turn over too sharply, or be another's. Its root is the 1.14
         times the noise that is left of a goal of 1.3 where other circles are predicted.
+    leaves_more : float
+        Mean square (noise variances) left by a learned function from which those that are looked at last are screened
+        too: seven standard deviations of it at 10,000 readings, and more than the noise is uncertain by.
     form_explains : float
         Part of the unexplained from which an effect that does not predict circles left out may still be the cause with
         another form: a form 20 % off, the largest that the calibration has, leaves 4 % of it, twice that where no
@@ -305,6 +308,7 @@ class Criteria:
     most_expansions: int = 6
     complete: float = 0.02
     leaves_structure: float = 1.3
+    leaves_more: float = 1.1
     form_explains: float = 0.9
     formula_explains: float = 1.0 / 3.0
     formula_names: float = 0.2

@@ -35,6 +35,7 @@ from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_o
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned, settling
@@ -136,7 +137,7 @@ class Search:
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
             for screened_last in (screened_finer, screened_crossed) if learns else ():
-                if is_complete(self, best):
+                if self._needs_no_other(best):
                     break
                 found = self._needed(child for node in starts for child in self._last(node, screened_last))
                 children = [*children, *found]
@@ -153,6 +154,15 @@ class Search:
                 beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
                 learns = False
         return with_known_beside(self, or_at_several(self, best_of(self, best, [together])))
+
+    def _needs_no_other(self, best: Node) -> bool:
+        """Check that a set explains all: known effects for sure, or functions that leave hardly more than noise.
+
+        Known effects that are not for sure, and a function of another state or place, however fine, stand in for what
+        is looked at last.
+        """
+        enough = is_for_sure(self, best) if best.is_known else best.trial.left < self.criteria.leaves_more
+        return is_complete(self, best) and enough
 
     def _asks_for_sets(self, best: Node) -> bool:
         """Check that what explains most alone leaves something, or is only excused, or explains much by its form."""

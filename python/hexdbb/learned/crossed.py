@@ -16,15 +16,21 @@ from hexdbb.learned.further import (
     FACTORS,
     FURTHER,
     OF_BALL,
-    SPLINES,
     neighbour,
     of_drives,
     product,
 )
+from hexdbb.learned.numbered import POSITION_SPLINES
 from hexdbb.learned.variable import Variable
 
 JOINT_TRAVEL = replace(v.JOINT_SINCE_REVERSAL, of_forms=False)
-OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.ROLL, v.PITCH, v.YAW)
+PLACED = tuple(
+    Variable(
+        f"platform_{axis}", "position_mm", "mm", f"position of the platform along {axis}", POSITION_SPLINES, axis=at
+    )
+    for at, axis in enumerate("xyz")
+)
+OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.ROLL, v.PITCH, v.YAW, *PLACED)
 """States of the platform and of its path."""
 OF_TIME = (v.TIME, v.FINE_TIME, v.TIME_IN_SWEEP, v.SINCE_FIXING, v.WARMING)
 OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)
@@ -41,8 +47,8 @@ OF_OTHER = tuple(
     )
 )
 """States of the other slider and leg on the guideway."""
-OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 OF_BAR = (v.BAR_ANGLE, v.BAR_AZIMUTH, v.BAR_ELEVATION, v.DEFLECTION, v.SINCE_TURN, v.TURNED)
+OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
 
 _MOVING = (v.POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.JOINT_ANGLE, v.TURNING)
@@ -66,14 +72,12 @@ def _products(factors: Iterable[str], variables: Iterable[Variable]) -> Iterator
                 yield product(factor, variable)
 
 
-def _besides(place: str, every: Iterable[Variable], count: int = 0) -> tuple[Variable, ...]:
-    """Return variables that a place does not have yet, one of each name, of `count` splines at most where given."""
+def _besides(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
+    """Return variables that a place does not have yet, one of each name."""
     simple = {"slider": v.OF_SLIDER, "leg": v.OF_LEG, "platform_joint": v.OF_PLATFORM_JOINT, "reading": v.OF_READING}
     simple |= {"lateral": v.OF_GUIDEWAY, "vertical": v.OF_GUIDEWAY, "ball": v.OF_BALL, "cup": v.OF_BALL}
     known = {each.name for each in (*simple.get(place, ()), *FURTHER[place])}
-    new = {each.name: each for each in every if each.name not in known}
-    few = (replace(each, count=min(each.count, count)) if count else each for each in new.values())
-    return tuple(few)
+    return tuple({each.name: each for each in every if each.name not in known}.values())
 
 
 CROSSED: dict[str, tuple[Variable, ...]] = {
@@ -82,9 +86,8 @@ CROSSED: dict[str, tuple[Variable, ...]] = {
 }
 """Variables by place that neither the simple nor the further ones of that place are."""
 CROSSED |= {
-    # Along several axes each function costs several times as much, and bends little.
-    "slider_joint": _besides("slider_joint", OF_ELEMENT, SPLINES),
-    "platform_joint": _besides("platform_joint", OF_ELEMENT, SPLINES),
+    "slider_joint": _besides("slider_joint", OF_ELEMENT),
+    "platform_joint": _besides("platform_joint", OF_ELEMENT),
     "reading": _besides(
         "reading",
         (*OF_BAR, *OF_PATH, *OF_TIME, *of_drives(OF_EACH_DRIVE), *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR)),

@@ -5,6 +5,7 @@ studies have drawn so far stay as they are.
 """
 
 from hexdbb_truth.forms import (
+    outside_anywhere,
     outside_blind,
     outside_blind_three,
     outside_blind_three_measuring,
@@ -36,6 +37,7 @@ BY_NAME_ONLY: dict[str, Outside] = {
     **outside_blind_three_structure.TABLE,
     **outside_blind_three_measuring.TABLE,
     **outside_others.TABLE,
+    **outside_anywhere.TABLE,
 }
 """Kinds by name that are in a list only where it is told to have them."""
 EVERY_OUTSIDE: dict[str, Outside] = {**OUTSIDE, **BY_NAME_ONLY}

@@ -66,6 +66,7 @@ VARIABLES = {
     "scale_period": ("deflection",),
     "acceleration_along": ("acceleration",),
     "position_along": ("position",),
+    **{f"platform_{axis}": ("position",) for axis in "xyz"},
     "course": ("direction",),
     "course_speed": ("direction", "velocity"),
 }
