@@ -20,7 +20,7 @@ from hexdbb_truth.forms import (
 )
 from hexdbb_truth.forms.fault import Fault, Outside
 
-__all__ = ["BY_NAME_ONLY", "EVERY_OUTSIDE", "OUTSIDE", "Fault", "Outside"]
+__all__ = ["ANYWHERE", "BY_NAME_ONLY", "EVERY_OUTSIDE", "OUTSIDE", "Fault", "Outside"]
 
 OUTSIDE: dict[str, Outside] = {
     **outside_drives.TABLE,
@@ -37,8 +37,9 @@ BY_NAME_ONLY: dict[str, Outside] = {
     **outside_blind_three_structure.TABLE,
     **outside_blind_three_measuring.TABLE,
     **outside_others.TABLE,
-    **outside_anywhere.TABLE,
 }
 """Kinds by name that are in a list only where it is told to have them."""
-EVERY_OUTSIDE: dict[str, Outside] = {**OUTSIDE, **BY_NAME_ONLY}
+ANYWHERE: dict[str, Outside] = outside_anywhere.TABLE
+"""Kinds by name that nobody chose: all places, pushed by all states."""
+EVERY_OUTSIDE: dict[str, Outside] = {**OUTSIDE, **BY_NAME_ONLY, **ANYWHERE}
 """Kinds that a case may name."""

@@ -14,7 +14,7 @@ from hexdbb_truth.forms.cases import (
     case,
 )
 from hexdbb_truth.forms.lists import alone, clean, combined, outside
-from hexdbb_truth.forms.outside import BY_NAME_ONLY, EVERY_OUTSIDE, OUTSIDE
+from hexdbb_truth.forms.outside import ANYWHERE, BY_NAME_ONLY, EVERY_OUTSIDE, OUTSIDE
 
 
 def test_names_tell_cases():
@@ -31,7 +31,7 @@ def test_names_tell_cases():
 
 
 def test_kinds_by_name_only_are_in_a_list_only_where_it_is_told_so():
-    assert set(EVERY_OUTSIDE) == set(OUTSIDE) | set(BY_NAME_ONLY)
+    assert set(EVERY_OUTSIDE) == set(OUTSIDE) | set(BY_NAME_ONLY) | set(ANYWHERE)
     assert not set(OUTSIDE) & set(BY_NAME_ONLY)
     assert {kind for each in outside("judge") for kind in each.kinds} == set(OUTSIDE)
     asked = list(outside("judge", (3.0, 10.0), [0], BY_NAME_ONLY))

@@ -48,7 +48,7 @@ def test_a_constant_at_a_port_is_the_error_of_geometry_that_it_is(short, port, e
     assert np.abs(shown).max() > 1e-4
 
 
-@pytest.mark.parametrize("kind", [*FAMILIES, *EVERY_OUTSIDE])
+@pytest.mark.parametrize("kind", [*FAMILIES, *OUTSIDE, *BY_NAME_ONLY])
 def test_a_fault_moves_the_element_of_its_label_alone(kind):
     one = case(f"{kind}-d{0 if kind in EVERY_OUTSIDE else 10}-x3-judge-s4")
     scene = one.measured.scene(one.history.samples[::29])
@@ -79,7 +79,7 @@ def drawn_action(one, kind):
     return one._drawn(kind)[0].action(), ()
 
 
-@pytest.mark.parametrize("kind", list(EVERY_OUTSIDE))
+@pytest.mark.parametrize("kind", [*OUTSIDE, *BY_NAME_ONLY])
 def test_a_fault_outside_the_catalogue_says_where_it_is_and_what_else_explains_it(kind):
     kindred = EVERY_OUTSIDE[kind]
     assert kindred.variables
