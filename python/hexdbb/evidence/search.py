@@ -30,7 +30,14 @@ from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import in_other_words, screened, screened_crossed, screened_finer, screened_further
+from hexdbb.evidence.screened import (
+    add_kin,
+    in_other_words,
+    screened,
+    screened_crossed,
+    screened_finer,
+    screened_further,
+)
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form, settles
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
@@ -142,7 +149,9 @@ class Search:
                 found = self._needed(child for node in starts for child in self._last(node, screened_last))
                 children = [*children, *found]
                 beam = self._kept(children)
-                best = best_of(self, best, (each for each in found if predicts(self, each)))
+                best = best_of(
+                    self, best, (each for each in found if self._is_for(each, best) and predicts(self, each))
+                )
                 if size == 0 and found and not best.is_known:
                     best = or_one_fine_enough(self, best)
             if size == 0 and len(together.members) > 1:
@@ -156,13 +165,32 @@ class Search:
         return with_known_beside(self, or_at_several(self, best_of(self, best, [together])))
 
     def _needs_no_other(self, best: Node) -> bool:
-        """Check that a set explains all: known effects for sure, or functions that leave hardly more than noise.
+        """Check that a set explains all: known effects for sure, or functions that leave, and err by, little but noise.
 
         Known effects that are not for sure, and a function of another state or place, however fine, stand in for what
         is looked at last.
         """
-        enough = is_for_sure(self, best) if best.is_known else best.trial.left < self.criteria.leaves_more
-        return is_complete(self, best) and enough
+        if not is_complete(self, best):
+            return False
+        if best.is_known:
+            return is_for_sure(self, best)
+        checked = self.checked(best)
+        errors = (checked.heldout[each].after for each in checked.claimed)
+        is_exact = all(each <= self.criteria.predicted_to for each in errors)
+        return is_exact and best.trial.left < self.criteria.leaves_more
+
+    def _is_for(self, node: Node, best: Node) -> bool:
+        """Check that a set with a function looked at last is not one of the many that explain what listed ones do.
+
+        It has more evidence, and pushes along fewer axes, or leaves far less of what those leave beyond the noise.
+        """
+        if not best.members or best.is_known:
+            return True
+        if node.score - best.score <= self.criteria.margin_nats:
+            return False
+        left, before = node.trial.left - 1.0, best.trial.left - 1.0
+        is_less = before > self.criteria.leaves_more - 1.0 and left < self.criteria.far_better * before
+        return is_less or _axes(node) < _axes(best)
 
     def _asks_for_sets(self, best: Node) -> bool:
         """Check that what explains most alone leaves something, or is only excused, or explains much by its form."""
@@ -259,7 +287,9 @@ class Search:
             return []
         scored = screened_last(self, node.trial, self.screen(node))
         count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
-        found = self.tried(node, shortlist(scored, count, self.criteria.most_of_one_effect))
+        chosen = shortlist(scored, count, self.criteria.most_of_one_effect)
+        add_kin(self, [each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned)])
+        found = self.tried(node, chosen)
         self.nodes += found
         return found
 
@@ -335,3 +365,8 @@ class Search:
 def _alike(search: Search, one: Node, other: Node) -> bool:
     """Check whether every hypothesis of one set has one of its kind in another."""
     return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
+
+
+def _axes(node: Node) -> int:
+    """Return along how many axes the functions of a set push."""
+    return sum(each.components for each in node.hypotheses if isinstance(each, Learned))
