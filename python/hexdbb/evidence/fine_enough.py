@@ -40,7 +40,8 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
         return node
     if node.members and node.is_known and is_for_sure(search, node):
         return node
-    tuned = [each for each in _tuned(search, search.criteria.explained_min) if predicts(search, each)]
+    every = (each for each in _tuned(search, search.criteria.explained_min) if search.stands_before(each, node))
+    tuned = [each for each in every if predicts(search, each)]
     best = max((node, *tuned), key=lambda each: each.score)
     if best is node or not search.learnable.is_further(best.hypotheses[0]):
         return best

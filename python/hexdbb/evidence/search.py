@@ -150,7 +150,7 @@ class Search:
                 children = [*children, *found]
                 beam = self._kept(children)
                 best = best_of(
-                    self, best, (each for each in found if self._is_for(each, best) and predicts(self, each))
+                    self, best, (each for each in found if self.stands_before(each, best) and predicts(self, each))
                 )
                 if size == 0 and found and not best.is_known:
                     best = or_one_fine_enough(self, best)
@@ -179,12 +179,13 @@ class Search:
         is_exact = all(each <= self.criteria.predicted_to for each in errors)
         return is_exact and best.trial.left < self.criteria.leaves_more
 
-    def _is_for(self, node: Node, best: Node) -> bool:
+    def stands_before(self, node: Node, best: Node) -> bool:
         """Check that a set with a function looked at last is not one of the many that explain what listed ones do.
 
         It has more evidence, and pushes along fewer axes, or leaves far less of what those leave beyond the noise.
         """
-        if not best.members or best.is_known:
+        is_last = any(self.learnable.is_crossed(each) for each in node.hypotheses)
+        if not (is_last and best.members) or best.is_known:
             return True
         if node.score - best.score <= self.criteria.margin_nats:
             return False
