@@ -146,12 +146,10 @@ class Search:
             for screened_last in (screened_finer, screened_crossed) if learns else ():
                 if self._needs_no_other(best):
                     break
-                found = self._needed(child for node in starts for child in self._last(node, screened_last))
+                found = self._needed(child for node in starts for child in self._last(node, screened_last, best))
                 children = [*children, *found]
                 beam = self._kept(children)
-                best = best_of(
-                    self, best, (each for each in found if self.stands_before(each, best) and predicts(self, each))
-                )
+                best = best_of(self, best, (each for each in found if predicts(self, each)))
                 if size == 0 and found and not best.is_known:
                     best = or_one_fine_enough(self, best)
             if size == 0 and len(together.members) > 1:
@@ -282,15 +280,20 @@ class Search:
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 
-    def _last(self, node: Node, screened_last: ScreenedLast) -> list[Node]:
-        """Return sets with a function that is looked at last beside known effects that predict, or beside nothing."""
+    def _last(self, node: Node, screened_last: ScreenedLast, best: Node) -> list[Node]:
+        """Return sets with a function that is looked at last beside known effects that predict, or beside nothing.
+
+        Those that only say what the best set found so far does are nobody's rivals.
+        """
         if not (node.is_known and predicts(self, node)):
             return []
         scored = screened_last(self, node.trial, self.screen(node))
         count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
         chosen = shortlist(scored, count, self.criteria.most_of_one_effect)
-        add_kin(self, [each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned)])
-        found = self.tried(node, chosen)
+        every = (each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned))
+        # Those of the lists are kin by as many splines as they have, of which more contain anything.
+        add_kin(self, [each for each in every if self.learnable.is_crossed(each)])
+        found = [each for each in self.tried(node, chosen) if self.stands_before(each, best)]
         self.nodes += found
         return found
 
