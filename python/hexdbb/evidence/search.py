@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -143,8 +143,8 @@ class Search:
                 together = or_known_together(self, best)
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
-            for screened_last in (screened_finer, screened_crossed) if learns else ():
-                if self._needs_no_other(best):
+            for screened_last, is_enough in self._last_resorts if learns else ():
+                if is_enough(best):
                     break
                 found = self._needed(child for node in starts for child in self._last(node, screened_last, best))
                 children = [*children, *found]
@@ -161,6 +161,11 @@ class Search:
                 beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
                 learns = False
         return with_known_beside(self, or_at_several(self, best_of(self, best, [together])))
+
+    @property
+    def _last_resorts(self) -> tuple[tuple[ScreenedLast, Callable[[Node], bool]], ...]:
+        """What is screened last, and what tells that a set needs no more than was screened before."""
+        return (screened_finer, partial(is_complete, self)), (screened_crossed, self._needs_no_other)
 
     def _needs_no_other(self, best: Node) -> bool:
         """Check that a set explains all: known effects for sure, or functions that leave, and err by, little but noise.
@@ -183,7 +188,7 @@ class Search:
         It has more evidence, and pushes along fewer axes, or leaves far less of what those leave beyond the noise.
         """
         is_last = any(self.learnable.is_crossed(each) for each in node.hypotheses)
-        if not (is_last and best.members) or best.is_known:
+        if not (is_last and best.members) or (best.is_known and not is_complete(self, best)):
             return True
         if node.score - best.score <= self.criteria.margin_nats:
             return False
