@@ -145,7 +145,7 @@ class Search:
                 best = together if is_complete(self, together) else best
             for screened_last, is_enough in self._last_resorts if learns else ():
                 if is_enough(best):
-                    break
+                    continue
                 found = self._needed(child for node in starts for child in self._last(node, screened_last, best))
                 children = [*children, *found]
                 beam = self._kept(children)
