@@ -42,7 +42,6 @@ from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_o
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned, settling
@@ -168,15 +167,14 @@ class Search:
         return (screened_finer, partial(is_complete, self)), (screened_crossed, self._needs_no_other)
 
     def _needs_no_other(self, best: Node) -> bool:
-        """Check that a set explains all: known effects for sure, or functions that leave, and err by, little but noise.
+        """Check that a set explains all: known effects, or functions that leave, and err by, little but noise.
 
-        Known effects that are not for sure, and a function of another state or place, however fine, stand in for what
-        is looked at last.
+        A function of another state or place, however fine, stands in for what is looked at last.
         """
         if not is_complete(self, best):
             return False
         if best.is_known:
-            return is_for_sure(self, best)
+            return True
         checked = self.checked(best)
         errors = (checked.heldout[each].after for each in checked.claimed)
         is_exact = all(each <= self.criteria.predicted_to for each in errors)
