@@ -52,11 +52,11 @@ OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
 
 _MOVING = (v.POSITION, v.VELOCITY, v.ACCELERATION, v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.JOINT_ANGLE, v.TURNING)
-MULTIPLIED = (*_MOVING, v.SWING_ANGLE, v.TIME, v.TIME_IN_SWEEP, v.WARMING, v.SPEED, v.ANGLE, v.SCREW_PHASE)
-"""Variables of which functions are multiplied, at an element."""
+MULTIPLIED = (*_MOVING, v.SWING_ANGLE, v.TIME_IN_SWEEP, v.SPEED, v.ANGLE, v.SCREW_PHASE)
+"""Variables of which functions are multiplied, at an element; what grows with time or warmth is in the lists."""
 FACTORS_OF_ELEMENT = (
     *("velocity", "acceleration", "leg_force", "drive_load", "direction", "joint_direction", "joint_rate"),
-    *("joint_angle", "time", "warming", "speed", "circle_direction"),
+    *("joint_angle", "speed", "circle_direction"),
     *("neighbour_velocity", "neighbour_direction", "neighbour_acceleration"),
 )
 MULTIPLIED_OF_BAR = (*OF_BAR[:4], v.ANGLE, v.SPEED, v.TIME, v.TIME_IN_SWEEP, v.WARMING, v.ROLL, v.PITCH, v.YAW)
