@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from hexdbb.evidence.last_resort import stands_before
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import refined, with_best_splines
 from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, predicts
@@ -40,7 +41,7 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
         return node
     if node.members and node.is_known and is_for_sure(search, node):
         return node
-    every = (each for each in _tuned(search, search.criteria.explained_min) if search.stands_before(each, node))
+    every = (each for each in _tuned(search, search.criteria.explained_min) if stands_before(search, each, node))
     tuned = [each for each in every if predicts(search, each)]
     best = max((node, *tuned), key=lambda each: each.score)
     if best is node or not search.learnable.is_further(best.hypotheses[0]):

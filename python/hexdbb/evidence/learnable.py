@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -89,17 +89,18 @@ class Learnable:
     def further(self) -> dict[str, Learned]:
         """Those that are looked at where no simple one settles, by name; made when first asked for."""
         if not self._further:
-            every = varying(further_hypotheses(), self._readings)
-            self._further = {each.name: each for each in every if not self._is_angle(each)}
+            self._further = self._by_name(further_hypotheses())
         return self._further
 
     @property
     def crossed(self) -> dict[str, Learned]:
         """Those that are looked at last: every state at every place, and products of any two; made when first asked."""
         if not self._crossed:
-            every = varying(crossed_hypotheses(), self._readings)
-            self._crossed = {each.name: each for each in every if not self._is_angle(each)}
+            self._crossed = self._by_name(crossed_hypotheses())
         return self._crossed
+
+    def _by_name(self, every: Iterable[Learned]) -> dict[str, Learned]:
+        return {each.name: each for each in varying(every, self._readings) if not self._is_angle(each)}
 
     def _is_angle(self, learned: Learned) -> bool:
         """Check for a function of the platform's position if that follows from the circle's angle."""
@@ -124,9 +125,8 @@ class Learnable:
     @property
     def by_name(self) -> dict[str, Learned]:
         """All that were looked at, those that the readings propose among them."""
-        return (
-            self._further | self._crossed | {each.name: each for each in (*self.products, *self.simple, *self._chosen)}
-        )
+        known = {each.name: each for each in (*self.products, *self.simple, *self._chosen)}
+        return self._further | self._crossed | known
 
     def log_prior(self, hypothesis: Learned) -> float:
         """Return the log of one over the number of its sort, and what the choice of its instants or period costs."""

@@ -7,9 +7,9 @@ so that two faults of one size, of which either alone explains half, are found t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,19 +25,13 @@ from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
+from hexdbb.evidence.last_resort import LAST_RESORTS, tried_last
 from hexdbb.evidence.learnable import Learnable
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.number import with_best_number
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
-from hexdbb.evidence.screened import (
-    add_kin,
-    in_other_words,
-    screened,
-    screened_crossed,
-    screened_finer,
-    screened_further,
-)
+from hexdbb.evidence.screened import in_other_words, screened, screened_further
 from hexdbb.evidence.settling import is_complete, is_doubtful, predicts, rests_on_form, settles
 from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_at_several
 from hexdbb.evidence.shortlist import shortlist
@@ -47,7 +41,6 @@ from hexdbb.evidence.trial import Member, Trial, Trials
 from hexdbb.learned import ALL, Learned, settling
 
 Floats = NDArray[np.float64]
-ScreenedLast = Callable[["Search", Trial, Screen], list[Scored]]
 
 
 @dataclass
@@ -142,10 +135,10 @@ class Search:
                 together = or_known_together(self, best)
                 # Several that leave something stand in for what nobody knows: what is learned may still be better.
                 best = together if is_complete(self, together) else best
-            for screened_last, is_enough in self._last_resorts if learns else ():
-                if is_enough(best):
+            for screened_last, is_enough in LAST_RESORTS if learns else ():
+                if is_enough(self, best):
                     continue
-                found = self._needed(child for node in starts for child in self._last(node, screened_last, best))
+                found = self._needed(child for node in starts for child in tried_last(self, node, screened_last, best))
                 children = [*children, *found]
                 beam = self._kept(children)
                 best = best_of(self, best, (each for each in found if predicts(self, each)))
@@ -160,39 +153,6 @@ class Search:
                 beam = [each for each in beam if each.is_known] if best.trial.is_of_time else []
                 learns = False
         return with_known_beside(self, or_at_several(self, best_of(self, best, [together])))
-
-    @property
-    def _last_resorts(self) -> tuple[tuple[ScreenedLast, Callable[[Node], bool]], ...]:
-        """What is screened last, and what tells that a set needs no more than was screened before."""
-        return (screened_finer, partial(is_complete, self)), (screened_crossed, self._needs_no_other)
-
-    def _needs_no_other(self, best: Node) -> bool:
-        """Check that a set explains all: known effects, or functions that leave, and err by, little but noise.
-
-        A function of another state or place, however fine, stands in for what is looked at last.
-        """
-        if not is_complete(self, best):
-            return False
-        if best.is_known:
-            return True
-        checked = self.checked(best)
-        errors = (checked.heldout[each].after for each in checked.claimed)
-        is_exact = all(each <= self.criteria.predicted_to for each in errors)
-        return is_exact and best.trial.left < self.criteria.leaves_more
-
-    def stands_before(self, node: Node, best: Node) -> bool:
-        """Check that a set with a function looked at last is not one of the many that explain what listed ones do.
-
-        It has more evidence, and pushes along fewer axes, or leaves far less of what those leave beyond the noise.
-        """
-        is_last = any(self.learnable.is_crossed(each) for each in node.hypotheses)
-        if not (is_last and best.members) or (best.is_known and not is_complete(self, best)):
-            return True
-        if node.score - best.score <= self.criteria.margin_nats:
-            return False
-        left, before = node.trial.left - 1.0, best.trial.left - 1.0
-        is_less = before > self.criteria.leaves_more - 1.0 and left < self.criteria.far_better * before
-        return is_less or _axes(node) < _axes(best)
 
     def _asks_for_sets(self, best: Node) -> bool:
         """Check that what explains most alone leaves something, or is only excused, or explains much by its form."""
@@ -283,23 +243,6 @@ class Search:
             found += self.tried(node, shortlist(screened_further(self, node.trial, screen), count, most))
         return sorted(found, key=lambda each: -each.score)
 
-    def _last(self, node: Node, screened_last: ScreenedLast, best: Node) -> list[Node]:
-        """Return sets with a function that is looked at last beside known effects that predict, or beside nothing.
-
-        Those that only say what the best set found so far does are nobody's rivals.
-        """
-        if not (node.is_known and predicts(self, node)):
-            return []
-        scored = screened_last(self, node.trial, self.screen(node))
-        count = self.criteria.full_fits if node is self.root else self.criteria.later_fits
-        chosen = shortlist(scored, count, self.criteria.most_of_one_effect)
-        every = (each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned))
-        # Those of the lists are kin by as many splines as they have, of which more contain anything.
-        add_kin(self, [each for each in every if self.learnable.is_crossed(each)])
-        found = [each for each in self.tried(node, chosen) if self.stands_before(each, best)]
-        self.nodes += found
-        return found
-
     def _needed(self, children: Iterable[Node]) -> list[Node]:
         """Return those whose last member is needed and refused by nothing, the best first."""
         found = (each for each in children if not each.trial.refused and needs(self, each, each.members[-1]))
@@ -372,8 +315,3 @@ class Search:
 def _alike(search: Search, one: Node, other: Node) -> bool:
     """Check whether every hypothesis of one set has one of its kind in another."""
     return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
-
-
-def _axes(node: Node) -> int:
-    """Return along how many axes the functions of a set push."""
-    return sum(each.components for each in node.hypotheses if isinstance(each, Learned))

@@ -12,15 +12,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.further import (
-    FACTORS,
-    FURTHER,
-    OF_BALL,
-    neighbour,
-    of_drives,
-    product,
-)
+from hexdbb.learned.further import FACTORS, FURTHER, OF_BALL, OF_WHOLE, neighbour, of_drives, product
 from hexdbb.learned.numbered import POSITION_SPLINES
+from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, variables_of
 from hexdbb.learned.variable import Variable
 
 JOINT_TRAVEL = replace(v.JOINT_SINCE_REVERSAL, of_forms=False)
@@ -74,9 +68,7 @@ def _products(factors: Iterable[str], variables: Iterable[Variable]) -> Iterator
 
 def _besides(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
     """Return variables that a place does not have yet, one of each name."""
-    simple = {"slider": v.OF_SLIDER, "leg": v.OF_LEG, "platform_joint": v.OF_PLATFORM_JOINT, "reading": v.OF_READING}
-    simple |= {"lateral": v.OF_GUIDEWAY, "vertical": v.OF_GUIDEWAY, "ball": v.OF_BALL, "cup": v.OF_BALL}
-    known = {each.name for each in (*simple.get(place, ()), *FURTHER[place])}
+    known = {each.name for each in (*VARIABLES[place], *FURTHER[place])}
     return tuple({each.name: each for each in every if each.name not in known}.values())
 
 
@@ -103,3 +95,9 @@ CROSSED |= {
         for place in ("ball", "cup")
     },
 }
+
+
+def every_variable_of(place: str, element: int) -> tuple[Variable, ...]:
+    """Return the variables of an element of a place: those listed for it, then those that are looked at last."""
+    is_single = element not in PAIRS.values() and not (element == ALL and place in (*SHARED, *OF_WHOLE))
+    return (*variables_of(place, element), *(CROSSED.get(place, ()) if is_single else ()))

@@ -164,9 +164,9 @@ def of_drives(variables: Iterable[Variable]) -> Iterator[Variable]:
             )
 
 
-CROSSED = tuple(of_drives((v.VELOCITY,)))
+OTHER_DRIVES = tuple(of_drives((v.VELOCITY,)))
 """A controller may send the feed-forward of one drive to another."""
-CROSSTALK = (*CROSSED, *of_drives((v.ACCELERATION,)))
+CROSSTALK = (*OTHER_DRIVES, *of_drives((v.ACCELERATION,)))
 """The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
 NEIGHBOURS = tuple(map(neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
 OF_PAIR_OF_SLIDERS = (
@@ -232,7 +232,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *_remembered(v.DRIVE_LOAD),
         *SETTLING_POSITION,
         *SINCE_START,
-        *CROSSED,
+        *OTHER_DRIVES,
         POSITION_EACH_WAY,
     ),
     "leg": (

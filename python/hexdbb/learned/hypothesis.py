@@ -11,6 +11,7 @@ from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import variables as v
 from hexdbb.learned.beside import BESIDE, EVERYWHERE
+from hexdbb.learned.crossed import every_variable_of
 from hexdbb.learned.further import RELAYS
 from hexdbb.learned.numbered import by_direction, numbered, with_number
 from hexdbb.learned.places import (
@@ -24,7 +25,6 @@ from hexdbb.learned.places import (
     SHARED,
     VARIABLES,
     elements_by_name,
-    every_variable_of,
     members,
     variables_of,
 )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
-from hexdbb.learned.crossed import CROSSED
 from hexdbb.learned.variable import Variable
 
 PREFIX = "learned"
@@ -68,12 +67,6 @@ def variables_of(place: str, element: int) -> tuple[Variable, ...]:
     if element == ALL and place in further.OF_WHOLE:
         return further.OF_WHOLE[place]
     return (*VARIABLES[place], *further.FURTHER.get(place, ()))
-
-
-def every_variable_of(place: str, element: int) -> tuple[Variable, ...]:
-    """Return those, and the ones that are looked at last."""
-    is_single = element not in PAIRS.values() and not (element == ALL and place in (*SHARED, *further.OF_WHOLE))
-    return (*variables_of(place, element), *(CROSSED.get(place, ()) if is_single else ()))
 
 
 def single(place: str) -> list[int]:

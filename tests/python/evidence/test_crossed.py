@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from hexdbb.evidence import last_resort
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.search import Search
 from hexdbb.learned import Learned, crossed_hypotheses, further_hypotheses, hypotheses
 from hexdbb.studies.verdicts.cases import line_of
 from hexdbb_truth.forms.cases import case
@@ -23,7 +23,7 @@ def stands_before(name: str, left: float, score: float, best_name: str, best_lef
         criteria=DEFAULT, learnable=SimpleNamespace(is_crossed=lambda each: each.name in last)
     )
     node, best = (_node(*each) for each in ((name, left, score), (best_name, best_left, 0.0)))
-    return Search.stands_before(search, node, best)
+    return last_resort.stands_before(search, node, best)
 
 
 def _node(name: str, left: float, score: float) -> Any:

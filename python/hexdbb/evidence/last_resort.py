@@ -1,0 +1,93 @@
+"""What a search looks at last: fine functions of the lists, then every state at every place and products of any two.
+
+There are thousands of them, and most say nearly what a listed one does. They are looked at only where what was found
+leaves something, and one that says no more than that stays out of the search, where it would be a rival of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Scored, Screen
+from hexdbb.evidence.screened import add_kin, screened_crossed, screened_finer
+from hexdbb.evidence.settling import is_complete, predicts
+from hexdbb.evidence.shortlist import shortlist
+from hexdbb.evidence.trial import Trial
+from hexdbb.learned import Learned
+
+if TYPE_CHECKING:
+    from hexdbb.evidence.search import Search
+
+Screened = Callable[["Search", Trial, Screen], list[Scored]]
+
+
+def needs_no_other(search: Search, best: Node) -> bool:
+    """Check that a set explains all: known effects, or functions that leave, and err by, little but noise.
+
+    A function of another state or place, however fine, stands in for what is looked at last.
+    """
+    if not is_complete(search, best):
+        return False
+    if best.is_known:
+        return True
+    checked = search.checked(best)
+    errors = (checked.heldout[each].after for each in checked.claimed)
+    is_exact = all(each <= search.criteria.predicted_to for each in errors)
+    return is_exact and best.trial.left < search.criteria.leaves_more
+
+
+LAST_RESORTS: tuple[tuple[Screened, Callable[[Search, Node], bool]], ...] = (
+    (screened_finer, is_complete),
+    (screened_crossed, needs_no_other),
+)
+"""What is screened last, in this order, and what tells that a set needs none of it."""
+
+
+def tried_last(search: Search, node: Node, screened: Screened, best: Node) -> list[Node]:
+    """Return sets with such a function beside known effects that predict, or beside nothing.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        The set beside which they are screened.
+    screened : callable
+        One of `LAST_RESORTS`.
+    best : Node
+        The best set found so far.
+    """
+    if not (node.is_known and predicts(search, node)):
+        return []
+    criteria = search.criteria
+    count = criteria.full_fits if node is search.root else criteria.later_fits
+    scored = screened(search, node.trial, search.screen(node))
+    chosen = shortlist(scored, count, criteria.most_of_one_effect)
+    # Those of the lists are kin by as many splines as they have there: with more of them they contain anything.
+    learned = (each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned))
+    if crossed := [each for each in learned if search.learnable.is_crossed(each)]:
+        add_kin(search, crossed)
+    found = [each for each in search.tried(node, chosen) if stands_before(search, each, best)]
+    search.nodes += found
+    return found
+
+
+def stands_before(search: Search, node: Node, best: Node) -> bool:
+    """Check that a set with a function looked at last is not one of the many that explain what listed ones do.
+
+    It has more evidence, and pushes along fewer axes, or leaves far less of what those leave beyond the noise.
+    """
+    is_last = any(search.learnable.is_crossed(each) for each in node.hypotheses)
+    if not (is_last and best.members) or (best.is_known and not is_complete(search, best)):
+        return True
+    if node.score - best.score <= search.criteria.margin_nats:
+        return False
+    left, before = node.trial.left - 1.0, best.trial.left - 1.0
+    is_less = before > search.criteria.leaves_more - 1.0 and left < search.criteria.far_better * before
+    return is_less or _axes(node) < _axes(best)
+
+
+def _axes(node: Node) -> int:
+    """Return along how many axes the functions of a set push."""
+    return sum(each.components for each in node.hypotheses if isinstance(each, Learned))
