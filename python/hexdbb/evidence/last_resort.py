@@ -14,6 +14,7 @@ from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.screened import add_kin, screened_crossed, screened_finer
 from hexdbb.evidence.settling import is_complete, predicts
 from hexdbb.evidence.shortlist import shortlist
+from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Trial
 from hexdbb.learned import Learned
 
@@ -24,14 +25,15 @@ Screened = Callable[["Search", Trial, Screen], list[Scored]]
 
 
 def needs_no_other(search: Search, best: Node) -> bool:
-    """Check that a set explains all: known effects, or functions that leave, and err by, little but noise.
+    """Check that a set explains all: known effects for sure, or functions that leave, and err by, little but noise.
 
-    A function of another state or place, however fine, stands in for what is looked at last.
+    Known effects that are not for sure, and a function of another state or place, however fine, stand in for what is
+    looked at last.
     """
     if not is_complete(search, best):
         return False
     if best.is_known:
-        return True
+        return is_for_sure(search, best)
     checked = search.checked(best)
     errors = (checked.heldout[each].after for each in checked.claimed)
     is_exact = all(each <= search.criteria.predicted_to for each in errors)
