@@ -14,11 +14,9 @@ from typing import TYPE_CHECKING
 
 from hexdbb.evidence.last_resort import stands_before
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.refine import refined, with_best_splines
+from hexdbb.evidence.refine import finely_tuned, refined
 from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, predicts
 from hexdbb.evidence.sure import is_for_sure
-from hexdbb.evidence.tuned import with_tuned_numbers
-from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned
 
 if TYPE_CHECKING:
@@ -90,4 +88,4 @@ def _tuned(search: Search, least: float) -> Iterator[Node]:
         if search.root.trial.left - each.trial.left >= least * excess:
             best.setdefault(each.hypotheses[0].name, each)
     for each in islice(best.values(), TRIED):
-        yield with_turning(search, with_tuned_numbers(search, with_best_splines(search, with_turning(search, each))))
+        yield finely_tuned(search, each)

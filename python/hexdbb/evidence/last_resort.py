@@ -6,10 +6,11 @@ leaves something, and one that says no more than that stays out of the search, w
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.screened import add_kin, screened_crossed, screened_finer
 from hexdbb.evidence.settling import is_complete, predicts
@@ -20,6 +21,9 @@ from hexdbb.learned import Learned
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
+
+TUNED = 2
+"""Sets that are tuned before they are left, by several full fits each: both sliders of a guideway may say the same."""
 
 Screened = Callable[["Search", Trial, Screen], list[Scored]]
 
@@ -70,9 +74,20 @@ def tried_last(search: Search, node: Node, screened: Screened, best: Node) -> li
     learned = (each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned))
     if crossed := [each for each in learned if search.learnable.is_crossed(each)]:
         add_kin(search, crossed)
-    found = [each for each in search.tried(node, chosen) if stands_before(search, each, best)]
+    every = search.tried(node, chosen)
+    found = [each for each in every if stands_before(search, each, best)]
+    if not found:
+        found = [each for each in _tuned(search, every) if stands_before(search, each, best)]
     search.nodes += found
     return found
+
+
+def _tuned(search: Search, every: Sequence[Node]) -> Iterator[Node]:
+    """Yield the sets with the most evidence with their functions tuned: what was found before may be so already."""
+    excess = search.root.trial.left - 1.0
+    for each in sorted(every, key=lambda each: -each.score)[:TUNED]:
+        if search.root.trial.left - each.trial.left >= search.criteria.explained_min * excess:
+            yield finely_tuned(search, each)
 
 
 def stands_before(search: Search, node: Node, best: Node) -> bool:

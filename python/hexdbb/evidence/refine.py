@@ -17,6 +17,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known, Scored
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.tuned import axes_of, retunings, with_other_splines, with_tuned_numbers
+from hexdbb.evidence.turning import with_turning
 from hexdbb.learned import Learned, part_of
 
 if TYPE_CHECKING:
@@ -79,6 +80,11 @@ def with_best_splines(search: Search, node: Node) -> Node:
                 node = found
                 break
     return node
+
+
+def finely_tuned(search: Search, node: Node) -> Node:
+    """Return a set whose learned functions turn over as gradually, and have the splines and numbers, that fit best."""
+    return with_turning(search, with_tuned_numbers(search, with_best_splines(search, with_turning(search, node))))
 
 
 def _widened(search: Search, node: Node, places: Places | None = None) -> Node:

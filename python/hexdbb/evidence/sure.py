@@ -60,6 +60,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     checked, is_one = search.checked(node), node.faults == 1
     if checked.share < search.criteria.explained_min or not _predicts_more_than_laps(search, node):
         return False
+    if is_one and _is_outdone_untested(search, node):
+        return False
     if _is_put_together(search, node):
         return err_by_geometry(search, node)
     if not _errs_little(search, node, missed_most):
@@ -79,6 +81,20 @@ def _predicts_more_than_laps(search: Search, node: Node) -> bool:
     least = search.criteria.heldout_share_min * checked.share
     others = [held.share for grouping, held in checked.heldout.items() if grouping not in (ARC, "lap")]
     return not others or max(others) >= least
+
+
+def _is_outdone_untested(search: Search, node: Node) -> bool:
+    """Check for one effect that misses far more than it explains, whatever excuses it, where a function says more.
+
+    Where the readings left in hardly hold geometry, an error of any size is no more than is expected: nothing tests the
+    effect then but its evidence, and a function that has more of it may be true as well.
+    """
+    explains = max(search.root.trial.left - node.trial.left, 1e-9) ** 0.5
+    if not any(each.after > search.criteria.missed_far * explains for each in _held(search, node)):
+        return False
+    alone = (each for each in search.nodes if len(each.members) == 1 and not each.is_known)
+    tested = (each for each in alone if not (each.trial.is_of_time or each.trial.refused) and is_complete(search, each))
+    return any(each.score - node.score > search.criteria.margin_nats for each in tested)
 
 
 def _is_put_together(search: Search, node: Node) -> bool:

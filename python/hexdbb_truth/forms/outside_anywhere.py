@@ -114,7 +114,7 @@ def _across(axis: int, state_name: str, draw: Draw) -> Fault:
         return found
 
     joint = (Equivalent("slider_joint", each, (k + 1,), "the joint itself") for each in _words(state_name))
-    return Fault(Action("guideway", (k // 2,), values), tuple(joint))
+    return Fault(Action("guideway", (k // 2,), values), (*joint, *_same_effect("guideway", state_name, (k // 2 + 1,))))
 
 
 def _in_space(port: str, state_name: str, draw: Draw) -> Fault:
@@ -142,6 +142,8 @@ SAME_EFFECT = {
     ("slider", "travel"): "backlash",
     ("leg", "joint_rate"): "joint_friction",
     ("leg", "time"): "leg_thermal",
+    # The sliders of a guideway run on different parts of it: it is bent where one of them runs.
+    ("guideway", "position"): "straightness",
     ("reading", "time"): "bar_drift",
     ("reading", "deflection"): "bar_gain",
 }
