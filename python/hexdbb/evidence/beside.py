@@ -1,4 +1,4 @@
-"""What known effects leave where they explain nearly all: another effect, far smaller, is no form of theirs."""
+"""What causes leave where they explain nearly all: a known effect, far smaller, is no form or shape of theirs."""
 
 from __future__ import annotations
 
@@ -26,6 +26,39 @@ def with_known_beside(search: Search, best: Node) -> Node:
             break
         best = wider
     return best
+
+
+def with_known_left(search: Search, node: Node) -> Node:
+    """Add to tuned functions the known effect that explains nearly all that they leave, where that is much.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Returned unchanged if it has no function, or leaves hardly more than the noise.
+    """
+    if node.is_known or node.trial.left < search.criteria.leaves_more:
+        return node
+    if len(node.members) >= search.criteria.max_effects:
+        return node
+    tried = [each for each in search.tried(node, beside(search, node)) if _explains_the_rest(search, node, each)]
+    search.nodes += tried
+    return best_of(search, node, tried)
+
+
+def _explains_the_rest(search: Search, functions: Node, node: Node) -> bool:
+    """Check that a set's last effect is needed, and explains what functions leave, a part of it by its formula.
+
+    What a function leaves of its own shape is like no effect's formula: few values explain little of it.
+    """
+    if node.trial.refused or not predicts(search, node) or not needs(search, node, node.members[-1]):
+        return False
+    before, form = functions.trial.left, node.trial.forms[-1]
+    left = node.trial.left if form is None else search.left_by_formula(node.trial, form)
+    explains = before - node.trial.left
+    by_formula = before - left
+    is_all = explains >= search.criteria.explained_min * (before - 1.0)
+    return is_all and by_formula >= search.criteria.formula_names * explains
 
 
 def _is_more(search: Search, node: Node) -> bool:

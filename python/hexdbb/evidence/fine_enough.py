@@ -12,10 +12,11 @@ from collections.abc import Iterator
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.last_resort import stands_before
+from hexdbb.evidence.last_resort import axes_along, stands_before
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned, refined
-from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, predicts
+from hexdbb.evidence.screen import Hypothesis
+from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, must_explain, predicts
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
 
@@ -50,6 +51,35 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
     return max((each for each in as_good if leaves_no_structure(search, each)), key=lambda e: e.score, default=best)
 
 
+def or_another_beside(search: Search, node: Node) -> Node:
+    """Return the same known effects with another function beside them, tuned, where that has more evidence.
+
+    Where what they leave differs by less than the forms of the known effects may hide, the function with the fewest
+    axes: that of several is the freer.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Returned unchanged if it is not one function beside known effects, or leaves hardly more than the noise.
+    """
+    known = _known(node)
+    if len(known) != len(node.members) - 1 or not known or node.trial.left < search.criteria.leaves_more:
+        return node
+    without = tuple(each for each in node.members if each.hypothesis in known)
+    left = search.trials.of_fewer(without, node.trial).left
+    every = _tuned(search, search.criteria.explained_min, known, left)
+    tuned = [node, *(each for each in every if predicts(search, each))]
+    best = max(tuned, key=lambda each: each.score)
+    hidden = must_explain(search, best.trial)
+    alike = [each for each in tuned if each.trial.left < best.trial.left + hidden]
+    return min(alike, key=lambda each: (axes_along(each), -each.score))
+
+
+def _known(node: Node) -> frozenset[Hypothesis]:
+    return frozenset(each for each in node.hypotheses if not isinstance(each, Learned))
+
+
 def or_one_place(search: Search, node: Node, wider: Node) -> tuple[Node, Node]:
     """Return one tuned function, alone and with others of its place, where these say more than several causes.
 
@@ -79,13 +109,19 @@ def _explains_far_more(search: Search, alone: Node, several: Node) -> bool:
     return is_little and alone.trial.left - 1.0 < search.criteria.far_better * left
 
 
-def _tuned(search: Search, least: float) -> Iterator[Node]:
-    """Yield the single functions with the most evidence, tuned; each explains such a part of all at least."""
-    excess = search.root.trial.left - 1.0
-    alone = [each for each in search.nodes if len(each.members) == 1 and isinstance(each.hypotheses[0], Learned)]
+def _tuned(
+    search: Search, least: float, known: frozenset[Hypothesis] = frozenset(), left: float | None = None
+) -> Iterator[Node]:
+    """Yield the single functions with the most evidence beside known effects, or alone, tuned.
+
+    Each explains such a part at least of what these leave.
+    """
+    left = search.root.trial.left if left is None else left
+    alone = [each for each in search.nodes if len(each.members) == len(known) + 1 and _known(each) == known]
     best: dict[str, Node] = {}
     for each in sorted(alone, key=lambda each: -each.score):
-        if search.root.trial.left - each.trial.left >= least * excess:
-            best.setdefault(each.hypotheses[0].name, each)
+        if left - each.trial.left >= least * (left - 1.0):
+            name = next(one.name for one in each.hypotheses if isinstance(one, Learned))
+            best.setdefault(name, each)
     for each in islice(best.values(), TRIED):
         yield finely_tuned(search, each)

@@ -13,11 +13,12 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.screened import add_kin, screened_crossed, screened_finer
-from hexdbb.evidence.settling import is_complete, predicts
+from hexdbb.evidence.settling import is_complete, leaves_room, predicts
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Trial
 from hexdbb.learned import Learned
+from hexdbb.learned.numbered import TURNING
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -31,13 +32,13 @@ Screened = Callable[["Search", Trial, Screen], list[Scored]]
 def needs_no_other(search: Search, best: Node) -> bool:
     """Check that a set explains all: known effects for sure, or functions that leave, and err by, little but noise.
 
-    Known effects that are not for sure, and a function of another state or place, however fine, stand in for what is
-    looked at last.
+    Known effects that are not for sure, or leave more than their forms hide, and a function of another state or place,
+    however fine, stand in for what is looked at last.
     """
     if not is_complete(search, best):
         return False
     if best.is_known:
-        return is_for_sure(search, best)
+        return is_for_sure(search, best) and not leaves_room(search, best)
     checked = search.checked(best)
     errors = (checked.heldout[each].after for each in checked.claimed)
     is_exact = all(each <= search.criteria.predicted_to for each in errors)
@@ -68,7 +69,8 @@ def tried_last(search: Search, node: Node, screened: Screened, best: Node) -> li
         return []
     criteria = search.criteria
     count = criteria.full_fits if node is search.root else criteria.later_fits
-    scored = screened(search, node.trial, search.screen(node))
+    screen = search.screen(node)
+    scored = screened(search, node.trial, screen)
     chosen = shortlist(scored, count, criteria.most_of_one_effect)
     # Those of the lists are kin by as many splines as they have there: with more of them they contain anything.
     learned = (each.hypothesis for each in chosen if isinstance(each.hypothesis, Learned))
@@ -78,8 +80,31 @@ def tried_last(search: Search, node: Node, screened: Screened, best: Node) -> li
     found = [each for each in every if stands_before(search, each, best)]
     if not found:
         found = [each for each in _tuned(search, every) if stands_before(search, each, best)]
-    search.nodes += found
+    found = [_or_as_listed(search, node, screen, each) for each in found]
+    search.nodes += [each for each in found if not any(each is other for other in search.nodes)]
     return found
+
+
+def _or_as_listed(search: Search, base: Node, screen: Screen, node: Node) -> Node:
+    """Return the same state at a listed place of the element, tuned, unless the set with it elsewhere stands before.
+
+    What is listed was screened with abrupt changes of sign and few splines, and may have been far behind.
+    """
+    last = next((each for each in node.hypotheses if search.learnable.is_crossed(each)), None)
+    if not isinstance(last, Learned):
+        return node
+    every = (each for each in search.learnable.by_name.values() if not search.learnable.is_crossed(each))
+    same = [each for each in every if _state(each) == _state(last)]
+    listed = search.tried(base, [screen.scored(each) for each in same])
+    if not listed:
+        return node
+    best = finely_tuned(search, max(listed, key=lambda each: each.score))
+    return node if stands_before(search, finely_tuned(search, node), best) else best
+
+
+def _state(hypothesis: Learned) -> tuple[int | str, str]:
+    """Return the element and the variable, whether its change of sign is gradual or not."""
+    return hypothesis.element, hypothesis.variable.name.partition(f"_{TURNING}@")[0]
 
 
 def _tuned(search: Search, every: Sequence[Node]) -> Iterator[Node]:
@@ -102,9 +127,9 @@ def stands_before(search: Search, node: Node, best: Node) -> bool:
         return False
     left, before = node.trial.left - 1.0, best.trial.left - 1.0
     is_less = before > search.criteria.leaves_more - 1.0 and left < search.criteria.far_better * before
-    return is_less or _axes(node) < _axes(best)
+    return is_less or axes_along(node) < axes_along(best)
 
 
-def _axes(node: Node) -> int:
+def axes_along(node: Node) -> int:
     """Return along how many axes the functions of a set push."""
     return sum(each.components for each in node.hypotheses if isinstance(each, Learned))

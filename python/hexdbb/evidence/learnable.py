@@ -26,6 +26,8 @@ ALIKE = 1e-3
 """Part of the variance of the platform's position, not explained by the circle's angle, below which functions of either
 are considered equal. For a fault of three times the noise the two then differ by 0.1 times the noise, which is fifty
 nats in 10,000 readings; with more, the readings identify the right one."""
+PLACE = frozenset({"position_mm", "radius_mm"})
+"""Columns that follow from the platform's place."""
 
 
 def _is_said_already(learned: Learned, readings: Readings) -> bool:
@@ -103,8 +105,8 @@ class Learnable:
         return {each.name: each for each in varying(every, self._readings) if not self._is_angle(each)}
 
     def _is_angle(self, learned: Learned) -> bool:
-        """Check for a function of the platform's position if that follows from the circle's angle."""
-        return "position_mm" in learned.variable.needs and self._are_circles_alike
+        """Check for a function of the platform's place if its position follows from the circle's angle."""
+        return not learned.variable.needs.isdisjoint(PLACE) and self._are_circles_alike
 
     @cached_property
     def _are_circles_alike(self) -> bool:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
 from hexdbb.evidence.as_forms import as_forms
+from hexdbb.evidence.beside import with_known_left
 from hexdbb.evidence.exchange import of_better_form, settled, with_found_beside
-from hexdbb.evidence.fine_enough import or_one_fine_enough, or_one_place
+from hexdbb.evidence.fine_enough import or_another_beside, or_one_fine_enough, or_one_place
 from hexdbb.evidence.further_elements import with_elements_that_predict
 from hexdbb.evidence.hidden import with_what_forms_hide
 from hexdbb.evidence.known_words import in_known_words
@@ -120,8 +121,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = without_borrowed_forms(search, of_better_form(search, node))
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, node))
+    node = or_another_beside(search, node)
     fine = or_one_fine_enough(search, node)
-    node = node if fine is node else in_known_words(search, fine)
+    node = with_known_left(search, node if fine is node else in_known_words(search, fine))
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)

@@ -24,7 +24,8 @@ PLACED = tuple(
     )
     for at, axis in enumerate("xyz")
 )
-OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.ROLL, v.PITCH, v.YAW, *PLACED)
+RADIUS = Variable("platform_radius", "radius_mm", "mm", "distance of the platform from the axis", POSITION_SPLINES)
+OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.ROLL, v.PITCH, v.YAW, *PLACED, RADIUS)
 """States of the platform and of its path."""
 OF_TIME = (v.TIME, v.FINE_TIME, v.TIME_IN_SWEEP, v.SINCE_FIXING, v.WARMING)
 OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)

@@ -29,6 +29,7 @@ OWN = {
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
+    "radius_mm": ("sample", "mm", "distance of the platform from the base's z axis, nominal machine"),
     "neighbour_velocity_mm_s": ("slider", "mm/s", "velocity of the other slider on the guideway"),
     "neighbour_acceleration_mm_s2": ("slider", "mm/s^2", "acceleration of the other slider on the guideway"),
     "neighbour_travel_direction": ("slider", "1", "direction of travel of the other slider on the guideway"),

@@ -34,6 +34,7 @@ from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
+from hexdbb.samples.radius import RADIUS, RADIUS_FROM, radii_mm
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
@@ -81,7 +82,7 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, *NEIGHBOURS, *TURN, *OF_GAUGE)
+        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, RADIUS, *NEIGHBOURS, *TURN, *OF_GAUGE)
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -115,6 +116,8 @@ class Whole:
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
         elif name == GAP:
             self.columns[name] = gaps_mm(*self._known(GAP_FROM))
+        elif name == RADIUS:
+            self.columns[name] = radii_mm(*self._known(RADIUS_FROM))
         elif name in NEIGHBOURS:
             (own,) = self._known(NEIGHBOURS[name])
             self.columns[name] = of_neighbours(own)

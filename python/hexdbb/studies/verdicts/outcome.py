@@ -66,7 +66,7 @@ VARIABLES = {
     "scale_period": ("deflection",),
     "acceleration_along": ("acceleration",),
     "position_along": ("position",),
-    **{f"platform_{axis}": ("position",) for axis in "xyz"},
+    **{f"platform_{each}": ("position",) for each in ("x", "y", "z", "radius")},
     "course": ("direction",),
     "course_speed": ("direction", "velocity"),
 }
