@@ -59,6 +59,7 @@ OF_MACHINE: dict[str, tuple[tuple[str, ...], State]] = {
     "feed": (("feed", "velocity"), lambda scene, _: scene.history.feed_mm_s(scene.rows)),
     "tilt": (("tilt",), _tilt_rad),
     "platform_x": (("position",), lambda scene, _: np.asarray(scene.history.position_mm[scene.rows, 0])),
+    "platform_radius": (("position",), lambda scene, _: np.hypot(*scene.history.position_mm[scene.rows, :2].T)),
     "deflection": (("deflection",), lambda scene, _: scene.deflection_mm),
 }
 """States that the machine has once."""

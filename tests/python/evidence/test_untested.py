@@ -1,0 +1,83 @@
+"""One effect that nothing tests where geometry is hardly held: a function with more evidence is as likely."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from hexdbb.evidence import sure
+from hexdbb.evidence.criteria import DEFAULT
+from hexdbb.evidence.form import Form
+from hexdbb.evidence.heldout import HeldOut
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
+from hexdbb.studies.verdicts.cases import line_of
+from hexdbb_truth.forms.cases import case
+
+BALL = Member(Known("ball_eccentricity", ("2",)))
+BEFORE, LEFT = 101.0, 1.0
+EXPLAINED = (BEFORE - LEFT) ** 0.5
+
+
+def asked(part: float, score: float, left: float, name: str = "learned:ball:pitch") -> bool:
+    """Return whether a ball that sits otherwise is for sure.
+
+    Parameters
+    ----------
+    part : float
+        Error of the circles left out over what it explains; so much is what the fit expects.
+    score, left : float
+        Of the function that was tried too, by how much its log evidence is larger.
+    name : str
+        Of that.
+    """
+    error = part * EXPLAINED
+    held = HeldOut(before=2.0 * error, after=error, share=0.75, expected=error, as_fitted=error)
+    function: Any = Member(Learned.parse(name))
+    other = Node(_trial(function, left), score)
+    node = Node(_trial(BALL, LEFT), 0.0)
+    search: Any = SimpleNamespace(
+        criteria=DEFAULT,
+        root=SimpleNamespace(trial=SimpleNamespace(left=BEFORE)),
+        nodes=[node, other],
+        trials=SimpleNamespace(explained_before=0.0),
+        left_by_formulas=lambda _: LEFT,
+        checked=lambda _: SimpleNamespace(
+            share=1.0, excused=False, missed=0.0, missed_at_least=0.0, heldout={"circle": held}
+        ),
+    )
+    return sure.is_for_sure(search, node)
+
+
+def _trial(member: Member, left: float) -> Any:
+    is_of_time = isinstance(member.hypothesis, Learned) and member.hypothesis.is_of_time
+    return SimpleNamespace(
+        members=(member,), left=left, forms=(Form(0.0, 0.0, ()),), refused=(), is_of_time=is_of_time, names=()
+    )
+
+
+@pytest.mark.parametrize(
+    ("part", "score", "left", "name", "expected"),
+    [
+        (1.1 * DEFAULT.missed_far, 100.0, 1.0, "learned:ball:pitch", False),
+        (0.9 * DEFAULT.missed_far, 100.0, 1.0, "learned:ball:pitch", True),
+        (1.1 * DEFAULT.missed_far, 1.0, 1.0, "learned:ball:pitch", True),
+        (1.1 * DEFAULT.missed_far, 100.0, 9.0, "learned:ball:pitch", True),
+        (1.1 * DEFAULT.missed_far, 100.0, 1.0, "learned:ball:time", True),
+    ],
+    ids=["a function says more", "circles test it", "as likely by chance", "leaves much", "of time alone"],
+)
+def test_an_effect_that_nothing_tests_is_for_sure_by_its_evidence(
+    monkeypatch: pytest.MonkeyPatch, part: float, score: float, left: float, name: str, expected: bool
+) -> None:
+    monkeypatch.setattr(sure, "err_by_geometry", lambda *_: True)
+    assert asked(part, score, left, name) is expected
+
+
+@pytest.mark.long
+def test_a_cup_that_goes_by_the_tilt_is_no_ball_that_sits_otherwise_for_sure() -> None:
+    assert line_of(case("any_cup_tilt-d0-x10-judge-s4"), ())["grade"] == "unknown"
