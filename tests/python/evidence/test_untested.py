@@ -23,7 +23,9 @@ BEFORE, LEFT = 101.0, 1.0
 EXPLAINED = (BEFORE - LEFT) ** 0.5
 
 
-def asked(part: float, score: float, left: float, name: str = "learned:ball:pitch") -> bool:
+def asked(
+    part: float, score: float, left: float, name: str = "learned:ball:pitch", without: float = 2.0, share: float = 0.8
+) -> bool:
     """Return whether a ball that sits otherwise is for sure.
 
     Parameters
@@ -34,9 +36,13 @@ def asked(part: float, score: float, left: float, name: str = "learned:ball:pitc
         Of the function that was tried too, by how much its log evidence is larger.
     name : str
         Of that.
+    without : float
+        Error without the effect, over that with it.
+    share : float
+        Part of that which was left out that the effect explains.
     """
     error = part * EXPLAINED
-    held = HeldOut(before=2.0 * error, after=error, share=0.75, expected=error, as_fitted=error)
+    held = HeldOut(before=without * error, after=error, share=share, expected=error, as_fitted=error)
     function: Any = Member(Learned.parse(name))
     other = Node(_trial(function, left), score)
     node = Node(_trial(BALL, LEFT), 0.0)
@@ -76,6 +82,14 @@ def test_an_effect_that_nothing_tests_is_for_sure_by_its_evidence(
 ) -> None:
     monkeypatch.setattr(sure, "err_by_geometry", lambda *_: True)
     assert asked(part, score, left, name) is expected
+
+
+@pytest.mark.parametrize(("without", "share", "expected"), [(1.1, 0.6, True), (0.9, 0.6, False), (0.9, 0.9, True)])
+def test_an_effect_that_errs_more_than_geometry_alone_is_not_for_sure(
+    monkeypatch: pytest.MonkeyPatch, without: float, share: float, expected: bool
+) -> None:
+    monkeypatch.setattr(sure, "err_by_geometry", lambda *_: True)
+    assert asked(1.1 * DEFAULT.missed_far, -100.0, 9.0, without=without, share=share) is expected
 
 
 @pytest.mark.long
