@@ -19,6 +19,7 @@ from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.settling import explains_nearly, leaves_no_structure, must_explain, predicts
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.learned import Learned
+from hexdbb.learned.numbered import TURNING
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -61,10 +62,10 @@ def or_another_beside(search: Search, node: Node) -> Node:
     ----------
     search : Search
     node : Node
-        Returned unchanged if it is not one function beside known effects, or leaves hardly more than the noise.
+        Returned unchanged if it is not one function beside known effects, or leaves no more than the noise.
     """
     known = _known(node)
-    if len(known) != len(node.members) - 1 or not known or node.trial.left < search.criteria.leaves_more:
+    if len(known) != len(node.members) - 1 or not known or node.trial.left < search.criteria.refined_to:
         return node
     without = tuple(each for each in node.members if each.hypothesis in known)
     left = search.trials.of_fewer(without, node.trial).left
@@ -114,7 +115,7 @@ def _tuned(
 ) -> Iterator[Node]:
     """Yield the single functions with the most evidence beside known effects, or alone, tuned.
 
-    Each explains such a part at least of what these leave.
+    Each explains such a part at least of what these leave. One whose sign change was smoothed is the same function.
     """
     left = search.root.trial.left if left is None else left
     alone = [each for each in search.nodes if len(each.members) == len(known) + 1 and _known(each) == known]
@@ -122,6 +123,6 @@ def _tuned(
     for each in sorted(alone, key=lambda each: -each.score):
         if left - each.trial.left >= least * (left - 1.0):
             name = next(one.name for one in each.hypotheses if isinstance(one, Learned))
-            best.setdefault(name, each)
+            best.setdefault(name.partition(f"_{TURNING}@")[0], each)
     for each in islice(best.values(), TRIED):
         yield finely_tuned(search, each)

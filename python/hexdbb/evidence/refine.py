@@ -84,7 +84,8 @@ def with_best_splines(search: Search, node: Node) -> Node:
 
 def finely_tuned(search: Search, node: Node) -> Node:
     """Return a set whose learned functions turn over as gradually, and have the splines and numbers, that fit best."""
-    return with_turning(search, with_tuned_numbers(search, with_best_splines(search, with_turning(search, node))))
+    node = with_best_splines(search, with_turning(search, node, until_no_structure=False))
+    return with_turning(search, with_tuned_numbers(search, node), until_no_structure=False)
 
 
 def _widened(search: Search, node: Node, places: Places | None = None) -> Node:

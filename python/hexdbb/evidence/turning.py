@@ -32,18 +32,20 @@ the transition; above the last, the function is nearly proportional to the rate.
 nearly two per step (`number.py`), so that values a factor of three apart reach any rate between."""
 
 
-def with_turning(search: Search, node: Node) -> Node:
+def with_turning(search: Search, node: Node, *, until_no_structure: bool = True) -> Node:
     """Return a set with smoothed changes of sign, if that increases the evidence; the same set otherwise.
 
     Parameters
     ----------
     search : Search
     node : Node
+    until_no_structure : bool, optional
+        Whether to stop where no structure is left: not where sets are compared, for one would be tuned further.
     """
     for place, member in enumerate(node.members):
         if not isinstance(member.hypothesis, Learned) or turns_with(member.hypothesis.variable) is None:
             continue
-        if leaves_no_structure(search, node):
+        if until_no_structure and leaves_no_structure(search, node):
             break
         node = _turned(search, node, place, member)
     return node

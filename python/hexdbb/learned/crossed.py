@@ -32,16 +32,11 @@ OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)
 OF_SWING = (v.SWING, v.SWING_ANGLE, v.INCLINATION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE)
 OF_CARRIAGE = (
     *(v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.VELOCITY, v.ACCELERATION),
-    *(v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, v.GAP),
+    *(v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD),
 )
-OF_OTHER = tuple(
-    neighbour(each)
-    for each in (
-        *(v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.ACCELERATION, v.FORCE),
-        *(v.TURNING, v.JOINT_ANGLE),
-    )
-)
-"""States of the other slider and leg on the guideway."""
+_OTHER = (v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.ACCELERATION, v.FORCE)
+OF_OTHER = tuple(neighbour(each) for each in _OTHER)
+"""States of the other slider and leg on the guideway. Their distance sets the angle of both legs, which is one state."""
 OF_BAR = (v.BAR_ANGLE, v.BAR_AZIMUTH, v.BAR_ELEVATION, v.DEFLECTION, v.SINCE_TURN, v.TURNED)
 OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
@@ -73,9 +68,12 @@ def _besides(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
     return tuple({each.name: each for each in every if each.name not in known}.values())
 
 
+OF_LEG = (*OF_ELEMENT, *_products(FACTORS_OF_ELEMENT, MULTIPLIED))
+OF_SLIDER = tuple(each for each in OF_LEG if each.column != v.JOINT_ANGLE.column)
+"""Without functions of the joint's angle: its cosine is what a slider moves its leg by, and the leg has them."""
 CROSSED: dict[str, tuple[Variable, ...]] = {
-    place: _besides(place, (*OF_ELEMENT, *_products(FACTORS_OF_ELEMENT, MULTIPLIED)))
-    for place in ("slider", "leg", "lateral", "vertical")
+    "slider": _besides("slider", OF_SLIDER),
+    **{place: _besides(place, OF_LEG) for place in ("leg", "lateral", "vertical")},
 }
 """Variables by place that neither the simple nor the further ones of that place are."""
 CROSSED |= {

@@ -40,7 +40,9 @@ def test_what_is_looked_at_last_is_in_no_list() -> None:
     assert len(set(last)) == len(last)
     for place in ("slider", "leg", "lateral", "vertical", "slider_joint", "platform_joint"):
         names = {*listed, *last}
-        for state in ("position", "velocity", "acceleration", "leg_force", "joint_angle", "time", "speed", "angle"):
+        # Sliders move along the leg's angle as the leg itself does: its functions are the leg's, or the distance's.
+        angle = "gap" if place == "slider" else "joint_angle"
+        for state in ("position", "velocity", "acceleration", "leg_force", angle, "time", "speed", "angle"):
             assert f"learned:{place}:1:{state}" in names
 
 
@@ -82,7 +84,7 @@ def test_a_state_that_no_list_has_at_a_place_is_found_there(kind: str, found: st
     ("kind", "found"),
     [
         # Ranked first by the screening, it gave way to functions that had been tuned before.
-        ("any_upward_joint_angle-d0-x10-judge-s5", "learned:slider_joint:5:neighbour_joint_angle"),
+        ("any_upward_joint_angle-d0-x10-judge-s5", "learned:slider_joint:5:joint_angle"),
         # Play of the slider explains nearly as much, and leaves three noise variances more.
         ("any_upward_travel-d0-x10-judge-s6", "learned:slider_joint:2:since_reversal_travel"),
     ],
@@ -100,7 +102,7 @@ def test_what_is_looked_at_last_is_compared_tuned_and_kept(kind: str, found: str
         # A tenth of what the function explains, and no form of it.
         (
             "straightness+any_platform_joint_joint_rate-d10-x3,10-calibrate-s702",
-            ["straightness:3", "learned:platform_joint:6:neighbour_turning_rate"],
+            ["straightness:3", "learned:platform_joint:6:turning_rate"],
         ),
         # Of the functions beside the drift the first that was fitted was another place's.
         (
