@@ -36,7 +36,7 @@ OF_CARRIAGE = (
 )
 _OTHER = (v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.ACCELERATION, v.FORCE)
 OF_OTHER = tuple(neighbour(each) for each in _OTHER)
-"""States of the other slider and leg on the guideway. Their distance sets the angle of both legs, which is one state."""
+"""States of the other slider and leg on the guideway. Their distance sets both legs' angles: one state."""
 OF_BAR = (v.BAR_ANGLE, v.BAR_AZIMUTH, v.BAR_ELEVATION, v.DEFLECTION, v.SINCE_TURN, v.TURNED)
 OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
