@@ -94,7 +94,7 @@ def _or_as_listed(search: Search, base: Node, screen: Screen, node: Node) -> Nod
     if not isinstance(last, Learned):
         return node
     every = (each for each in search.learnable.by_name.values() if not search.learnable.is_crossed(each))
-    same = [each for each in every if _state(each) == _state(last)]
+    same = [each for each in every if state_of(each) == state_of(last)]
     listed = search.tried(base, [screen.scored(each) for each in same])
     if not listed:
         return node
@@ -102,7 +102,7 @@ def _or_as_listed(search: Search, base: Node, screen: Screen, node: Node) -> Nod
     return node if stands_before(search, finely_tuned(search, node), best) else best
 
 
-def _state(hypothesis: Learned) -> tuple[int | str, str]:
+def state_of(hypothesis: Learned) -> tuple[int | str, str]:
     """Return the element and the variable, whether its change of sign is gradual or not."""
     return hypothesis.element, hypothesis.variable.name.partition(f"_{TURNING}@")[0]
 
