@@ -83,22 +83,24 @@ def with_best_number(search: Search, trial: Trial, place: int) -> Trial:
     """Return a trial with the number of one member where it fits best; the same where that gains nothing."""
     if (hypothesis := _learned(trial, place)) is None:
         return trial
+    tuned = hypothesis
     for _ in range(1 if hypothesis.variable.period else search.criteria.constant_rounds):
-        member = trial.members[place]
+        # A set that was fitted before has its members in the order of then.
+        member = next(each for each in trial.members if each.hypothesis == tuned)
         moved = best_number(search.trials, trial, member)
         if moved.name != member.hypothesis.name and moved.name in trial.names:
             break  # another function of the set has this number already: at the limit two may meet
         search.count_as(moved, hypothesis)
         try:
-            members = (*trial.members[:place], replace(member, hypothesis=moved), *trial.members[place + 1 :])
-            found = search.trials.of(members)
+            found = search.trials.of(
+                [replace(each, hypothesis=moved) if each is member else each for each in trial.members]
+            )
         except RunError:
             break
         if found.log_evidence <= trial.log_evidence or found.refused:
             break
-        trial = found
-    tuned = _learned(trial, place)
-    if tuned not in (None, hypothesis) and not hypothesis.variable.period:
+        trial, tuned = found, moved
+    if tuned != hypothesis and not hypothesis.variable.period:
         # A gauge that settles within a tenth of a second is late by that: the same as one that is read late.
         add_kin(search, [tuned])
     return trial

@@ -95,7 +95,7 @@ def _is_outdone_untested(search: Search, node: Node) -> bool:
     if not missing:
         return False
     shares = [held.share for grouping, held in search.checked(node).heldout.items() if grouping not in (ARC, "lap")]
-    if max(shares) < search.criteria.explained_min and any(each.after > each.before for each in missing):
+    if max(shares, default=0.0) < search.criteria.explained_min and any(each.after > each.before for each in missing):
         return True
     alone = (each for each in search.nodes if len(each.members) == 1 and not each.is_known)
     tested = (each for each in alone if not (each.trial.is_of_time or each.trial.refused) and is_complete(search, each))

@@ -105,8 +105,7 @@ def _is_too_fine(found: list[Scored]) -> bool:
 
 def with_numbers_of(search: Search, node: Node, wider: Node) -> Node:
     """Return a set with the periods and time constants that its functions have in a refined one: one name for each."""
-    for place, member in enumerate(node.members):
-        hypothesis = member.hypothesis
+    for hypothesis in node.hypotheses:
         if not isinstance(hypothesis, Learned) or hypothesis.name in wider.trial.names:
             continue
         others = (each.hypothesis for each in wider.members if each.hypothesis.name not in node.trial.names)
@@ -114,7 +113,7 @@ def with_numbers_of(search: Search, node: Node, wider: Node) -> Node:
         if (tuned := next(same, None)) is not None:
             moved = hypothesis.with_number(number_of(tuned.variable))
             search.count_as(moved, hypothesis)
-            members = (*node.members[:place], replace(member, hypothesis=moved), *node.members[place + 1 :])
+            members = [replace(e, hypothesis=moved) if e.hypothesis == hypothesis else e for e in node.members]
             with suppress(RunError):
                 node = search.node(members, near=node)
     return node
@@ -127,8 +126,9 @@ def _is_renumbered(one: Learned, other: Learned) -> bool:
 
 def with_tuned_numbers(search: Search, node: Node) -> Node:
     """Return a set whose functions have the periods and time constants that fit best; the same set where none gains."""
-    for place in range(len(node.members)):
-        trial = with_best_number(search, node.trial, place)
+    for hypothesis in node.hypotheses:
+        # A set that was fitted before has its members in the order of then.
+        trial = with_best_number(search, node.trial, node.hypotheses.index(hypothesis))
         if trial is not node.trial:
             node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
             search.nodes.append(node)

@@ -42,27 +42,28 @@ def with_turning(search: Search, node: Node, *, until_no_structure: bool = True)
     until_no_structure : bool, optional
         Whether to stop where no structure is left: not where sets are compared, for one would be tuned further.
     """
-    for place, member in enumerate(node.members):
-        if not isinstance(member.hypothesis, Learned) or turns_with(member.hypothesis.variable) is None:
+    for hypothesis in node.hypotheses:
+        if not isinstance(hypothesis, Learned) or turns_with(hypothesis.variable) is None:
             continue
         if until_no_structure and leaves_no_structure(search, node):
             break
-        node = _turned(search, node, place, member)
+        # A set that was fitted before has its members in the order of then.
+        node = _turned(search, node, node.members[node.hypotheses.index(hypothesis)])
     return node
 
 
-def _turned(search: Search, node: Node, place: int, member: Member) -> Node:
+def _turned(search: Search, node: Node, member: Member) -> Node:
     assert isinstance(member.hypothesis, Learned)
     gained, gradual = max(_scored(search, node, member, member.hypothesis), key=lambda each: each[0])
     if gained < search.criteria.detect_nats or gradual.name in node.trial.names:
         return node
     turned = replace(member, hypothesis=gradual)
     try:
-        trial = search.trials.of((*node.members[:place], turned, *node.members[place + 1 :]))
+        trial = search.trials.of([turned if each is member else each for each in node.members])
     except RunError:
         return node
     search.count_as(gradual, member.hypothesis)
-    trial = with_best_number(search, trial, place)
+    trial = with_best_number(search, trial, [each.hypothesis for each in trial.members].index(gradual))
     gain = trial.log_evidence - node.trial.log_evidence
     if gain < search.criteria.detect_nats or trial.refused:
         return node
