@@ -87,7 +87,7 @@ def test_a_state_that_no_list_has_at_a_place_is_found_there(kind: str, found: st
         ("any_upward_joint_angle-d0-x10-judge-s5", "learned:slider_joint:5:joint_angle"),
         # Play of the slider explains nearly as much, and leaves three noise variances more.
         ("any_upward_travel-d0-x10-judge-s6", "learned:slider_joint:2:since_reversal_travel"),
-        # Twice as many splines predict feeds, directions and laps; the circle left out, which is hardly determined, not.
+        # Finer splines predict feeds, directions and laps; the circle left out, hardly determined, they do not.
         ("any_leg_joint_rate-d0-x10-judge-s8", "learned:leg:1:turning_rate_turning@0.01174"),
         # The platform's joint of the leg explains nearly all, along three axes.
         ("any_upward_velocity-d0-x10-judge-s8", "learned:slider_joint:1:velocity_turning@6.782"),
