@@ -10,8 +10,6 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from hexdbb.errors import RunError
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.place import Places, functions_at
@@ -173,18 +171,8 @@ def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float
         return None
     gain = trial.log_evidence - node.trial.log_evidence
     found = Node(trial, node.score + gain)
-    if not gain > worth or trial.refused or not _predicts_as_well(search, trial, node.trial):
-        return None
-    is_better = not _error(search, found) >= max(_error(search, node), enough)
-    # What the first grouping hardly determines errs there by chance: finer functions may predict all others better.
-    return found if is_better or (enough and _errs_less_over_all(search, trial, node.trial)) else None
-
-
-def _errs_less_over_all(search: Search, trial: Trial, before: Trial) -> bool:
-    """Check that errors are smaller in the geometric mean over the groupings that both claim to predict."""
-    was, held = search.checked_trial(before).heldout, search.checked_trial(trial).heldout
-    ratios = [held[grouping].after / was[grouping].after for grouping in was if grouping in held]
-    return bool(ratios) and float(np.prod(ratios)) < 1.0
+    is_better = gain > worth and not trial.refused and not _error(search, found) >= max(_error(search, node), enough)
+    return found if is_better and _predicts_as_well(search, trial, node.trial) else None
 
 
 def _predicts_as_well(search: Search, trial: Trial, before: Trial) -> bool:
