@@ -26,6 +26,10 @@ class Node:
         """The same without their priors."""
         return tuple(each.hypothesis for each in self.trial.members)
 
+    def member(self, hypothesis: Hypothesis) -> Member:
+        """Return the member of a hypothesis: a set fitted before has its members in the order of then."""
+        return self.members[self.hypotheses.index(hypothesis)]
+
     @property
     def is_known(self) -> bool:
         """Whether all are known effects."""

@@ -14,6 +14,7 @@ import numpy as np
 
 from hexdbb.errors import RunError
 from hexdbb.evidence.readings import Readings
+from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums
@@ -35,11 +36,6 @@ for a tenth. Beyond, a function would be in proportion to the rate, which a cont
 MOST_STEPS = 12.0
 """Such changes that a number may move by: a quarter of a turn, beyond which a line is no approximation of a wave, or a
 factor of nearly two, from one of the constants first tried to the next."""
-
-
-def _learned(trial: Trial, place: int) -> Learned | None:
-    hypothesis = trial.members[place].hypothesis
-    return hypothesis if isinstance(hypothesis, Learned) and has_chosen_number(hypothesis.variable) else None
 
 
 def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
@@ -79,13 +75,12 @@ def _most(readings: Readings, variable: Variable) -> float:
     return np.inf if rate is None else MOST_TURNING * float(np.sqrt(np.mean(np.square(readings.state[rate]))))
 
 
-def with_best_number(search: Search, trial: Trial, place: int) -> Trial:
-    """Return a trial with the number of one member where it fits best; the same where that gains nothing."""
-    if (hypothesis := _learned(trial, place)) is None:
+def with_best_number(search: Search, trial: Trial, hypothesis: Hypothesis) -> Trial:
+    """Return a trial with the number of one of its hypotheses where it fits best; the same where that gains nothing."""
+    if not isinstance(hypothesis, Learned) or not has_chosen_number(hypothesis.variable):
         return trial
     tuned = hypothesis
     for _ in range(1 if hypothesis.variable.period else search.criteria.constant_rounds):
-        # A set that was fitted before has its members in the order of then.
         member = next(each for each in trial.members if each.hypothesis == tuned)
         moved = best_number(search.trials, trial, member)
         if moved.name != member.hypothesis.name and moved.name in trial.names:

@@ -73,8 +73,7 @@ def _error(search: Search, node: Node) -> float:
 def with_best_splines(search: Search, node: Node) -> Node:
     """Return a set whose learned functions have other splines or smoothness, where that gains and predicts well."""
     for hypothesis in node.hypotheses:
-        # A set that was fitted before has its members in the order of then.
-        member = node.members[node.hypotheses.index(hypothesis)]
+        member = node.member(hypothesis)
         for tuned in islice(retunings(search, node, member), TRIED):
             members = tuple(tuned if each is member else each for each in node.members)
             found = _tried(search, members, node, worth=0.0, enough=search.criteria.predicted_to)

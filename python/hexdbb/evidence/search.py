@@ -266,7 +266,7 @@ class Search:
                 if not is_at_most(self, trial):
                     continue
             else:
-                trial = with_best_number(self, trial, len(trial.members) - 1)
+                trial = with_best_number(self, trial, trial.members[-1].hypothesis)
             prior = sum(map(self.log_prior, {each.hypothesis for each in trial.members} - set(node.hypotheses)))
             score = node.score + trial.log_evidence - node.trial.log_evidence + prior
             found.append(Node(trial, score))

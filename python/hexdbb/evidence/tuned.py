@@ -127,8 +127,7 @@ def _is_renumbered(one: Learned, other: Learned) -> bool:
 def with_tuned_numbers(search: Search, node: Node) -> Node:
     """Return a set whose functions have the periods and time constants that fit best; the same set where none gains."""
     for hypothesis in node.hypotheses:
-        # A set that was fitted before has its members in the order of then.
-        trial = with_best_number(search, node.trial, node.hypotheses.index(hypothesis))
+        trial = with_best_number(search, node.trial, hypothesis)
         if trial is not node.trial:
             node = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
             search.nodes.append(node)

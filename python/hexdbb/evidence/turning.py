@@ -47,8 +47,7 @@ def with_turning(search: Search, node: Node, *, until_no_structure: bool = True)
             continue
         if until_no_structure and leaves_no_structure(search, node):
             break
-        # A set that was fitted before has its members in the order of then.
-        node = _turned(search, node, node.members[node.hypotheses.index(hypothesis)])
+        node = _turned(search, node, node.member(hypothesis))
     return node
 
 
@@ -63,7 +62,7 @@ def _turned(search: Search, node: Node, member: Member) -> Node:
     except RunError:
         return node
     search.count_as(gradual, member.hypothesis)
-    trial = with_best_number(search, trial, [each.hypothesis for each in trial.members].index(gradual))
+    trial = with_best_number(search, trial, gradual)
     gain = trial.log_evidence - node.trial.log_evidence
     if gain < search.criteria.detect_nats or trial.refused:
         return node

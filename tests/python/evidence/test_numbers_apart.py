@@ -19,4 +19,4 @@ def test_a_function_is_not_moved_to_the_number_of_another(monkeypatch: pytest.Mo
     monkeypatch.setattr(number, "best_number", lambda trials, trial, member: other)
     # A set with one function twice is not asked for: there is nothing that could fit it.
     search: Any = SimpleNamespace(trials=None, criteria=DEFAULT, count_as=lambda moved, hypothesis: None)
-    assert number.with_best_number(search, trial, 0) is trial
+    assert number.with_best_number(search, trial, trial.members[0].hypothesis) is trial
