@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hexdbb.errors import RunError
-from hexdbb.evidence.by_formulas import are_what_they_are
+from hexdbb.evidence.by_formulas import are_what_they_are, explain_by_own_formulas
 from hexdbb.evidence.known_words import in_known_words, known_for
 from hexdbb.evidence.needed import is_better, needs, needs_all
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import at_its_place
+from hexdbb.evidence.predicting import predicts_better
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.search import Search
-from hexdbb.evidence.settling import explained_by_formulas, explains_nearly, is_doubtful
+from hexdbb.evidence.settling import explained_by_formulas, explains_nearly, is_complete, is_doubtful
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Member
+from hexdbb.learned import Learned
 
 
 def settled(search: Search, node: Node) -> Node:
@@ -24,9 +27,10 @@ def settled(search: Search, node: Node) -> Node:
     for _ in range(search.criteria.most_rounds):
         if len(node.members) < 2 or are_what_they_are(search, node):
             return node
+        learns = search.learns and not _is_known_for_sure(search, node)
         for member in node.members:
             others = node.without(member)
-            _expand_better_formulas(search, node, search.expand(search.node(others, near=node)))
+            _expand_better_formulas(search, node, search.expand(search.node(others, near=node), learns), learns)
         better = sorted(
             (each for each in search.nodes if is_better(search, each, node) and _may_replace(search, each, node)),
             key=lambda each: -each.score,
@@ -45,7 +49,17 @@ def settled(search: Search, node: Node) -> Node:
     return node
 
 
-def _expand_better_formulas(search: Search, node: Node, instead: Sequence[Node]) -> None:
+def _is_known_for_sure(search: Search, node: Node) -> bool:
+    """Check for known effects, each what it is by its own formula: only another known effect may stand for one of them.
+
+    A function in place of one would only say the same; to screen all beside each of them took a third of the time.
+    """
+    if not (node.is_known and is_complete(search, node) and explain_by_own_formulas(search, node)):
+        return False
+    return is_for_sure(search, node)
+
+
+def _expand_better_formulas(search: Search, node: Node, instead: Sequence[Node], learns: bool) -> None:
     """Expand the set whose formulas explain most, of those that have another known effect in place of one of a set.
 
     One effect may stand in for two: either of these alone explains less than it does, but more by its formula.
@@ -55,16 +69,18 @@ def _expand_better_formulas(search: Search, node: Node, instead: Sequence[Node])
     known = [each for each in instead if each.is_known and not each.trial.refused]
     best = min(known, key=lambda each: search.left_by_formulas(each.trial), default=node)
     if search.left_by_formulas(best.trial) < search.left_by_formulas(node.trial):
-        search.expand(best)
+        search.expand(best, learns)
 
 
 def _gives_up(search: Search, node: Node, other: Node) -> bool:
     """Check that one of known effects, for sure by formulas that explain nearly all, would be given up for a function.
 
     A function of the time since each circle began says what a slider's reversals do, with a little more evidence than
-    an effect a tenth off its formula.
+    an effect a tenth off its formula. What leaves far less is no other wording.
     """
     if not node.is_known or other.is_known or {*node.hypotheses} <= {*other.hypotheses}:
+        return False
+    if _leaves_far_less(search, other, node):
         return False
     return explained_by_formulas(search, node) >= search.criteria.form_explains and is_for_sure(search, node)
 
@@ -77,19 +93,40 @@ def with_found_beside(search: Search, node: Node) -> Node:
 
 
 def _may_replace(search: Search, one: Node, other: Node) -> bool:
-    """Check that a set neither says the same in fewer known words, nor misses most where the other predicts."""
+    """Check that a set neither says the same in fewer known words, nor misses most where the other predicts.
+
+    What errs less on everything that was left out may, however far geometry leads both away.
+    """
     if _names_fewer(search, one, other):
         return False
-    return is_doubtful(search, other) or not is_doubtful(search, one)
+    return is_doubtful(search, other) or not is_doubtful(search, one) or predicts_better(search, one, other)
 
 
 def _names_fewer(search: Search, one: Node, other: Node) -> bool:
-    """Check whether a set has the causes of another in the words of learned functions: no other explanation."""
+    """Check whether a set has the causes of another in the words of learned functions: no other explanation.
+
+    Functions elsewhere that leave far less are one.
+    """
+    if _leaves_far_less(search, one, other) and not _is_where(search, one, other):
+        return False
     known = [sum(isinstance(each, Known) for each in node.hypotheses) for node in (one, other)]
     return known[0] < known[1] and all(
         any(search.same_kind(each, same) for same in second.hypotheses)
         for first, second in ((one, other), (other, one))
         for each in first.hypotheses
+    )
+
+
+def _leaves_far_less(search: Search, one: Node, other: Node) -> bool:
+    return one.trial.left - 1.0 < search.criteria.far_better * (other.trial.left - 1.0)
+
+
+def _is_where(search: Search, one: Node, other: Node) -> bool:
+    """Check that the functions of a set act where the causes of another do."""
+    return all(
+        any(at_its_place(search, cause, each) for cause in other.hypotheses)
+        for each in one.hypotheses
+        if isinstance(each, Learned)
     )
 
 

@@ -13,7 +13,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
 from hexdbb.evidence.screen import Scored, Screen
 from hexdbb.evidence.screened import add_kin, screened_crossed, screened_finer
-from hexdbb.evidence.settling import is_complete, leaves_room, predicts
+from hexdbb.evidence.settling import explained_by_formulas, is_complete, leaves_room, predicts
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Trial
@@ -32,13 +32,14 @@ Screened = Callable[["Search", Trial, Screen], list[Scored]]
 def needs_no_other(search: Search, best: Node) -> bool:
     """Check that a set explains all: known effects for sure, or functions that leave, and err by, little but noise.
 
-    Known effects that are not for sure, or leave more than their forms hide, and a function of another state or place,
-    however fine, stand in for what is looked at last.
+    Known effects that are not for sure, or leave more than their forms hide where their formulas do not explain nearly
+    all, and a function of another state or place, however fine, stand in for what is looked at last.
     """
     if not is_complete(search, best):
         return False
     if best.is_known:
-        return is_for_sure(search, best) and not leaves_room(search, best)
+        by_formulas = explained_by_formulas(search, best) >= search.criteria.form_explains
+        return is_for_sure(search, best) and (by_formulas or not leaves_room(search, best))
     checked = search.checked(best)
     errors = (checked.heldout[each].after for each in checked.claimed)
     is_exact = all(each <= search.criteria.predicted_to for each in errors)

@@ -118,8 +118,10 @@ def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | 
     # what is no product of two states.
     of_elements = [each for each in by_evidence if _variable(each) in variables]
     simple = [each for each in by_evidence if each.hypothesis in search.learnable.simple]
+    done: set[Scored] = set()
     for tried in (of_elements[:1], _best_two(simple), _best_two(by_evidence)):
-        found = [_with(search, node, linear, each, share) for each in tried]
+        found = [_with(search, node, linear, each, share) for each in tried if each not in done]
+        done.update(tried)
         good = [each for each in found if each is not None and each.trial.left < most]
         if good:
             return max(good, key=lambda each: each.score)

@@ -8,6 +8,7 @@ from hexdbb.evidence.elsewhere import rivals_elsewhere
 from hexdbb.evidence.form import Form
 from hexdbb.evidence.needed import by_formulas_instead, explains_more
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.one_state import of_one_state
 from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.predicting import predicts_better, stand_before
 from hexdbb.evidence.rivals_of_several import better_by_formula, one_instead
@@ -71,6 +72,7 @@ def rivals_of(search: Search, node: Node, cause: Hypothesis) -> Rivals:
         others += one_instead(search, node, cause)
     if isinstance(cause, Known):
         others += rivals_elsewhere(search, node, cause, alike)
+        others += of_one_state(search, node, cause)
     return Rivals(tuple(dict.fromkeys(others)), tuple(dict.fromkeys(alike)), margin)
 
 

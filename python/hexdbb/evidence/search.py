@@ -25,7 +25,7 @@ from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import first_error
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.known_together import or_known_together
-from hexdbb.evidence.last_resort import LAST_RESORTS, tried_last
+from hexdbb.evidence.last_resort import LAST_RESORTS, state_of, tried_last
 from hexdbb.evidence.learnable import Learnable
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.node import Node
@@ -286,7 +286,10 @@ class Search:
                 names.add(hypothesis.name)
 
     def _kept(self, children: Sequence[Node]) -> list[Node]:
-        """Choose the best sets that predict, of different kinds, and the best of known effects only."""
+        """Choose the best sets that predict, of different kinds, and the best of known effects only, the best first.
+
+        Beside the known one another fault shows as it is, beside what imitates both it does not: it is second at least.
+        """
         kept: list[Node] = []
         children = sorted(children, key=lambda each: -each.score)
         for child in children:
@@ -296,8 +299,8 @@ class Search:
         # Of two faults neither predicts alone, and one of another form may not either: the best is looked at further.
         best = next((each for each in children if each.is_known), None)
         if best is not None and not any(best is each for each in kept):
-            kept.append(best)
-        return sorted(kept, key=lambda each: -each.score)
+            kept.insert(1, best)
+        return kept
 
     def is_whole(self, effect: str) -> bool:
         """Check whether an effect has one element only, so that its name needs none."""
@@ -313,5 +316,12 @@ class Search:
 
 
 def _alike(search: Search, one: Node, other: Node) -> bool:
-    """Check whether every hypothesis of one set has one of its kind in another."""
-    return all(any(search.same_kind(first, second) for second in other.hypotheses) for first in one.hypotheses)
+    """Check whether every hypothesis of one set has one of its kind in another, or the same state at another place."""
+    return all(
+        any(search.same_kind(first, second) or _is_same_state(first, second) for second in other.hypotheses)
+        for first in one.hypotheses
+    )
+
+
+def _is_same_state(one: Hypothesis, other: Hypothesis) -> bool:
+    return isinstance(one, Learned) and isinstance(other, Learned) and state_of(one) == state_of(other)

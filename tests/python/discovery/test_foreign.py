@@ -237,10 +237,39 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
 
 
 @pytest.mark.long
-def test_a_fluted_joint_is_found_beside_a_lag() -> None:
-    """Waves of 1.8 degrees, of which twelve splines say nothing: a rail's fine form stood before the leg."""
-    found = found_in("fluted-and-lag")
-    assert {each.choice for each in found.causes} == {"servo_lag:4", "learned:leg:1:joint_angle"}
+@pytest.mark.parametrize(
+    ("name", "causes"),
+    [
+        # Waves of 1.8 degrees, of which twelve splines say nothing: a rail's fine form stood before the leg.
+        ("fluted-and-lag", {"servo_lag:4", "learned:leg:1:joint_angle"}),
+        # A cable that tugs where the bar points upward, and play: a function of the same slider stood before the play,
+        # beside which nothing else was looked for.
+        ("cable-beside-play", {"backlash:4", "learned:reading:bar_elevation"}),
+        # A base that tips over one foot where the platform is beyond y = 28 mm: a bow explained 98 % beside the spikes.
+        ("foot-lifts", {"reversal_spike:1", "learned:cup:position_along"}),
+    ],
+)
+def test_what_no_effect_says_is_found_beside_one(name: str, causes: set[str]) -> None:
+    found = found_in(name)
+    assert {each.choice.partition("@")[0] for each in found.causes} == causes
+
+
+@pytest.mark.long
+def test_what_time_alone_says_better_is_no_screw_that_warms_for_sure() -> None:
+    """A coupling that creeps at each reversal, beside legs that sag: by its form the screw leaves nearly as little."""
+    found = found_in("coupling-creeps")
+    assert found.verdict == "ambiguous"
+    grades = {each.choice: each.verdict for each in found.causes}
+    assert grades == {"screw_thermal:2": "ambiguous", "gravity_sag": "effect"}
+    rivals = [rival for each in found.causes for rival in each.rivals]
+    assert any("learned:slider:2:fine_time" in rival for rival in rivals)
+
+
+def test_a_delay_that_scatters_is_a_delay() -> None:
+    """By 12 % from sweep to sweep: functions of the path's direction and time describe what that leaves, too."""
+    found = found_in("delay-scatters")
+    assert found.verdict == "effect"
+    assert [each.choice for each in found.causes] == ["sample_delay"]
 
 
 @pytest.mark.long
