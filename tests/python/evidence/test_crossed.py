@@ -87,6 +87,10 @@ def test_a_state_that_no_list_has_at_a_place_is_found_there(kind: str, found: st
         ("any_upward_joint_angle-d0-x10-judge-s5", "learned:slider_joint:5:joint_angle"),
         # Play of the slider explains nearly as much, and leaves three noise variances more.
         ("any_upward_travel-d0-x10-judge-s6", "learned:slider_joint:2:since_reversal_travel"),
+        # The platform's joint of the leg explains nearly all, along three axes.
+        ("any_upward_velocity-d0-x10-judge-s8", "learned:slider_joint:1:velocity_turning@6.782"),
+        # The joint's other axes explain nearly all that the slider does, along one.
+        ("any_slider_platform_x-d0-x10-judge-s9", "learned:slider:1:platform_x"),
     ],
 )
 def test_what_is_looked_at_last_is_compared_tuned_and_kept(kind: str, found: str) -> None:
