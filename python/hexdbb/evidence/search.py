@@ -288,7 +288,8 @@ class Search:
     def _kept(self, children: Sequence[Node]) -> list[Node]:
         """Choose the best sets that predict, of different kinds, and the best of known effects only, the best first.
 
-        Beside the known one another fault shows as it is, beside what imitates both it does not: it is second at least.
+        Beside the known one another fault shows as it is, beside what imitates both it does not: it is second at least
+        where its own formula explains most of what it does.
         """
         kept: list[Node] = []
         children = sorted(children, key=lambda each: -each.score)
@@ -299,8 +300,14 @@ class Search:
         # Of two faults neither predicts alone, and one of another form may not either: the best is looked at further.
         best = next((each for each in children if each.is_known), None)
         if best is not None and not any(best is each for each in kept):
-            kept.insert(1, best)
+            kept.insert(1 if self._is_by_formula(best) else len(kept), best)
         return kept
+
+    def _is_by_formula(self, node: Node) -> bool:
+        """Check that formulas explain most of what a set of known effects does."""
+        left = self.root.trial.left
+        by_formulas = left - self.left_by_formulas(node.trial)
+        return by_formulas >= self.criteria.own_formula * (left - node.trial.left)
 
     def is_whole(self, effect: str) -> bool:
         """Check whether an effect has one element only, so that its name needs none."""
