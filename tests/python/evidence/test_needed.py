@@ -53,6 +53,11 @@ class Trialled:
         return 3.0
 
 
+@pytest.fixture(autouse=True)
+def nothing_is_for_sure(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(exchange, "is_for_sure", lambda search, node: False)
+
+
 def searched(
     left: dict[tuple[Member, ...], float],
     *fitted: tuple[Member, ...],
@@ -82,7 +87,8 @@ def searched(
             reasons=(), excused=node.members == excused, missed=0.0, missed_at_least=0.0, heldout={}
         ),
         left_by_formula=lambda trial, form: trial.left,
-        expand=lambda node: [],
+        learns=True,
+        expand=lambda node, learns: [],
         node=lambda members, near: node_of(trials.of(members)),
     )
     trials.asked.clear()
@@ -209,23 +215,38 @@ def test_effects_that_explain_nearly_all_by_their_formulas_are_not_looked_at_aga
     search, node = searched(left, by_formulas={(DRIFT, GAIN): by_formulas})
     search.left_by_formula = lambda trial, form: one_alone
     expanded: list[Node] = []
-    search.expand = lambda each: expanded.append(each) or []
+    search.expand = lambda each, learns: expanded.append(each) or []
     assert settled(search, node) is node
     assert bool(expanded) is looked_at
 
 
+@pytest.mark.parametrize("is_sure", [True, False])
+def test_beside_known_effects_for_sure_only_known_ones_are_looked_at_again(
+    monkeypatch: pytest.MonkeyPatch, is_sure: bool
+) -> None:
+    """Each explains most of what it does by its own formula, not nearly all."""
+    search, node = searched({(DRIFT, GAIN): 1.0, (DRIFT,): 6.0, (GAIN,): 6.0}, by_formulas={(DRIFT, GAIN): 1.5})
+    search.left_by_formula = lambda trial, form: 1.8
+    monkeypatch.setattr(exchange, "is_for_sure", lambda search, node: is_sure)
+    asked: list[bool] = []
+    search.expand = lambda each, learns: asked.append(learns) or []
+    assert settled(search, node) is node
+    assert asked == [not is_sure, not is_sure]
+
+
 @pytest.mark.parametrize(
-    ("is_sure", "by_formulas", "stays"),
-    [(True, 1.5, True), (False, 1.5, False), (True, 4.0, False)],
-    ids=["for sure by formulas", "not for sure", "by forms"],
+    ("is_sure", "by_formulas", "left_instead", "stays"),
+    [(True, 1.5, 1.2, True), (False, 1.5, 1.2, False), (True, 4.0, 1.2, False), (True, 1.5, 1.1, False)],
+    ids=["for sure by formulas", "not for sure", "by forms", "left far less"],
 )
 def test_known_effects_for_sure_by_formulas_are_given_up_for_no_function(
-    monkeypatch: pytest.MonkeyPatch, is_sure: bool, by_formulas: float, stays: bool
+    monkeypatch: pytest.MonkeyPatch, is_sure: bool, by_formulas: float, left_instead: float, stays: bool
 ) -> None:
     """What the reading does since each circle began says what a slider's reversals do, with a little more evidence."""
     since = Member(Learned.parse("learned:reading:time_in_sweep"))
-    left = {(DRIFT, GAIN): 1.3, (DRIFT, since): 1.0, (DRIFT,): 6.0, (GAIN,): 6.0, (since,): 6.0}
+    left = {(DRIFT, GAIN): 1.3, (DRIFT, since): left_instead, (DRIFT,): 6.0, (GAIN,): 6.0, (since,): 6.0}
     search, node = searched(left, by_formulas={(DRIFT, GAIN): by_formulas})
+    monkeypatch.setattr(exchange, "at_its_place", lambda search, cause, learned: False)
     search.nodes.append(node_of(search.trials.of((DRIFT, since))))
     search.same_kind = lambda one, other: one == other
     monkeypatch.setattr(exchange, "is_for_sure", lambda search, node: is_sure and since not in node.members)
@@ -254,13 +275,23 @@ def test_a_form_too_large_at_first_is_asked_for_again_beside_the_others() -> Non
     assert [found[each].first for each in found] == [3, 1]
 
 
-def test_the_same_causes_in_words_of_learned_functions_are_no_better_set() -> None:
+@pytest.mark.parametrize(
+    ("left_in_words", "is_there", "stays"),
+    [(1.04, False, True), (1.0, True, True), (1.0, False, False)],
+    ids=["leaves as much", "at the same place", "elsewhere"],
+)
+def test_the_same_causes_in_words_of_learned_functions_are_no_better_set(
+    monkeypatch: pytest.MonkeyPatch, left_in_words: float, is_there: bool, stays: bool
+) -> None:
+    """A base that tips over one foot is contained by a bow, and leaves less than half of what that does."""
+    monkeypatch.setattr(exchange, "at_its_place", lambda search, cause, learned: is_there)
+    monkeypatch.setattr(exchange, "in_known_words", lambda search, node: node)
     time, bend = (Member(Learned.parse(f"learned:reading:{name}")) for name in ("time", "deflection"))
-    left = {(DRIFT, bend): 1.05, (time, bend): 1.0, (DRIFT,): 5.0, (time,): 5.0, (bend,): 6.0}
+    left = {(DRIFT, bend): 1.05, (time, bend): left_in_words, (DRIFT,): 5.0, (time,): 5.0, (bend,): 6.0}
     search, node = searched(left)
     search.nodes.append(node_of(search.trials.of((time, bend))))
     search.same_kind = lambda one, other: one == other or {one, other} == {DRIFT.hypothesis, time.hypothesis}
-    assert settled(search, node).members == (DRIFT, bend)
+    assert settled(search, node).members == ((DRIFT, bend) if stays else (time, bend))
 
 
 def test_a_set_with_one_too_many_is_known_by_what_it_needs(monkeypatch: pytest.MonkeyPatch) -> None:
