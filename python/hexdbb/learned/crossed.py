@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.further import FACTORS, FURTHER, OF_BALL, OF_WHOLE, neighbour, of_drives, product
-from hexdbb.learned.numbered import POSITION_SPLINES
+from hexdbb.learned.further import DIRECTIONS_DEG, FACTORS, FURTHER, OF_BALL, OF_WHOLE, neighbour, of_drives, product
+from hexdbb.learned.numbered import POSITION_SPLINES, along
 from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, variables_of
 from hexdbb.learned.variable import Variable
 
@@ -32,12 +32,16 @@ OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)
 OF_SWING = (v.SWING, v.SWING_ANGLE, v.INCLINATION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE)
 OF_CARRIAGE = (
     *(v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.VELOCITY, v.ACCELERATION),
-    *(v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD),
+    *(v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, *v.LOADS_SINCE_TURN),
 )
 _OTHER = (v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.ACCELERATION, v.FORCE)
 OF_OTHER = tuple(neighbour(each) for each in _OTHER)
 """States of the other slider and leg on the guideway. Their distance sets both legs' angles: one state."""
 OF_BAR = (v.BAR_ANGLE, v.BAR_AZIMUTH, v.BAR_ELEVATION, v.DEFLECTION, v.SINCE_TURN, v.TURNED)
+DRAGGED = tuple(along("velocity", each) for each in DIRECTIONS_DEG)
+"""What is loose, or dragged, along one axis only."""
+OF_MOUNTED = (*OF_BAR, *OF_PATH, *OF_TIME, *DRAGGED)
+"""States of what is mounted for the measurement: ball, cup, bar and gauge."""
 OF_ELEMENT = (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *OF_PATH, *OF_BAR, *OF_TIME, *OF_OTHER, v.NEIGHBOUR_VELOCITY)
 OF_EACH_DRIVE = (v.POSITION, v.DIRECTION, v.VELOCITY, v.ACCELERATION, v.FORCE)
 
@@ -81,13 +85,20 @@ CROSSED |= {
     "platform_joint": _besides("platform_joint", OF_ELEMENT),
     "reading": _besides(
         "reading",
-        (*OF_BAR, *OF_PATH, *OF_TIME, *of_drives(OF_EACH_DRIVE), *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR)),
+        (
+            *OF_BAR,
+            *OF_PATH,
+            *OF_TIME,
+            *DRAGGED,
+            *of_drives(OF_EACH_DRIVE),
+            *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR),
+        ),
     ),
     **{
         place: _besides(
             place,
             (
-                *(*OF_BAR, *OF_PATH, *OF_TIME, *OF_BALL, *of_drives(OF_EACH_DRIVE)),
+                *(*OF_MOUNTED, *OF_BALL, *of_drives(OF_EACH_DRIVE)),
                 *_products(("time", "speed", "circle_direction"), (v.BAR_ANGLE, v.ANGLE, v.TIME, v.SPEED)),
             ),
         )

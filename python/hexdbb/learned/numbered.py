@@ -59,8 +59,11 @@ LEVEL_DIGITS = 6
 DIRECTED = {
     "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages", FOLLOWING_SPLINES),
     "position": ("position_mm", "mm", "position of the platform", POSITION_SPLINES),
+    "velocity": ("platform_velocity_mm_s", "mm/s", "velocity of the platform", POSITION_SPLINES),
 }
 """Vectors of which the part along a direction counts: column, unit, words, splines."""
+SIGNED = ("velocity",)
+"""Those whose part along a direction has a step where it changes sign: what is loose along one axis only."""
 HALF_TURN_DEG = 180.0
 """A direction and its opposite are the same: the spline takes either sign."""
 
@@ -154,7 +157,7 @@ def is_relay(variable: Variable) -> bool:
 
 def turns_with(variable: Variable) -> str | None:
     """Return the column at whose zero a variable's functions change sign abruptly; None if they do not."""
-    if variable.turns_within:
+    if variable.turns_within or is_directed(variable):
         return None
     return variable.column if variable.signed else RATES[variable.times][0] if variable.times in RATES else None
 
@@ -202,6 +205,7 @@ def along(vector: str, direction_deg: float) -> Variable:
         unit,
         f"{words} along {float(number):.3g}° in the x-y plane",
         count,
+        signed=vector in SIGNED,
     )
 
 

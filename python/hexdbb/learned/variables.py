@@ -78,6 +78,19 @@ ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceler
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)
 CARRIAGE_LOAD = Variable("carriage_load", "carriage_load", "", "force across the guideway per load", 12)
+LOADS_SINCE_TURN = tuple(
+    Variable(
+        f"{load.name}_since_turn",
+        f"{load.column}_since_turn",
+        "",
+        f"change of the {load.words.removesuffix(' per load')} since it turned",
+        10,
+        times=f"{load.column}_direction",
+        is_log=True,
+    )
+    for load in (FORCE, DRIVE_LOAD, CARRIAGE_LOAD)
+)
+"""A bolted joint slips, and a preloaded nut winds up, behind the load: they remember where it turned, not when."""
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)

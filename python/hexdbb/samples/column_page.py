@@ -28,6 +28,14 @@ OWN = {
     "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),
+    **{
+        f"{load}_{name}": ("leg", "1", words.format(load=load))
+        for load in ("leg_force", "drive_load", "carriage_load")
+        for name, words in (
+            ("direction", "direction in which `{load}` changes, +1 or -1; 0: never changed"),
+            ("since_turn", "change of `{load}` since it turned in its sweep; 1e6: not yet"),
+        )
+    },
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
     "radius_mm": ("sample", "mm", "distance of the platform from the base's z axis, nominal machine"),
     "neighbour_velocity_mm_s": ("slider", "mm/s", "velocity of the other slider on the guideway"),

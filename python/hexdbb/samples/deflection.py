@@ -11,7 +11,6 @@ second step on, polynomials of the deflection are fitted beside it, and only wha
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.polynomial import Legendre
@@ -36,8 +35,6 @@ BEND_MM = 0.1
 """Prior standard deviation of their coefficients: as large as the deflections that geometry makes."""
 LEAST_TURN_MM = 5e-4
 """Way back from which a gauge has turned: several counts of the encoders, far below any deflection."""
-NOT_YET_MM = 1e6
-"""As the engine writes a travel since a reversal that has not been."""
 NOISE_MM = 1e-3
 """Against which priors count: of tenths of a millimetre, they are the same beside the noise of any gauge."""
 
@@ -95,41 +92,3 @@ def _stepped(model: Model, rows: _core.Samples, reading_mm: Floats, degrees: Seq
     step = np.linalg.solve(columns.T @ columns + np.eye(columns.shape[1]), gradient)
     values[free] += prior * step[: len(free)]
     return model.with_values(values)
-
-
-def direction_and_travel(
-    deflection_mm: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]
-) -> tuple[Floats, Floats]:
-    """Return the direction in which the gauge moves, and its travel since it turned.
-
-    It turns over where the deflection has come back by `LEAST_TURN_MM` from the farthest that it was: the encoders'
-    steps do not show in it.
-
-    Returns
-    -------
-    direction : ndarray, shape (n,)
-        +1, -1, 0 where it never moved in its sweep.
-    travel_mm : ndarray, shape (n,)
-        From the farthest that it was before; 1e6 where it has not turned in its sweep yet.
-    """
-    order = np.lexsort((time_s, sweep))
-    found, since_mm = np.zeros(len(deflection_mm)), np.full(len(deflection_mm), NOT_YET_MM)
-    for rows in np.split(order, np.flatnonzero(np.diff(sweep[order])) + 1):
-        found[rows], since_mm[rows] = _turning(deflection_mm[rows])
-    return found, since_mm
-
-
-def _turning(values: Floats) -> tuple[Floats, Floats]:
-    """Return direction and travel since the last turn, of one sweep in order of time."""
-    found, since = np.zeros(len(values)), np.full(len(values), NOT_YET_MM)
-    direction, farthest, turned = 0.0, float(values[0]), None
-    for place, value in enumerate(values.tolist()):
-        ahead = value - farthest
-        if abs(ahead) > LEAST_TURN_MM or ahead * direction > 0.0:
-            if ahead * direction < 0.0:
-                turned = farthest
-            direction, farthest = float(np.sign(ahead)), value
-        found[place] = direction
-        if turned is not None:
-            since[place] = abs(value - turned)
-    return found, since

@@ -23,9 +23,9 @@ from hexdbb.samples.course import COURSES, COURSES_FROM, courses
 from hexdbb.samples.deflection import (
     DEFLECTION,
     DIRECTION_AND_TRAVEL,
+    LEAST_TURN_MM,
     SCALE,
     deflection_mm,
-    direction_and_travel,
     scale_mm,
 )
 from hexdbb.samples.distinct import distinct_rows
@@ -36,6 +36,7 @@ from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
 from hexdbb.samples.radius import RADIUS, RADIUS_FROM, radii_mm
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
+from hexdbb.samples.since_turn import TURNS_OF_LOADS, direction_and_travel, turns_of_load
 from hexdbb.samples.state import Make, planned_columns, state_columns
 from hexdbb.samples.swing import DERIVED, DERIVED_FROM, derived_columns
 from hexdbb.samples.two_states import relay_column, relay_of
@@ -82,7 +83,19 @@ class Whole:
     @property
     def names(self) -> tuple[str, ...]:
         """Names of all columns, derived already or not."""
-        later = (*STATE, *DERIVED, *LOADS, REACTION, *COURSES, GAP, RADIUS, *NEIGHBOURS, *TURN, *OF_GAUGE)
+        later = (
+            *STATE,
+            *DERIVED,
+            *LOADS,
+            *TURNS_OF_LOADS,
+            REACTION,
+            *COURSES,
+            GAP,
+            RADIUS,
+            *NEIGHBOURS,
+            *TURN,
+            *OF_GAUGE,
+        )
         # A copy: another thread may add a column meanwhile.
         return (*(name for name in tuple(self.columns) if name not in later), *later)
 
@@ -109,6 +122,9 @@ class Whole:
             self.columns |= derived_columns(self.machine, given, self.set_ups)
         elif name in LOADS:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
+        elif name in TURNS_OF_LOADS:
+            load = TURNS_OF_LOADS[name]
+            self.columns |= turns_of_load(load, *self._known(load, "time_s", "sweep"))
         elif name in COURSES:
             self.columns |= courses(*self._known(*COURSES_FROM))
         elif name == REACTION:
@@ -129,7 +145,7 @@ class Whole:
         elif name == SCALE:
             self.columns[name] = scale_mm(*self._known("reading_mm", "nominal_reading_mm"))
         elif name in DIRECTION_AND_TRAVEL:
-            found = direction_and_travel(*self._known(DEFLECTION, "time_s", "sweep"))
+            found = direction_and_travel(*self._known(DEFLECTION, "time_s", "sweep"), LEAST_TURN_MM)
             self.columns |= dict(zip(DIRECTION_AND_TRAVEL, found, strict=True))
 
     def _remembered(self, name: str, how: str, constant: float) -> Floats | None:

@@ -14,8 +14,9 @@ import numpy as np
 from hexdbb.rig.geometry import Array
 from hexdbb_truth.forms.family import Draw, column, signed, slider, unit_vector
 from hexdbb_truth.forms.fault import Fault, Outside
+from hexdbb_truth.forms.history import monotone
 from hexdbb_truth.forms.labels import Equivalent, leg_too, slider_too
-from hexdbb_truth.forms.operators import travel_since_reversal
+from hexdbb_truth.forms.operators import lost_motion, travel_since_reversal
 from hexdbb_truth.forms.ports import Action, Scene
 from hexdbb_truth.forms.shapes import Shape, shape_of, shape_of_turn
 
@@ -36,6 +37,14 @@ def _force_n(scene: Scene, k: int) -> Array:
     return np.asarray(scene.history.thrust_n[scene.rows, k])
 
 
+def _velocity_x_mm_s(scene: Scene, _: int) -> Array:
+    """Return the velocity of the platform along the base's x; between runs it counts as at rest."""
+    history = scene.history
+    at_mm, run = history.position_mm[:, 0], history.run
+    inside = (np.diff(run, prepend=run[0]) == 0) & (np.diff(run, append=run[-1]) == 0) & (run >= 0)
+    return np.asarray(np.where(inside, np.gradient(at_mm, history.dt_s), 0.0)[scene.rows])
+
+
 def _tilt_rad(scene: Scene, axis: int) -> Array:
     """Return the lean of the platform's z towards the base's x or y."""
     return np.asarray(np.arcsin(np.clip(scene.history.rotation[scene.rows, axis % 2, 2], -1.0, 1.0)))
@@ -50,6 +59,7 @@ OF_ELEMENT: dict[str, tuple[tuple[str, ...], State]] = {
     "joint_angle": (("joint_angle", "position"), _of_sliders("slider_joint_angle_rad")),
     "joint_rate": (("joint_turning",), _of_sliders("slider_joint_rate_rad_s")),
     "leg_force": (("leg_force",), _force_n),
+    "force_behind": (("leg_force", "direction"), _of_sliders("thrust_n")),
     "neighbour_position": (("position",), lambda scene, k: scene.drive_mm(k ^ 1)),
     "neighbour_velocity": (("velocity",), lambda scene, k: OF_ELEMENT["velocity"][1](scene, k ^ 1)),
 }
@@ -63,6 +73,10 @@ OF_MACHINE: dict[str, tuple[tuple[str, ...], State]] = {
     "deflection": (("deflection",), lambda scene, _: scene.deflection_mm),
 }
 """States that the machine has once."""
+OF_MOUNTED: dict[str, tuple[tuple[str, ...], State]] = {"velocity_x": (("velocity", "direction"), _velocity_x_mm_s)}
+"""States of the platform that push what the bar is held by, or the reading."""
+STATES = {**OF_ELEMENT, **OF_MACHINE, **OF_MOUNTED}
+"""All of them by name."""
 TURNED: dict[str, State] = {
     "angle": lambda scene, _: np.asarray(scene.history.angle_rad[scene.rows]),
 }
@@ -81,13 +95,26 @@ def _of_travel(shape: Shape, over_mm: float, scene: Scene, k: int) -> Array:
     return np.asarray(direction * shape(2.0 * np.exp(-_travel_mm(scene, k) / over_mm) - 1.0))
 
 
+def _of_force_behind(play_part: float, scene: Scene, k: int) -> Array:
+    """Return how far what a leg's force moves hangs back behind it, in a play of a part of what the force varies by.
+
+    A joint whose bolts slip follows in most of a circle, and hangs back after each turn of the force.
+    """
+    force_n = scene.history.thrust_n[:, k]
+    half_n = play_part * float(np.ptp(force_n[scene.sampled.rows]))
+    return np.asarray(lost_motion(force_n, half_n, monotone(force_n))[scene.rows]) / half_n
+
+
 def _pushed(draw: Draw, state_name: str) -> tuple[int, Callable[[Scene], Array]]:
     """Draw an element, and the function of its state."""
     k = slider(draw)
     if state_name in TURNED:
         turn, state = shape_of_turn(draw), TURNED[state_name]
         return k, lambda scene: turn(state(scene, k))
-    _, state = {**OF_ELEMENT, **OF_MACHINE}[state_name]
+    if state_name == "force_behind":
+        play_part = float(np.exp(draw.uniform(np.log(0.02), np.log(0.2))))
+        return k, lambda scene: _of_force_behind(play_part, scene, k)
+    _, state = STATES[state_name]
     shape = shape_of(draw)
     if state_name == "travel":
         # From an elastic nut to a cable that is taken along.
@@ -158,7 +185,7 @@ def _same_effect(port: str, state_name: str, elements: tuple[int, ...] | None) -
 
 
 def _words(state_name: str) -> tuple[str, ...]:
-    return (state_name,) if state_name in TURNED else {**OF_ELEMENT, **OF_MACHINE}[state_name][0]
+    return (state_name,) if state_name in TURNED else STATES[state_name][0]
 
 
 LARGEST_UM = 3000.0
@@ -170,7 +197,7 @@ def _kind(state_name: str, drawn: Callable[[Draw], Fault]) -> Outside:
 
 
 _EVERY = (*OF_ELEMENT, *OF_MACHINE, *TURNED)
-_COMMON = (*OF_MACHINE, *TURNED)
+_COMMON = (*OF_MACHINE, *TURNED, *OF_MOUNTED)
 TABLE: dict[str, Outside] = {
     **{f"any_{p}_{s}": _kind(s, partial(_along_one, p, s)) for p in ("slider", "leg") for s in _EVERY},
     **{f"any_sideways_{s}": _kind(s, partial(_across, 0, s)) for s in _EVERY},
