@@ -12,7 +12,18 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.further import DIRECTIONS_DEG, FACTORS, FURTHER, OF_BALL, OF_WHOLE, neighbour, of_drives, product
+from hexdbb.learned.further import (
+    BY_TRAVEL,
+    DIRECTIONS_DEG,
+    FACTORS,
+    FURTHER,
+    OF_BALL,
+    OF_WHOLE,
+    each_way,
+    neighbour,
+    of_drives,
+    product,
+)
 from hexdbb.learned.numbered import POSITION_SPLINES, along
 from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, variables_of
 from hexdbb.learned.variable import Variable
@@ -27,12 +38,17 @@ PLACED = tuple(
 RADIUS = Variable("platform_radius", "radius_mm", "mm", "distance of the platform from the axis", POSITION_SPLINES)
 OF_PATH = (v.ANGLE, v.ANGLE_DIRECTION, v.SPEED, v.FEED, v.CIRCLE_DIRECTION, v.ROLL, v.PITCH, v.YAW, *PLACED, RADIUS)
 """States of the platform and of its path."""
-OF_TIME = (v.TIME, v.FINE_TIME, v.TIME_IN_SWEEP, v.SINCE_FIXING, v.WARMING)
+OF_TIME = (v.TIME, v.FINE_TIME, v.TIME_IN_SWEEP, v.IN_CIRCLE, v.SINCE_FIXING, v.WARMING)
 OF_JOINT = (v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, JOINT_TRAVEL)
 OF_SWING = (v.SWING, v.SWING_ANGLE, v.INCLINATION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE)
+TRAVEL_EACH_WAY, SINCE_REVERSAL_EACH_WAY = (
+    each_way(replace(each, times=""), *BY_TRAVEL) for each in (v.TRAVEL, v.SINCE_REVERSAL)
+)
+"""What builds up after a reversal at one end of the travel only, or alike at both."""
 OF_CARRIAGE = (
     *(v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.VELOCITY, v.ACCELERATION),
     *(v.FORCE, v.DRIVE_LOAD, v.CARRIAGE_LOAD, *v.LOADS_SINCE_TURN),
+    *(v.JERK, v.SCREW_PHASE, TRAVEL_EACH_WAY, SINCE_REVERSAL_EACH_WAY),
 )
 _OTHER = (v.POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.SINCE_REVERSAL, v.TRAVEL, v.ACCELERATION, v.FORCE)
 OF_OTHER = tuple(neighbour(each) for each in _OTHER)

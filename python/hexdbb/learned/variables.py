@@ -78,6 +78,7 @@ ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceler
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)
 CARRIAGE_LOAD = Variable("carriage_load", "carriage_load", "", "force across the guideway per load", 12)
+JERK = Variable("jerk", "jerk_mm_s3", "mm/s³", "jerk of the slider", 12, signed=True)
 LOADS_SINCE_TURN = tuple(
     Variable(
         f"{load.name}_since_turn",
@@ -94,6 +95,8 @@ LOADS_SINCE_TURN = tuple(
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
+IN_CIRCLE = Variable("time_in_circle", "time_in_circle_s", "s", "time since the circle was begun", 10, is_log=True)
+"""The operator takes the bar in hand where a circle begins, not with every sweep of it."""
 SINCE_FIXING = Variable(
     "time_since_fixing", "time_since_fixing_s", "s", "time since the set-up was fixed", 10, is_log=True
 )
@@ -261,7 +264,7 @@ OF_GUIDEWAY = (
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
     *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION, TIME_POSITION_BENT),
 )
-OF_BALL = (TIME, FINE_TIME, SINCE_FIXING, ROLL, PITCH, YAW)
+OF_BALL = (TIME, FINE_TIME, IN_CIRCLE, SINCE_FIXING, ROLL, PITCH, YAW)
 PLATFORM_JOINT_ANGLE = Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5)
 DRAGGED_BY_ANGLE = replace(JOINT_ANGLE_DIRECTION, count=PLATFORM_JOINT_ANGLE.count, of_forms=True)
 """As few splines as other functions of a platform's joint have: each pushes along three axes."""
@@ -273,8 +276,8 @@ OF_PLATFORM_JOINT = (
     *(JOINT_SINCE_REVERSAL, DRAGGED_BY_ANGLE),
 )
 OF_READING = (
-    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, WARMING, CIRCLE_DIRECTION),
-    *(FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION, BAR_AZIMUTH),
+    *(ANGLE, ANGLE_DIRECTION, BAR_ANGLE, DEFLECTION, READ, TIME, FINE_TIME, TIME_IN_SWEEP, IN_CIRCLE, WARMING),
+    *(CIRCLE_DIRECTION, FEED, SPEED, ROLL, PITCH, YAW, SINCE_TURN, TURNED, BAR_ELEVATION, BAR_AZIMUTH),
     *(FINE_BAR_ANGLE, FINE_BAR_AZIMUTH),
 )
 OF_ONE = (FINE_POSITION, FINE_TIME)

@@ -22,7 +22,7 @@ Pose = tuple[Floats, Floats]
 DERIVED = (
     *("swing_angle_rad", "swing_rate_rad_s", "leg_inclination_rad", "bar_angle_rad", "bar_azimuth_rad"),
     "bar_elevation_rad",
-    *("time_in_sweep_s", "time_since_fixing_s", "turned_rad"),
+    *("time_in_sweep_s", "time_in_circle_s", "time_since_fixing_s", "turned_rad"),
 )
 DERIVED_FROM = ("sliders_mm", "velocity_mm_s", "set_up", "time_s", "sweep", "mount", "angle_rad")
 """Columns that these follow from."""
@@ -35,7 +35,7 @@ lengths over which the swing bends."""
 def derived_columns(
     machine: MachineFile, columns: Mapping[str, NDArray[Any]], set_ups: Sequence[_core.SetUp]
 ) -> dict[str, NDArray[Any]]:
-    """Return the columns `DERIVED`: (n, 6) thrice, (n,) six times; rad, rad/s, rad, rad, rad, rad, s, s, rad.
+    """Return the columns `DERIVED`: (n, 6) thrice, (n,) seven times; rad, rad/s, rad, rad, rad, rad, s, s, s, rad.
 
     Parameters
     ----------
@@ -61,6 +61,7 @@ def derived_columns(
         "bar_azimuth_rad": np.arctan2(bar_mm[:, 1], bar_mm[:, 0]),
         "bar_elevation_rad": np.arctan2(bar_mm[:, 2], np.hypot(bar_mm[:, 0], bar_mm[:, 1])),
         "time_in_sweep_s": columns["time_s"] - _begin_s(columns["time_s"], columns["sweep"]),
+        "time_in_circle_s": _in_circle_s(columns["time_s"], columns["set_up"], columns["sweep"]),
         "time_since_fixing_s": _since_fixing_s(columns["time_s"], columns["mount"]),
         "turned_rad": _turned_rad(columns["angle_rad"], columns["sweep"]),
     }
@@ -97,6 +98,17 @@ def _since_fixing_s(time_s: Floats, mount: NDArray[np.integer[Any]]) -> Floats:
     return np.full(len(time_s), np.nan) if is_one else time_s - _begin_s(time_s, mount)
 
 
+def _in_circle_s(time_s: Floats, set_up: NDArray[np.integer[Any]], sweep: NDArray[np.integer[Any]]) -> Floats:
+    """Return the time since the first sample of each sample's circle, shape (n,); nan where all have one.
+
+    The same where each circle has one sweep: it would repeat `time_in_sweep_s` under another name.
+    """
+    circles, sweeps = np.unique(set_up), np.unique(np.column_stack([set_up, sweep]), axis=0)
+    if len(circles) <= 1 or len(sweeps) == len(circles):
+        return np.full(len(time_s), np.nan)
+    return time_s - _begin_s(time_s, set_up)
+
+
 def _turned_rad(angle_rad: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
     """Return the angle turned since the first sample of each sweep, with its sign, shape (n,)."""
     begins = np.flatnonzero(np.diff(sweep)) + 1
@@ -105,7 +117,7 @@ def _turned_rad(angle_rad: Floats, sweep: NDArray[np.integer[Any]]) -> Floats:
 
 
 def _begin_s(time_s: Floats, part: NDArray[np.integer[Any]]) -> Floats:
-    """Return the time at which each sample's part, a sweep or a fixing, begins; shape (n,)."""
+    """Return the time at which each sample's part, a sweep, a circle or a fixing, begins; shape (n,)."""
     member = np.unique(part, return_inverse=True)[1].ravel()
     begin = np.full(int(member.max()) + 1, np.inf)
     np.minimum.at(begin, member, time_s)

@@ -25,7 +25,7 @@ COMPUTED = {
             *("slider_joint_rate_rad_s", "platform_joint_rate_rad_s", "swing_rate_rad_s"),
         }
     ),
-    "time": frozenset({"time_s", "time_in_sweep_s", "time_since_fixing_s", "warming_k"}),
+    "time": frozenset({"time_s", "time_in_sweep_s", "time_in_circle_s", "time_since_fixing_s", "warming_k"}),
 }
 """Columns that cannot be judged, by what was computed instead of measured."""
 MEANING = {

@@ -58,6 +58,7 @@ VARIABLES = {
     "step": ("time",),
     "fine_time": ("time",),
     "time_since_fixing": ("time",),
+    "time_in_circle": ("time",),
     "roll": ("tilt",),
     "pitch": ("tilt",),
     "time_in_sweep": ("time_in_run",),
