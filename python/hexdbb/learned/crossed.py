@@ -18,6 +18,7 @@ from hexdbb.learned.further import (
     FACTORS,
     FURTHER,
     OF_BALL,
+    OF_PAIRS,
     OF_WHOLE,
     each_way,
     neighbour,
@@ -88,6 +89,12 @@ def _besides(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
     return tuple({each.name: each for each in every if each.name not in known}.values())
 
 
+def _besides_pair(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
+    """Return variables that two elements of a place which share a function do not have yet."""
+    known = {each.name for each in OF_PAIRS[place]}
+    return tuple({each.name: each for each in every if each.name not in known}.values())
+
+
 OF_LEG = (*OF_ELEMENT, *_products(FACTORS_OF_ELEMENT, MULTIPLIED))
 OF_SLIDER = tuple(each for each in OF_LEG if each.column != v.JOINT_ANGLE.column)
 """Without functions of the joint's angle: its cosine is what a slider moves its leg by, and the leg has them."""
@@ -101,14 +108,7 @@ CROSSED |= {
     "platform_joint": _besides("platform_joint", OF_ELEMENT),
     "reading": _besides(
         "reading",
-        (
-            *OF_BAR,
-            *OF_PATH,
-            *OF_TIME,
-            *DRAGGED,
-            *of_drives(OF_EACH_DRIVE),
-            *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR),
-        ),
+        (*OF_MOUNTED, *of_drives(OF_EACH_DRIVE), *_products(FACTORS_OF_BAR, MULTIPLIED_OF_BAR)),
     ),
     **{
         place: _besides(
@@ -123,7 +123,18 @@ CROSSED |= {
 }
 
 
+_PATH_AND_TIME = (*OF_PATH, *OF_TIME, *of_drives(OF_EACH_DRIVE))
+CROSSED_PAIRS: dict[str, tuple[Variable, ...]] = {
+    "slider": _besides_pair("slider", (*OF_CARRIAGE, *OF_JOINT, *_PATH_AND_TIME)),
+    "leg": _besides_pair("leg", (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *_PATH_AND_TIME)),
+}
+"""The same of the two sliders or legs of a guideway that share a function: a guideway that moves along itself."""
+
+
 def every_variable_of(place: str, element: int) -> tuple[Variable, ...]:
     """Return the variables of an element of a place: those listed for it, then those that are looked at last."""
-    is_single = element not in PAIRS.values() and not (element == ALL and place in (*SHARED, *OF_WHOLE))
-    return (*variables_of(place, element), *(CROSSED.get(place, ()) if is_single else ()))
+    listed = variables_of(place, element)
+    if element in PAIRS.values():
+        return (*listed, *CROSSED_PAIRS.get(place, ()))
+    is_single = not (element == ALL and place in (*SHARED, *OF_WHOLE))
+    return (*listed, *(CROSSED.get(place, ()) if is_single else ()))

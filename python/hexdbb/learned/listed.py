@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from hexdbb.learned import further
 from hexdbb.learned import variables as v
-from hexdbb.learned.crossed import CROSSED
+from hexdbb.learned.crossed import CROSSED, CROSSED_PAIRS
 from hexdbb.learned.hypothesis import Learned
 from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, members, single
 
@@ -59,10 +59,13 @@ def further_hypotheses() -> Iterator[Learned]:
 
 
 def crossed_hypotheses() -> Iterator[Learned]:
-    """Yield the hypotheses that are looked at last: every state of single elements, and products of any two."""
+    """Yield the hypotheses that are looked at last: every state of elements and pairs, and products of any two."""
     for place, variables in CROSSED.items():
         for element in single(place):
             yield from (Learned(place, element, each) for each in variables if element != ALL or place not in SHARED)
+    for place, variables in CROSSED_PAIRS.items():
+        for pair in PAIRS.values():
+            yield from (Learned(place, pair, each) for each in variables)
 
 
 def _is_of_own_pair(learned: Learned) -> bool:

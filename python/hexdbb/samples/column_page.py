@@ -28,7 +28,6 @@ OWN = {
         "s",
         "time since the first sample of the circle; nan where there is one only, or one sweep of each",
     ),
-    "jerk_mm_s3": ("slider", "mm/s^3", "rate of the slider's acceleration within the sweep"),
     "time_since_fixing_s": ("sample", "s", "time since the first sample of the fixing; nan where there is one only"),
     "turned_rad": ("sample", "rad", "angle turned since the first sample of the sweep, with its sign"),
     "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),

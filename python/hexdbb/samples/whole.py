@@ -31,7 +31,6 @@ from hexdbb.samples.deflection import (
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
-from hexdbb.samples.jerk import JERK, JERK_FROM, jerk_mm_s3
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
@@ -90,7 +89,6 @@ class Whole:
             *LOADS,
             *TURNS_OF_LOADS,
             REACTION,
-            JERK,
             *COURSES,
             GAP,
             RADIUS,
@@ -132,8 +130,6 @@ class Whole:
         elif name == REACTION:
             (acceleration,) = self._known(REACTION_FROM)
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
-        elif name == JERK:
-            self.columns[name] = jerk_mm_s3(*self._known(*JERK_FROM))
         elif name == GAP:
             self.columns[name] = gaps_mm(*self._known(GAP_FROM))
         elif name == RADIUS:

@@ -222,6 +222,15 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("ground-loop", "learned:reading:slider_4_velocity", {"circle", "feed", "direction", "lap"}),
         # Lobes of a platform joint's ball: a joint off its place left as little, with geometry far beyond its priors.
         ("lobed-joint", "learned:leg:6:platform_joint_angle", {"circle", "feed", "direction", "lap"}),
+        # A feed-forward of the jerk: two functions of velocities and a lag of all drives stood in for it.
+        ("jerk-forward", "learned:slider:3:jerk", {"circle", "direction"}),
+        # An operator who takes the bar in hand where a circle begins: it was a gauge that drifts, or one that is read
+        # otherwise in either direction.
+        ("bar-in-hand", "learned:reading:time_in_circle", {"circle", "direction"}),
+        # A carriage that rises as it floats on its oil again, alike at both ends of the travel.
+        ("oil-film", "learned:slider_joint:2:since_reversal_travel_each_way", {"feed", "direction"}),
+        # The inertia of one carriage moves another guideway along itself, both sliders alike: it was the cup.
+        ("guideway-shakes", "learned:slider:5-6:slider_1_acceleration", {"circle", "feed", "direction"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
