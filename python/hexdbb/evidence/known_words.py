@@ -100,11 +100,15 @@ def _is_by_form(search: Search, node: Node, learned: Learned) -> bool:
     known, *others = node.hypotheses
     if others or not isinstance(known, Known) or (form := node.trial.forms[0]) is None:
         return False
-    is_there = learned.port in search.engine.absent.ports(known.effect) and (
+    is_other = form.deviation > search.criteria.form_named or not acts_there(search, known, learned)
+    return is_other and explained_by_formulas(search, node) < search.criteria.formula_names
+
+
+def acts_there(search: Search, known: Known, learned: Learned) -> bool:
+    """Check that a known effect pushes what a function pushes."""
+    return learned.port in search.engine.absent.ports(known.effect) and (
         known.is_whole or learned.element == ALL or str(learned.element) in known.elements
     )
-    is_other = form.deviation > search.criteria.form_named or not is_there
-    return is_other and explained_by_formulas(search, node) < search.criteria.formula_names
 
 
 def _leaves_more(search: Search, node: Node, than: Node, learned: Learned) -> bool:

@@ -15,6 +15,7 @@ from hexdbb.evidence.hidden import with_what_forms_hide
 from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
+from hexdbb.evidence.own_form import with_known_of_form
 from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
 from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
 from hexdbb.evidence.refine import refined, refined_forms
@@ -129,7 +130,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         return Verdict("none", (), search.root, None, before, forms)
     node = in_simple_words(search, node)
     node, wider = or_one_place(search, *without_stand_ins(search, node, refined(search, node)))
-    node = with_numbers_of(search, node, wider)
+    node, wider = with_known_of_form(search, with_numbers_of(search, node, wider), wider)
     causes, refinements = _grouped(search, node)
     known = {each.name for each in node.hypotheses}
     for each in wider.hypotheses:
