@@ -190,7 +190,8 @@ def test_interrupted_run_stops_and_keeps(
 ) -> None:
     with start_rig() as rig:
         line = command("--bus", rig.bus, "--yes", "--plan", many_laps)
-        process = subprocess.Popen(line, stderr=subprocess.PIPE, text=True)
+        # Tests that are run by nohup ignore a closed terminal, and so does what they start: a run goes on then.
+        process = subprocess.Popen(["env", "--default-signal", *line], stderr=subprocess.PIPE, text=True)
         wait_for_samples(process, tmp_path / "run.parquet")
         process.send_signal(number)
         _, said = process.communicate(timeout=30)
