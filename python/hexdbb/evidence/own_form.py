@@ -39,7 +39,7 @@ def with_known_of_form(search: Search, node: Node, wider: Node) -> tuple[Node, N
 
 
 def _is_mostly_its_formula(search: Search, known: Node, node: Node, learned: Learned) -> bool:
-    """Check for an effect in a function's place whose formula, nearly of that form, explains most of the missing."""
+    """Check for an effect that pushes what a function pushes, and whose formula explains most of what is missing."""
     effect, form = known.hypotheses[0], known.trial.forms[0]
     assert isinstance(effect, Known)
     return (

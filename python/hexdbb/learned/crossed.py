@@ -16,9 +16,7 @@ from hexdbb.learned.further import (
     BY_TRAVEL,
     DIRECTIONS_DEG,
     FACTORS,
-    FURTHER,
     OF_BALL,
-    OF_PAIRS,
     OF_WHOLE,
     each_way,
     neighbour,
@@ -26,7 +24,7 @@ from hexdbb.learned.further import (
     product,
 )
 from hexdbb.learned.numbered import POSITION_SPLINES, along
-from hexdbb.learned.places import ALL, PAIRS, SHARED, VARIABLES, variables_of
+from hexdbb.learned.places import ALL, PAIRS, SHARED, variables_of
 from hexdbb.learned.variable import Variable
 
 JOINT_TRAVEL = replace(v.JOINT_SINCE_REVERSAL, of_forms=False)
@@ -83,15 +81,9 @@ def _products(factors: Iterable[str], variables: Iterable[Variable]) -> Iterator
                 yield product(factor, variable)
 
 
-def _besides(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
-    """Return variables that a place does not have yet, one of each name."""
-    known = {each.name for each in (*VARIABLES[place], *FURTHER[place])}
-    return tuple({each.name: each for each in every if each.name not in known}.values())
-
-
-def _besides_pair(place: str, every: Iterable[Variable]) -> tuple[Variable, ...]:
-    """Return variables that two elements of a place which share a function do not have yet."""
-    known = {each.name for each in OF_PAIRS[place]}
+def _besides(place: str, every: Iterable[Variable], element: int = 1) -> tuple[Variable, ...]:
+    """Return variables that an element of a place, or two that share a function, do not have yet, one of each name."""
+    known = {each.name for each in variables_of(place, element)}
     return tuple({each.name: each for each in every if each.name not in known}.values())
 
 
@@ -125,8 +117,8 @@ CROSSED |= {
 
 _PATH_AND_TIME = (*OF_PATH, *OF_TIME, *of_drives(OF_EACH_DRIVE))
 CROSSED_PAIRS: dict[str, tuple[Variable, ...]] = {
-    "slider": _besides_pair("slider", (*OF_CARRIAGE, *OF_JOINT, *_PATH_AND_TIME)),
-    "leg": _besides_pair("leg", (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *_PATH_AND_TIME)),
+    "slider": _besides("slider", (*OF_CARRIAGE, *OF_JOINT, *_PATH_AND_TIME), PAIRS["1-2"]),
+    "leg": _besides("leg", (*OF_CARRIAGE, *OF_JOINT, *OF_SWING, *_PATH_AND_TIME), PAIRS["1-2"]),
 }
 """The same of the two sliders or legs of a guideway that share a function: a guideway that moves along itself."""
 

@@ -34,6 +34,8 @@ INSTANT_S = 1e-4
 """Resolution of instants in names: far below the time between two samples."""
 FOLLOWING_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
+VELOCITY_SPLINES = 12
+"""Splines over the platform's velocity: as many as a slider's has (`variables.VELOCITY`)."""
 POSITION_SPLINES = 12
 """Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
 such a bend was taken for a leg's swing."""
@@ -59,7 +61,7 @@ LEVEL_DIGITS = 6
 DIRECTED = {
     "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages", FOLLOWING_SPLINES),
     "position": ("position_mm", "mm", "position of the platform", POSITION_SPLINES),
-    "velocity": ("platform_velocity_mm_s", "mm/s", "velocity of the platform", POSITION_SPLINES),
+    "velocity": ("platform_velocity_mm_s", "mm/s", "velocity of the platform", VELOCITY_SPLINES),
 }
 """Vectors of which the part along a direction counts: column, unit, words, splines."""
 SIGNED = ("velocity",)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from hexdbb import _core
 from hexdbb.record.file_pages import replaced
+from hexdbb.samples.since_turn import TURNS_OF_LOADS
 
 BEGIN = "<!-- columns: made by `python -m hexdbb.samples.column_page docs/glossary.md`; do not edit -->"
 END = "<!-- end of columns -->"
@@ -34,12 +35,14 @@ OWN = {
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),
     **{
-        f"{load}_{name}": ("leg", "1", words.format(load=load))
-        for load in ("leg_force", "drive_load", "carriage_load")
-        for name, words in (
-            ("direction", "direction in which `{load}` changes, +1 or -1; 0: never changed"),
-            ("since_turn", "change of `{load}` since it turned in its sweep; 1e6: not yet"),
+        name: (
+            "leg",
+            "1",
+            f"direction in which `{load}` changes, +1 or -1; 0: never changed"
+            if name.endswith("direction")
+            else f"change of `{load}` since it turned in its sweep; 1e6: not yet",
         )
+        for name, load in TURNS_OF_LOADS.items()
     },
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
     "radius_mm": ("sample", "mm", "distance of the platform from the base's z axis, nominal machine"),

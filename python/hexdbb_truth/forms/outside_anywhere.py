@@ -112,6 +112,7 @@ def _pushed(draw: Draw, state_name: str) -> tuple[int, Callable[[Scene], Array]]
         turn, state = shape_of_turn(draw), TURNED[state_name]
         return k, lambda scene: turn(state(scene, k))
     if state_name == "force_behind":
+        # From bolts that slip as soon as the force turns to bolts that hold for most of a circle.
         play_part = float(np.exp(draw.uniform(np.log(0.02), np.log(0.2))))
         return k, lambda scene: _of_force_behind(play_part, scene, k)
     _, state = STATES[state_name]
