@@ -140,6 +140,7 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   constexpr int kMostCoarse = 60, kMost = 20;  // iteration limits
   constexpr double kCoarseFall = 1.0;          // of chi-square: the remaining readings move the minimum by more
   constexpr double kFall = 0.02;               // of chi-square: verdicts depend on differences of several units
+  constexpr double kKinkedFall = 2.0;  // of chi-square, where steps go back and forth across kinks: a nat of evidence
   const double noise_mm = options.noise_mm;
   const Eigen::VectorXd start = unknowns.scaled_start(), bound = bounds_about(unknowns, start);
   FewReadings few(model, samples, measured_mm, unknowns, noise_mm);
@@ -148,15 +149,33 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
     return posterior_at(model, accumulator, unknowns, noise_mm, at, sums);
   };
   out.termination = "Converged: no further step improves the fit.";
-  // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
-  const bool thin = is_thin(few, unknowns.size());
-  if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
-    const LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall, kFall});
-    out.usable = end.is_at_rest;
-    out.iterations = end.steps;
-    if (out.usable) {
-      out.values = unknowns.values(end.z.data());
-      return end.z;
+  const auto of_all_sums = [&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); };
+  if (options.from_minimum) {
+    Eigen::VectorXd near = start;
+    const bool thin = is_thin(few, unknowns.size()), many = samples.size() >= kLeastStride * kFewRows;
+    // Few readings hardly hold on to their minimum without some of them.
+    if (thin || many) {
+      LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall, kFall});
+      out.usable = end.is_at_rest;
+      out.iterations = end.steps;
+      if (out.usable) {
+        out.values = unknowns.values(end.z.data());
+        return end.z;
+      }
+      if (std::isfinite(end.cost)) near = std::move(end.z);
+    }
+    // Where kinks of the cost stop steps that are not damped, the minimum is near all the same: of hundreds of learned
+    // values the way from afar took four times as long, for a minimum no lower. Of many readings and few values it
+    // costs little, and was lower by a tenth of a per cent.
+    if (thin || !many) {
+      const Descent down = descend(of_all_sums, few, std::move(near), bound, {kKinkedFall, kMost});
+      out.usable = down.is_reachable && (down.is_at_rest || down.steps == kMost);
+      out.iterations = down.steps;
+      if (out.usable) {
+        if (!down.is_at_rest) out.termination = "Iteration limit reached.";
+        out.values = unknowns.values(down.z.data());
+        return down.z;
+      }
     }
   }
   const auto down_from = [&](const Eigen::VectorXd& z) {
@@ -175,7 +194,6 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
     or_from(further.scaled_start());
     or_from(further.scaled_expected());
   }
-  const auto of_all_sums = [&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); };
   // The valley is as narrow and as curved for all readings as for some of them.
   const Descent fine = descend(of_all_sums, few, coarse.z, bound, {kFall, kMost}, coarse.damping);
   // Of several minima the coarse descent may choose one that all readings like less than the start: Ceres begins anew.

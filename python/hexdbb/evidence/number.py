@@ -87,9 +87,8 @@ def with_best_number(search: Search, trial: Trial, hypothesis: Hypothesis) -> Tr
             break  # another function of the set has this number already: at the limit two may meet
         search.count_as(moved, hypothesis)
         try:
-            found = search.trials.of(
-                [replace(each, hypothesis=moved) if each is member else each for each in trial.members]
-            )
+            members = [replace(each, hypothesis=moved) if each is member else each for each in trial.members]
+            found = search.trials.of(members, near=trial)
         except RunError:
             break
         if found.log_evidence <= trial.log_evidence or found.refused:

@@ -59,8 +59,14 @@ def functions_at(search: Search, trial: Trial, linear: Linear, places: Places | 
     known = {each.name for each in causes}
     readings, criteria = search.engine.readings, search.criteria
     with_time = trial.is_free_in_time
+
+    def is_there(learned: Learned) -> bool:
+        return any(learned.is_within(*place) for place in places) and (with_time or not learned.is_of_time)
+
     proposed = (
-        proposals(linear, readings, search.thinned, criteria) if with_time else [*periods(linear, readings, criteria)]
+        proposals(linear, readings, search.thinned, criteria)
+        if with_time
+        else [*periods(linear, readings, criteria, is_there)]
     )
     search.learnable.propose(proposed)
     of_forms = all_varying(readings, of_forms=True)
@@ -73,13 +79,7 @@ def functions_at(search: Search, trial: Trial, linear: Linear, places: Places | 
             *filter(None, by_direction),
         )
     )
-    return [
-        each
-        for each in every
-        if any(each.is_within(*place) for place in places)
-        and each.name not in known
-        and (with_time or not each.is_of_time)
-    ]
+    return [each for each in every if each.name not in known and is_there(each)]
 
 
 def kin_of(search: Search, cause: Hypothesis) -> list[Learned]:

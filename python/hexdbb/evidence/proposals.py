@@ -8,7 +8,7 @@ choice costs, the log of the average over all that was tried relative to the bes
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -207,11 +207,24 @@ class _Scan:
         return found
 
 
-def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[Proposal]:
+def periods(
+    linear: Linear,
+    readings: Readings,
+    criteria: Criteria,
+    is_asked_for: Callable[[Learned], bool] = lambda _: True,
+) -> Iterator[Proposal]:
     """Yield the strongest periods: of the places of sliders and guideways, the gauge's scale, in time of what shifts.
 
     A rail waves for both of its carriages, the balls that roll in one carriage lift that alone. The cup stands for the
     ball too, which moves alike.
+
+    Parameters
+    ----------
+    linear : Linear
+    readings : Readings
+    criteria : Criteria
+    is_asked_for : callable, optional
+        Tells of a function, whatever its period, whether it is.
     """
     position, time_s = readings.state["sliders_mm"], readings.state["time_s"]
     places = [(place, each) for place in ("slider", "slider_joint") for each in range(1, 7)]
@@ -219,18 +232,21 @@ def periods(linear: Linear, readings: Readings, criteria: Criteria) -> Iterator[
     machine = readings.state.machine
     for place, element in places:
         learned = Learned(place, element, periodic("position", 1.0))
+        if not is_asked_for(learned):
+            continue
         axes = [learned.pushes(axis, machine) for axis in range(learned.components)]
         answers = [np.concatenate([linear.residual * readings.answer(ports) for _, ports in each]) for each in axes]
         values = np.concatenate([position[:, column] for column, _ in axes[0]])
         found = _period(place, element, "position", np.column_stack(answers), values, 1.0 / criteria.shortest_mm)
         yield from (each for each in found if place != "slider_joint" or not _is_of_screw(each.hypothesis, machine))
     scale_mm, shortest_mm = readings.state["gauge_scale_mm"], SCALE_NOISES * float(np.mean(readings.noise_mm))
-    yield from _period("reading", ALL, "scale", linear.residual, scale_mm, 1.0 / shortest_mm)
+    if is_asked_for(Learned("reading", ALL, periodic("scale", 1.0))):
+        yield from _period("reading", ALL, "scale", linear.residual, scale_mm, 1.0 / shortest_mm)
     gaps = np.diff(np.unique(time_s))
     if len(gaps) and "time_s" not in readings.state.unmeasured:
         highest = 0.5 / float(np.median(gaps))
         for place, element in _shifting():
-            if place != "ball":
+            if place != "ball" and is_asked_for(Learned(place, element, periodic("time", 1.0))):
                 weighted = linear.residual[:, None] * _answers(readings, place, element)
                 yield from _period(place, element, "time", weighted, time_s, highest)
 

@@ -22,6 +22,7 @@ from hexdbb.errors import InputError
 from hexdbb.learned import Columns, Learned, Space, Variable
 from hexdbb.machine import MachineFile
 from hexdbb.samples.distinct import distinct_rows
+from hexdbb.threads.copies import in_copies
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
@@ -32,6 +33,10 @@ GROUPINGS = ("circle", "feed", "direction", "lap")
 
 ARC = "arc"
 """Arcs of every sweep: held out where a free function of time claims to predict what lies between."""
+
+
+WORTH_A_COPY = 256
+"""Hypotheses whose limits take some ten times as long as the copy of a process that looks at them."""
 
 
 class State:
@@ -81,6 +86,23 @@ class State:
                 self._alike[alike] = Space.of(hypothesis, self, self.machine.sliders.screw_lead_mm)
             self._spaces[hypothesis] = replace(self._alike[alike], hypothesis=hypothesis)
         return self._spaces[hypothesis]
+
+    def find_spaces(self, hypotheses: Sequence[Learned]) -> list[bool]:
+        """Make the functions of several hypotheses; return whether each has them."""
+        new = [each for each in hypotheses if each not in self._spaces]
+        for each, space in zip(new, in_copies(self._spaces_or_none, new, WORTH_A_COPY), strict=True):
+            if space is not None:
+                self._spaces[each] = space
+        return [each in self._spaces for each in hypotheses]
+
+    def _spaces_or_none(self, hypotheses: Sequence[Learned]) -> list[Space | None]:
+        found: list[Space | None] = []
+        for each in hypotheses:
+            try:
+                found.append(self.space(each))
+            except InputError:
+                found.append(None)
+        return found
 
     def design(self, space: Space, element: int) -> NDArray[np.float32]:
         """Return a space's functions in every row, shape (n, columns), kept: places share their variables."""

@@ -7,6 +7,8 @@ full, as long as what is left out is predicted better.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -76,7 +78,8 @@ def with_best_splines(search: Search, node: Node) -> Node:
         member = node.member(hypothesis)
         for tuned in islice(retunings(search, node, member), TRIED):
             members = tuple(tuned if each is member else each for each in node.members)
-            found = _tried(search, members, node, worth=0.0, enough=search.criteria.predicted_to)
+            fitted = partial(search.trials.of, members, node.trial)
+            found = _if_better(search, fitted, node, worth=0.0, enough=search.criteria.predicted_to)
             if found is not None:
                 node = found
                 break
@@ -120,8 +123,10 @@ def _with_one_more(search: Search, node: Node, places: Places | None) -> Node | 
     simple = [each for each in by_evidence if each.hypothesis in search.learnable.simple]
     done: set[Scored] = set()
     for tried in (of_elements[:1], _best_two(simple), _best_two(by_evidence)):
-        found = [_with(search, node, linear, each, share) for each in tried if each not in done]
+        sets = [_with(search, node, linear, each, share) for each in tried if each not in done]
         done.update(tried)
+        fits = search.trials.each_of(filter(None, sets), node.trial)
+        found = (_if_better(search, each, node, worth=search.criteria.detect_nats) for each in fits)
         good = [each for each in found if each is not None and each.trial.left < most]
         if good:
             return max(good, key=lambda each: each.score)
@@ -151,23 +156,22 @@ def _variable(scored: Scored) -> str:
     return scored.hypothesis.variable.name
 
 
-def _with(search: Search, node: Node, linear: Linear, scored: Scored, share: float) -> Node | None:
-    """Return a set with a function of the best splines, where that explains enough, gains and predicts better.
-
-    What explains far less to first order is not fitted in full.
-    """
+def _with(search: Search, node: Node, linear: Linear, scored: Scored, share: float) -> tuple[Member, ...] | None:
+    """Return a set with a function of the best splines; None where it explains far less to first order than it must."""
     assert isinstance(scored.hypothesis, Learned)
     variants = with_other_splines(search, linear, scored.hypothesis, node.trial.left, search.criteria.most_seen)
     best = max(variants, key=lambda each: each.log_evidence)
     if best.share < ENOUGH * share:
         return None
-    return _tried(search, (*node.members, search.member(best)), node, worth=search.criteria.detect_nats)
+    return (*node.members, search.member(best))
 
 
-def _tried(search: Search, members: tuple[Member, ...], node: Node, worth: float, enough: float = 0.0) -> Node | None:
-    """Return the node of a set that gains as much as it must, and predicts better than another or well enough."""
+def _if_better(
+    search: Search, fitted: Callable[[], Trial], node: Node, worth: float, enough: float = 0.0
+) -> Node | None:
+    """Return the node of a set that gains as much as it must, and predicts better than another, or well enough."""
     try:
-        trial = search.trials.of(members, near=node.trial)
+        trial = fitted()
     except RunError:
         return None
     gain = trial.log_evidence - node.trial.log_evidence

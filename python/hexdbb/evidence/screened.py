@@ -95,15 +95,25 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     present = {each.hypothesis for each in base.members}
     along = {_directed(each) for each in present} - {None}
     every = [e for e in _absent(base, search.learnable.further.values()) if _directed(e) not in along]
-    # Those products that lend no functions to a known effect's form may still say the same as one, and so may those
-    # that push in both directions of a guideway.
-    others = [each for each in every if each.variable.times or each.components > 1]
-    others = [each for each in others if each not in search.learnable.products]
-    _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
     proposed = relays(screen.sums.linear, search.engine.readings, search.criteria)
     search.learnable.propose(proposed)
     in_two_states = varying((each.hypothesis for each in proposed), search.engine.readings)
-    return screen.learned([*every, *in_two_states])
+    found = screen.learned([*every, *in_two_states])
+    _add_kin_of_best(search, base, screen, found)
+    return found
+
+
+def _add_kin_of_best(search: Search, base: Trial, screen: Screen, found: list[Scored]) -> None:
+    """Count the best further functions among the kin of the known effects whose form they contain.
+
+    Those products that lend no functions to a known effect's form may still say the same as one, and so may those that
+    push in both directions of a guideway.
+    """
+    products = {*search.learnable.products}
+    best = [each.hypothesis for each in found if isinstance(each.hypothesis, Learned)]
+    others = [each for each in best if (each.variable.times or each.components > 1) and each not in products]
+    if others:
+        _add_kin(search, screen.sums.linear, others, *search.engine.absent.signatures(base.model, search.known))
 
 
 def screened_finer(search: Search, base: Trial, screen: Screen) -> list[Scored]:
@@ -142,7 +152,7 @@ def screened_crossed(search: Search, base: Trial, screen: Screen) -> list[Scored
 def _screened_once(search: Search, screen: Screen, every: list[Learned]) -> list[Scored]:
     """Screen functions on few rows: signatures of thousands of functions are large, and serve once."""
     criteria = search.criteria
-    thinned = Thinned(search.engine.readings, criteria.fewest_rows, criteria.ranking_roughness)
+    thinned = Thinned(search.engine.readings, criteria.fewest_rows, criteria.ranking_roughness, keeps=False)
     return Screen(screen.sums, criteria, thinned).learned(every)
 
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.errors import InputError
 from hexdbb.evidence.readings import Readings
 from hexdbb.learned import Learned, Space, hypotheses
 
@@ -82,12 +82,8 @@ def signature_of(hypothesis: Learned, readings: Readings, like: Space | None = N
 
 def varying(every: Iterable[Learned], readings: Readings) -> Iterator[Learned]:
     """Yield those hypotheses whose variable is measured and varies in the readings."""
-    for each in every:
-        try:
-            readings.state.space(each)
-        except InputError:
-            continue
-        yield each
+    some = list(every)
+    return compress(some, readings.state.find_spaces(some))
 
 
 def all_varying(readings: Readings, *, of_forms: bool = False) -> list[Learned]:

@@ -14,12 +14,15 @@ from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.signatures import Signature, signature_of
 from hexdbb.evidence.sums import Sums
 from hexdbb.learned import Learned
+from hexdbb.threads.copies import in_copies
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
 COLUMNS_AT_ONCE = 512
 """Columns of signatures that are multiplied at once: their copies, ten megabytes, are no more than a cache or two, and
 more of them gain nothing."""
+WORTH_A_COPY = 128
+"""Hypotheses that take some ten times as long as the copy of a process that ranks them."""
 
 
 class Thinned:
@@ -31,6 +34,8 @@ class Thinned:
     count : int
     roughness : float
         Of the prior with which learned functions are ranked.
+    keeps : bool
+        Whether signatures are kept. Where each serves once, copies of the process make them (`in_copies`).
     """
 
     def __init__(
@@ -38,8 +43,10 @@ class Thinned:
         readings: Readings,
         count: int = DEFAULT.thinned_rows,
         roughness: float = DEFAULT.ranking_roughness,
+        *,
+        keeps: bool = True,
     ) -> None:
-        self._roughness = roughness
+        self._roughness, self._keeps = roughness, keeps
         whole = len(readings)
         self.rows: Ints = np.unique(np.linspace(0, whole - 1, min(whole, count)).astype(np.intp))
         self.readings = Readings(
@@ -75,6 +82,14 @@ class Thinned:
         """
         thin = self.linear(linear)
         right = np.column_stack(Sums(thin, self.readings, ()).whole.without_own(thin))
+
+        def found(some: Sequence[Learned]) -> list[float]:
+            return [*self._of_some(some, right, sizes_mm, temper)]
+
+        return np.array(found(hypotheses) if self._keeps else in_copies(found, hypotheses, WORTH_A_COPY))
+
+    def _of_some(self, hypotheses: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
+        """Return the log evidence of hypotheses; `right`: [J L^-T y'] (`Training.without_own`)."""
         widths = np.array([each.components * each.variable.columns for each in hypotheses], np.intp)
         found = np.empty(len(hypotheses))
         for width in np.unique(widths):
@@ -85,18 +100,21 @@ class Thinned:
         return found
 
     def _of_one_width(self, some: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
-        """Return the log evidence of hypotheses of as many functions; `right`: [J L^-T y'] (`Training.without_own`)."""
-        tables = np.hstack([self.signature(each).table for each in some]).astype(np.float64)
-        factors, squares = (np.stack(each) for each in zip(*map(self._prior, some), strict=True))
+        """Return the log evidence of hypotheses of as many functions."""
+        width = some[0].components * some[0].variable.columns
+        tables = np.empty((len(self.rows), len(some) * width))
+        for place, each in enumerate(some):
+            tables[:, place * width : (place + 1) * width] = self.signature(each).table
+        parts = np.split(tables, range(width, tables.shape[1], width), axis=1)
+        factors, squares = (np.stack(each) for each in zip(*map(self._prior, some, parts), strict=True))
         cross = np.matmul(factors.transpose(0, 2, 1), (tables.T @ right).reshape(len(some), -1, right.shape[1]))
         half = cross[:, :, :-1]
         information = squares - np.matmul(half, half.transpose(0, 2, 1))
         return log_evidences(information, cross[:, :, -1], sizes_mm, temper)
 
-    def _prior(self, hypothesis: Learned) -> tuple[Floats, Floats]:
-        """Return the prior factor T of a hypothesis' functions, and T'W'W T; kept."""
+    def _prior(self, hypothesis: Learned, table: Floats) -> tuple[Floats, Floats]:
+        """Return the prior factor T of a hypothesis' functions, and T'W'W T, of its signature W; kept."""
         if hypothesis not in self._priors:
-            signature = self.signature(hypothesis)
-            factor, table = signature.prior_factor(self._roughness), signature.table.astype(np.float64)
+            factor = self.signature(hypothesis).prior_factor(self._roughness)
             self._priors[hypothesis] = factor, factor.T @ (table.T @ table) @ factor
         return self._priors[hypothesis]

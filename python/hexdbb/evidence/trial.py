@@ -149,8 +149,14 @@ class Trials:
         known = (each.hypothesis.effect for each in members if isinstance(each.hypothesis, Known))
         return self.of(members, near=whole if any(map(self.engine.absent.has_shape, known)) else None)
 
-    def each_of(self, every: Iterable[Sequence[Member]]) -> Iterator[Callable[[], Trial]]:
+    def each_of(self, every: Iterable[Sequence[Member]], near: Trial | None = None) -> Iterator[Callable[[], Trial]]:
         """Fit several models with hypotheses beside each other, as many at once as there are cores.
+
+        Parameters
+        ----------
+        every : iterable of sequences of Member
+        near : Trial, optional
+            As `of` has it.
 
         Yields
         ------
@@ -165,8 +171,8 @@ class Trials:
                 for later in new[place : place + 2 * at_once]:
                     key = _key(later)
                     if not (self.has(later) or key in self._ahead):
-                        self._ahead[key] = pool.submit(self._fitted, later)
-                yield partial(self.of, each)
+                        self._ahead[key] = pool.submit(self._fitted, later, near)
+                yield partial(self.of, each, near)
 
     def has(self, members: Sequence[Member]) -> bool:
         """Check whether a model with hypotheses was fitted already."""

@@ -58,7 +58,8 @@ def _turned(search: Search, node: Node, member: Member) -> Node:
         return node
     turned = replace(member, hypothesis=gradual)
     try:
-        trial = search.trials.of([turned if each is member else each for each in node.members])
+        members = [turned if each is member else each for each in node.members]
+        trial = search.trials.of(members, near=node.trial)
     except RunError:
         return node
     search.count_as(gradual, member.hypothesis)

@@ -19,13 +19,13 @@ NAMES = ("learned:leg:1:position", "learned:cup:time")
 def test_each_function_is_tuned_in_its_own_stead(monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[tuple[str, ...]] = []
 
-    def tried(search: Any, members: tuple[Member, ...], node: Node, **_: float) -> Node:
+    def of(members: tuple[Member, ...], near: Any) -> Any:
         asked.append(tuple(each.hypothesis.name for each in members))
-        return _node(*reversed(members))
+        return SimpleNamespace(members=tuple(reversed(members)))
 
     monkeypatch.setattr(refine, "retunings", lambda search, node, member: [member])
-    monkeypatch.setattr(refine, "_tried", tried)
-    search: Any = SimpleNamespace(criteria=DEFAULT)
+    monkeypatch.setattr(refine, "_if_better", lambda search, fitted, node, worth, enough: Node(fitted(), 0.0))
+    search: Any = SimpleNamespace(criteria=DEFAULT, trials=SimpleNamespace(of=of))
     refine.with_best_splines(search, _node(*(Member(Learned.parse(each)) for each in NAMES)))
     assert [sorted(each) for each in asked] == [sorted(NAMES)] * 2
 
