@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.needed import best_of, needs
 from hexdbb.evidence.no_form import is_no_form
 from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import at_a_place_of_its_kin
 from hexdbb.evidence.settling import leaves_room, predicts
 from hexdbb.evidence.several import beside
+from hexdbb.learned import Learned
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -41,9 +43,28 @@ def with_known_left(search: Search, node: Node) -> Node:
         return node
     if len(node.members) >= search.criteria.max_effects:
         return node
-    tried = [each for each in search.tried(node, beside(search, node)) if _explains_the_rest(search, node, each)]
-    search.nodes += tried
-    return best_of(search, node, tried)
+    tried = search.tried(node, beside(search, node))
+    elsewhere = [each for each in tried if _is_elsewhere(search, node, each)]
+    left = elsewhere or [each for each in tried if _explains_the_rest(search, node, each)]
+    search.nodes += left
+    # What a function explains, however much, hides nothing elsewhere: the likeliest of these counts.
+    return max(elsewhere, key=lambda each: each.score) if elsewhere else best_of(search, node, left)
+
+
+def _is_elsewhere(search: Search, functions: Node, node: Node) -> bool:
+    """Check that a set's last effect acts where no function of it does, and its formula explains much of the rest.
+
+    Where functions explain thousands of times the noise, what their shapes leave may be more than such an effect does.
+    """
+    if not _is_allowed(search, node):
+        return False
+    last = node.members[-1].hypothesis
+    learned = (each for each in functions.hypotheses if isinstance(each, Learned))
+    if any(at_a_place_of_its_kin(search, last, each) for each in learned):
+        return False
+    by_formula = functions.trial.left - _left_by_formula(search, node)
+    is_much = by_formula >= search.criteria.formula_beside * (functions.trial.left - 1.0)
+    return is_much and by_formula >= search.criteria.formula_most * (functions.trial.left - node.trial.left)
 
 
 def _explains_the_rest(search: Search, functions: Node, node: Node) -> bool:
@@ -51,14 +72,22 @@ def _explains_the_rest(search: Search, functions: Node, node: Node) -> bool:
 
     What a function leaves of its own shape is like no effect's formula: few values explain little of it.
     """
-    if node.trial.refused or not predicts(search, node) or not needs(search, node, node.members[-1]):
+    if not _is_allowed(search, node) or not needs(search, node, node.members[-1]):
         return False
-    before, form = functions.trial.left, node.trial.forms[-1]
-    left = node.trial.left if form is None else search.left_by_formula(node.trial, form)
-    explains = before - node.trial.left
-    by_formula = before - left
+    before = functions.trial.left
+    explains, by_formula = before - node.trial.left, before - _left_by_formula(search, node)
     is_all = explains >= search.criteria.explained_min * (before - 1.0)
     return is_all and by_formula >= search.criteria.formula_names * explains
+
+
+def _is_allowed(search: Search, node: Node) -> bool:
+    return not node.trial.refused and predicts(search, node)
+
+
+def _left_by_formula(search: Search, node: Node) -> float:
+    """Return what a set leaves where its last effect has no functions of its form."""
+    form = node.trial.forms[-1]
+    return node.trial.left if form is None else search.left_by_formula(node.trial, form)
 
 
 def _is_more(search: Search, node: Node) -> bool:

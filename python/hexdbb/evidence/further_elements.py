@@ -13,6 +13,11 @@ from hexdbb.evidence.settling import NOTHING_LEFT, missed
 from hexdbb.evidence.sure import is_for_sure
 from hexdbb.evidence.trial import Member
 
+MOST_BEFORE = 2
+"""Faults of a set, at most, to which an element is added: a guideway beside its neighbour, and one other cause. Three
+that are not for sure stand in for something else: a hose that pulled at the platform was a sag, a gain and two joints,
+of which the last explained a hundredth of the noise."""
+
 
 def with_elements_that_predict(search: Search, node: Node) -> Node:
     """Add an element of an effect that a set has at others, where the set is not for sure without it, but with it.
@@ -33,7 +38,7 @@ def with_elements_that_predict(search: Search, node: Node) -> Node:
 
 def _wider(search: Search, node: Node) -> Iterator[Node]:
     """Yield the sets with one more element of an effect of a set."""
-    if node.faults >= search.criteria.max_effects:
+    if node.faults > MOST_BEFORE:
         return
     known = [each for each in node.hypotheses if isinstance(each, Known)]
     there = dict.fromkeys((each.effect, element) for each in known for element in each.elements)
