@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hexdbb.learned import variables as v
-from hexdbb.learned.numbered import AFTER, LAGGED, RELAXING, SETTLING, along, following
+from hexdbb.learned.numbered import AFTER, FAR, LAGGED, RELAXING, SETTLING, SLIPPING, along, following
 from hexdbb.learned.variable import ELAPSED, Variable, is_growing
 
 SPLINES = 6
@@ -20,6 +20,14 @@ OVER_TIME = 24
 CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
 """Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
 then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
+SLIPS = {
+    **dict.fromkeys(("leg_force", "drive_load", "carriage_load"), (0.02, 0.06)),
+    "joint_angle": (0.03, 0.12),
+}
+"""How far a contact yields before it slips, at first, by the variable that strains it: loads per vertical load change
+by 0.1 to 0.2 in a circle, joints turn by 0.3 to 0.6 rad. The readings then move it."""
+LONG_S = (6.0, 20.0)
+"""The same where circles are run up to from afar: what is shorter forgets the run-up, longer is seen in the mean."""
 GROWTHS_S = (200.0, 800.0)
 """Time constants of what grows towards an end, at first: thin rails and screws take some minutes to warm, beams half an
 hour; the readings then move them. What takes much longer than a test grows evenly in it."""
@@ -107,6 +115,9 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
     for each in variables:
         for how in (LAGGED, RELAXING):
             yield from (following(each, how, constant_s) for constant_s in CONSTANTS_S)
+            yield from (following(each, f"{how}{FAR}", constant_s) for constant_s in LONG_S)
+        for how in (SLIPPING, f"{SLIPPING}{FAR}"):
+            yield from (following(each, how, most) for most in SLIPS.get(each.name, ()))
 
 
 BY_TRAVEL = "travel_direction", "direction of travel"

@@ -1,14 +1,14 @@
 """Variables whose names carry numbers, which the readings chose: instants, periods, and times that memory lasts.
 
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), by the direction of travel
-besides (`direction_position_period@1.06`: balls that enter and leave a nut), what follows another variable
-late (`leg_force_lagged@12`, a first-order lag) or wears off after it changed (`joint_angle_relaxing@12`, the variable
-less the same lag), what grows towards an end (`time_position_settling@470`, as what warms does), the time since a
-circle's run-up began (`time_in_sweep_after@45`, its angle in degrees), a vector's part along a direction
-(`acceleration_along@45`, degrees in the base's x-y plane), and a function whose sign changes smoothly with the
-direction of motion, as friction does (`direction_position_turning@0.5`, transition rate in mm/s or rad/s), and two
-states, of which one begins where a variable rises to a number and the other where it falls to a lower one
-(`leg_force_relay@7.1/14.5`).
+besides (`direction_position_period@1.06`: balls that enter and leave a nut), what follows another variable late
+(`leg_force_lagged@12`, a first-order lag), yields to it and slips (`leg_force_slipping@0.06`) or wears off after it
+changed (`joint_angle_relaxing@12`, the variable less the same lag), what grows towards an end
+(`time_position_settling@470`, as what warms does), the time since a circle's run-up began (`time_in_sweep_after@45`,
+its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane), and
+a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
+transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
+where it falls to a lower one (`leg_force_relay@7.1/14.5`).
 """
 
 from __future__ import annotations
@@ -40,18 +40,23 @@ POSITION_SPLINES = 12
 """Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
 such a bend was taken for a leg's swing."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
+SLIPPING = "slipping"
 RELAY = "relay"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
     RELAXING: "change of the {} within about {:.3g} s",
+    SLIPPING: "change of the {}, up to the {:.3g} {unit} at which it slips",
     SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
     TURNING: "{}, its sign change smoothed over about {:.3g} {unit}",
     RELAY: "two states of the {}: over at {:.3g} {unit}, back at {:.3g} {unit}",
 }
-"""How a variable may be derived from another one by a number, in words: delayed, high-passed, growing by the law of a
-first-order lag in place of evenly, counted from the start of the run-up, with a smooth change of sign, or in two states
-that two numbers part."""
+"""How a variable may be derived from another one by a number, in words: delayed, high-passed, held by a contact that
+yields and slips, growing by the law of a first-order lag in place of evenly, counted from the start of the run-up, with
+a smooth change of sign, or in two states that two numbers part."""
+FAR = "180"
+"""Behind the name of what follows another variable: circles are run up to along so many degrees, four times as far."""
+BY_NUMBER |= {f"{how}{FAR}": f"{BY_NUMBER[how]}, with half a circle of run-up" for how in (LAGGED, RELAXING, SLIPPING)}
 RATES = {"travel_direction": ("velocity_mm_s", "mm/s"), "slider_joint_direction": ("slider_joint_rate_rad_s", "rad/s")}
 """For each column that holds a direction of motion: the column of the rate whose sign it is, and the rate's unit."""
 NUMBER_DIGITS = 4
@@ -102,9 +107,10 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
     variable : Variable
         For `TURNING` one that a direction of `RATES` multiplies, or with a step where its column changes sign.
     how : str
-        `LAGGED`, `RELAXING`, `SETTLING`, `AFTER` or `TURNING`.
+        `LAGGED`, `RELAXING`, `SLIPPING`, `SETTLING`, `AFTER` or `TURNING`.
     constant : float
-        s; degrees for `AFTER`; for `TURNING` the transition rate, in the unit of the rate.
+        s; degrees for `AFTER`; for `SLIPPING` how far it yields, in the variable's unit; for `TURNING` the transition
+        rate, in the unit of the rate.
     """
     number = f"{constant:.{NUMBER_DIGITS}g}"
     if how == TURNING:
@@ -127,7 +133,7 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
         variable,
         name=f"{variable.name}_{how}@{number}",
         column=f"{variable.column}{OF_MEMORY}{how}@{number}",
-        words=BY_NUMBER[how].format(variable.words, float(number)),
+        words=BY_NUMBER[how].format(variable.words, float(number), unit=variable.unit).replace("  ", " "),
         count=variable.count if how == AFTER else FOLLOWING_SPLINES,
         signed=False,
     )

@@ -62,6 +62,11 @@ OWN = {
     "deflection_since_turn_mm": ("sample", "mm", "travel of the gauge since it turned in its sweep; 1e6: not yet"),
     "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),
     "NAME.relaxing@S": ("sample", "1", "column `NAME` less the same"),
+    "NAME.slipping@X": (
+        "sample",
+        "1",
+        "column `NAME` as a contact feels it that yields by `X`, in its unit, then slips",
+    ),
     "NAME.after@D": ("sample", "s", "time `NAME` and what a run-up of `D` degrees takes at the sweep's rate"),
     "NAME.along@D": (
         "sample",

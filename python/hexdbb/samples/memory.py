@@ -4,7 +4,8 @@ Rubber yields late, grease and warmth follow slowly: what acts is a state as it 
 first order, y' = (x - y) / tau, x linear between samples; what relaxes is x - y. Between two sweeps it follows what the
 machine is taken to have done (`over_time.py`). A time after a run-up of some degrees is one to which is added what
 these take at the rate at which the circle is driven. What is `along` so many degrees is a vector's part along that
-direction in the base's x-y plane. What is `turning` is the sign of a rate, which is smoothed at zero:
+direction in the base's x-y plane. What is `slipping` follows a change until it is so far from where it would rest, and
+slips beyond: an elastic contact with friction. What is `turning` is the sign of a rate, which is smoothed at zero:
 rate / sqrt(rate² + number²), as regularised Coulomb friction is.
 """
 
@@ -16,11 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.samples.over_time import followed, sweeps_of
+from hexdbb.samples.over_time import FAR_RUN_UP_RAD, RUN_UP_RAD, followed, sweeps_of
 
 Floats = NDArray[np.float64]
 
-NAME = re.compile(r"(?P<column>\w+)\.(?P<how>lagged|relaxing|after|along|turning)@(?P<constant>[0-9.e+-]+)")
+FAR = "180"
+"""Behind `lagged`, `relaxing` or `slipping`: every circle is run up to along so many degrees."""
+HOW = rf"(?:lagged|relaxing|slipping)(?:{FAR})?|after|along|turning"
+NAME = re.compile(rf"(?P<column>\w+)\.(?P<how>{HOW})@(?P<constant>[0-9.e+-]+)")
 LONGEST = 30.0
 """Time constants in one block of a recursion that is summed at once: e to the 30th is far from the largest number."""
 
@@ -43,9 +47,10 @@ def remembered_column(
     Parameters
     ----------
     how : str
-        `lagged`, `relaxing`, `after`, `along` or `turning`.
+        `lagged`, `relaxing`, `slipping`, with `FAR` behind it or not, `after`, `along` or `turning`.
     constant : float
-        Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `turning` a rate.
+        Its time constant, s; of `after` the run-up, of `along` the direction, degrees; of `slipping` the farthest that
+        it yields, in the column's unit; of `turning` a rate.
     column : ndarray, shape (n,) or (n, k)
     time_s, angle_rad : ndarray, shape (n,)
         Times rise within a sweep; polar angles with or without their turns.
@@ -61,10 +66,15 @@ def remembered_column(
         run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]
         added = np.repeat(run_up_s, [rows.stop - rows.start for rows in sweeps])
         return np.asarray((values + added[:, None]).reshape(column.shape))
-    lagged = followed(
-        lambda at_s, given: _lagged(given, (at_s - at_s[0]) / constant, given[0]), values, time_s, sweeps, angle_rad
-    )
-    found: Floats = lagged if how == "lagged" else values - lagged
+    kind, run_up_rad = how.removesuffix(FAR), FAR_RUN_UP_RAD if how.endswith(FAR) else RUN_UP_RAD
+
+    def follow(at_s: Floats, given: Floats) -> Floats:
+        if kind == "slipping":
+            return _slipping(given, constant)
+        return _lagged(given, (at_s - at_s[0]) / constant, given[0])
+
+    followed_by = followed(follow, values, time_s, sweeps, angle_rad, run_up_rad)
+    found: Floats = values - followed_by if kind == "relaxing" else followed_by
     return found.reshape(column.shape)
 
 
@@ -90,3 +100,23 @@ def _lagged(values: Floats, at: Floats, start: Floats) -> Floats:
         found[first + 1 : last + 1] = (state + np.cumsum(added[first:last] * grown, axis=0)) / grown
         state, first = found[last], last
     return found
+
+
+def _slipping(values: Floats, most: float) -> Floats:
+    """Return what values, shape (n, k), strain at most so far before it slips, from rest: Prandtl's stop operator.
+
+    e' = clip(e + dx, -most, most), step by step. Two steps make one of the same kind, clip(e + a, low, high), so that
+    all are found by doubling (prefix sums of a semigroup; Blelloch 1990).
+    """
+    moved = np.diff(values, axis=0, prepend=values[:1])
+    low, high = np.full_like(moved, -most), np.full_like(moved, most)
+    reach = 1
+    while reach < len(moved):
+        ahead, before_low, before_high = moved[:-reach], low[:-reach], high[:-reach]
+        later, least, largest = moved[reach:], low[reach:], high[reach:]
+        new = ahead + later, np.clip(before_low + later, least, largest), np.clip(before_high + later, least, largest)
+        moved, low, high = (
+            np.concatenate([old[:reach], made]) for old, made in zip((moved, low, high), new, strict=True)
+        )
+        reach *= 2
+    return np.clip(moved, low, high)

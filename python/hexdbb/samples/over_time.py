@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 
 RUN_UP_RAD = np.pi / 4.0
 """Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
+FAR_RUN_UP_RAD = np.pi
+"""The same of ball-bar tests that overshoot by half a circle, the usual setting of their makers' programs."""
 
 
 def sweeps_of(sweep: NDArray[np.integer[Any]]) -> list[slice]:
@@ -33,6 +35,7 @@ def followed(
     time_s: Floats,
     sweeps: Sequence[slice],
     angle_rad: Floats,
+    run_up_rad: float = RUN_UP_RAD,
 ) -> Floats:
     """Return what follows values over time, shape (n, k).
 
@@ -46,10 +49,12 @@ def followed(
         Times rise within a sweep; polar angles with or without their turns.
     sweeps : sequence of slice
         Rows of each.
+    run_up_rad : float
+        Of every sweep; as far it runs out.
     """
     found = np.empty_like(values)
     for chain in _chains(sweeps, time_s):
-        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows]) for rows in chain])
+        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows], run_up_rad) for rows in chain])
         whole = follow(at_s, given)
         for rows in chain:
             found[rows] = whole[np.searchsorted(at_s, time_s[rows])]
@@ -79,11 +84,11 @@ class _Way:
     out: Floats
 
 
-def _way(time_s: Floats, angle_rad: Floats, values: Floats) -> _Way:
+def _way(time_s: Floats, angle_rad: Floats, values: Floats, run_up_rad: float) -> _Way:
     """Return a sweep with run-up and run-out, as it came round a lap later and before; none of less than a lap."""
     turned = np.abs(np.unwrap(angle_rad) - angle_rad[0])
     lap, back = np.searchsorted(turned, [2.0 * np.pi, turned[-1] - 2.0 * np.pi])
-    first, last = np.searchsorted(turned, [2.0 * np.pi - RUN_UP_RAD, turned[-1] - 2.0 * np.pi + RUN_UP_RAD])
+    first, last = np.searchsorted(turned, [2.0 * np.pi - run_up_rad, turned[-1] - 2.0 * np.pi + run_up_rad])
     if turned[-1] < 2.0 * np.pi:
         first = lap = back = last = 0
     lap = min(int(lap), len(turned) - 1)

@@ -229,6 +229,9 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("bar-in-hand", "learned:reading:time_in_circle", {"circle", "direction"}),
         # A carriage that rises as it floats on its oil again, alike at both ends of the travel.
         ("oil-film", "learned:slider_joint:2:since_reversal_travel_each_way", {"feed", "direction"}),
+        # A threaded end that yields to the leg's force and slips: a joint's friction and the bar's angle stood in.
+        # Circles were run up to along half a circle.
+        ("loose-thread", "learned:leg:2:leg_force_slipping180", {"feed", "direction", "lap"}),
         # The inertia of one carriage moves another guideway along itself, both sliders alike: it was the cup.
         ("guideway-shakes", "learned:slider:5-6:slider_1_acceleration", {"circle", "feed", "direction"}),
     ],
@@ -256,11 +259,23 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
         ("cable-beside-play", {"backlash:4", "learned:reading:bar_elevation"}),
         # A base that tips over one foot where the platform is beyond y = 28 mm: a bow explained 98 % beside the spikes.
         ("foot-lifts", {"reversal_spike:1", "learned:cup:position_along"}),
+        # A coupling that slips three times explains 4,000 times the noise, of which its shape leaves 16; beside it legs
+        # that sag explained less than the form of such an effect might hide.
+        ("steps-and-sag", {"gravity_sag", "learned:slider:3:step"}),
+        # The cage of a screw's bearing, whose period is no part of the lead's, and legs that grow.
+        ("bearing-and-legs", {"leg_thermal", "learned:slider:1:fine_position"}),
     ],
 )
 def test_what_no_effect_says_is_found_beside_one(name: str, causes: set[str]) -> None:
     found = found_in(name)
     assert {each.choice.partition("@")[0] for each in found.causes} == causes
+
+
+@pytest.mark.long
+def test_four_effects_that_stand_in_for_one_fault_are_not_for_sure() -> None:
+    """A hose pulls the platform aside by elastic legs: a sag, a gain and joints off their places leave as little."""
+    found = found_in("hose-pulls")
+    assert found.verdict == "unknown"
 
 
 @pytest.mark.long

@@ -134,3 +134,23 @@ def test_the_travel_of_a_gauge_begins_anew_with_each_sweep() -> None:
     direction, since_mm = direction_and_travel(moved_mm, time_s, sweep, LEAST_TURN_MM)
     assert direction.tolist() == [0.0, 1.0, -1.0, -1.0, 0.0, -1.0, -1.0, 1.0]
     assert since_mm == pytest.approx([1e6, 1e6, 0.06, 0.1, 1e6, 1e6, 1e6, 0.05])
+
+
+def test_what_slips_yields_so_far_and_no_farther() -> None:
+    rng = np.random.default_rng(7)
+    columns = np.cumsum(rng.normal(size=(400, 3)), axis=0)
+    found = remembered_column("slipping", 1.5, columns, np.arange(400.0), ONE_SWEEP, NOT_TURNED)
+    state, expected = np.zeros(3), [np.zeros(3)]
+    for before, after in pairwise(columns):
+        state = np.clip(state + after - before, -1.5, 1.5)
+        expected.append(state)
+    assert found == pytest.approx(np.array(expected), abs=1e-9)
+
+
+@pytest.mark.parametrize(("how", "knows"), [("slipping", False), ("slipping180", True)])
+def test_half_a_circle_of_run_up_tells_how_a_contact_is_strained_where_a_sweep_begins(how: str, knows: bool) -> None:
+    angle_rad = np.linspace(0.0, 4.0 * np.pi, 401)[:-1] + 0.3
+    column = np.cos(angle_rad)
+    found = remembered_column(how, 0.5, column, np.arange(400.0), ONE_SWEEP, angle_rad)
+    # A lap later it has forgotten where it began: half a circle from 1 to -1 strains it by four times its most.
+    assert (found[0] == pytest.approx(found[200], abs=1e-3)) == knows
