@@ -150,24 +150,21 @@ Eigen::VectorXd fit_hypothesis(const Model& model, const Samples& samples, const
   };
   out.termination = "Converged: no further step improves the fit.";
   const auto of_all_sums = [&](const Eigen::VectorXd& z) { return of_all(z, Sums::kAll); };
-  if (options.from_minimum) {
-    Eigen::VectorXd near = start;
-    const bool thin = is_thin(few, unknowns.size()), many = samples.size() >= kLeastStride * kFewRows;
-    // Few readings hardly hold on to their minimum without some of them.
-    if (thin || many) {
-      LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall, kFall});
-      out.usable = end.is_at_rest;
-      out.iterations = end.steps;
-      if (out.usable) {
-        out.values = unknowns.values(end.z.data());
-        return end.z;
-      }
-      if (std::isfinite(end.cost)) near = std::move(end.z);
+  // Few readings hardly hold on to their minimum without some of them, and their descent costs little.
+  const bool thin = is_thin(few, unknowns.size());
+  if (options.from_minimum && (thin || samples.size() >= kLeastStride * kFewRows)) {
+    LastSteps end = take_last_steps(of_all, few, start, bound, {kFall, kFall, kFall});
+    out.usable = end.is_at_rest;
+    out.iterations = end.steps;
+    if (out.usable) {
+      out.values = unknowns.values(end.z.data());
+      return end.z;
     }
     // Where kinks of the cost stop steps that are not damped, the minimum is near all the same: of hundreds of learned
-    // values the way from afar took four times as long, for a minimum no lower. Of many readings and few values it
-    // costs little, and was lower by a tenth of a per cent.
-    if (thin || !many) {
+    // values the way from afar took four times as long, for a minimum no lower. Of few values it costs little, and was
+    // lower where circles left out hardly hold geometry.
+    if (thin) {
+      Eigen::VectorXd near = std::isfinite(end.cost) ? std::move(end.z) : start;
       const Descent down = descend(of_all_sums, few, std::move(near), bound, {kKinkedFall, kMost});
       out.usable = down.is_reachable && (down.is_at_rest || down.steps == kMost);
       out.iterations = down.steps;
