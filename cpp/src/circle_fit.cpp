@@ -19,6 +19,7 @@ namespace {
 constexpr double kRelativeTolerance = 1e-12;
 constexpr int kMostRepetitions = 50;     // paths of a ball bar need two or three
 constexpr double kZeroWeight = 1e-13;    // weights and pivots below are rounding of zero: columns are of unit size
+constexpr double kRounded = 1e-9;        // of the width: violations below which steps may lead round in a circle
 constexpr double kOneLine = 1e-9;        // ratio of the points' two spreads below which they lie on one line
 constexpr double kSameAngle_rad = 1e-9;  // directions that differ by less are one
 
@@ -70,14 +71,19 @@ class LinearZone {
   explicit LinearZone(const Polar& polar)
       : direction_(polar.direction), rho_(polar.rho.array() - polar.rho.mean()), count_(rho_.size()) {
     tolerance_ = 1e-12 * polar.width() + 1e-15 * polar.rho.maxCoeff();
+    rounded_ = std::max(tolerance_, kRounded * polar.width());
   }
 
   Eigen::Vector2d step() const { return multipliers_.tail<2>(); }
   double promised() const { return multipliers_[0] + multipliers_[1]; }
   const Contacts& contacts() const { return basis_; }
 
-  /// Solve, beginning at the contacts of a centre near this one where they still touch from both sides.
+  /// Solve, beginning at the contacts of a centre near this one where they still touch from both sides. Contacts of
+  /// nearly one angle round so that steps may come back to where they were: the best of these serve.
   void solve(const std::optional<Contacts>& near) {
+    double least = std::numeric_limits<double>::infinity();
+    Contacts best{};
+    Eigen::RowVector4d at_best;
     basis_ = near && is_balanced(*near) ? *near : first_basis();
     for (Eigen::Index left = 100 + 2 * count_; left > 0; --left) {
       const Eigen::Matrix4d inverse = columns_of(basis_).inverse();
@@ -86,10 +92,19 @@ class LinearZone {
       multipliers_ = gain * inverse;
       const auto [entering, violation] = worst();
       if (violation <= tolerance_) return;
+      if (violation < least) {
+        least = violation;
+        best = basis_;
+        at_best = multipliers_;
+      }
       basis_[leaving(inverse, inverse * column(entering))] = entering;
     }
-    throw std::runtime_error("the minimum zone of " + std::to_string(count_) +
-                             " points was not found within the iteration limit");
+    if (!(least <= rounded_)) {
+      throw std::runtime_error("the minimum zone of " + std::to_string(count_) +
+                               " points was not found within the iteration limit");
+    }
+    basis_ = best;
+    multipliers_ = at_best;
   }
 
  private:
@@ -162,7 +177,7 @@ class LinearZone {
   const PlanePoints& direction_;
   Column rho_;
   Eigen::Index count_;
-  double tolerance_ = 0.0;
+  double tolerance_ = 0.0, rounded_ = 0.0;
   Contacts basis_ = {};
   Eigen::RowVector4d multipliers_ = Eigen::RowVector4d::Zero();  // prices: Ro, -Ri, then the step
 };
