@@ -83,7 +83,7 @@ class LinearZone {
   void solve(const std::optional<Contacts>& near) {
     double least = std::numeric_limits<double>::infinity();
     Contacts best{};
-    Eigen::RowVector4d at_best;
+    Eigen::RowVector4d at_best = Eigen::RowVector4d::Zero();
     basis_ = near && is_balanced(*near) ? *near : first_basis();
     for (Eigen::Index left = 100 + 2 * count_; left > 0; --left) {
       const Eigen::Matrix4d inverse = columns_of(basis_).inverse();
