@@ -38,16 +38,13 @@ def in_copies(function: Callable[[Sequence[T]], Sequence[R]], items: Sequence[T]
     count = min(fits_at_once(), len(items) // fewest) if _may_be_copied() else 1
     if count < 2:
         return list(function(items))
-    found: list[R | None] = [None] * len(items)
     copies = [_Copy(function, items[part::count]) for part in range(1, count)]
     try:
-        found[::count] = function(items[::count])
-        for part, copy in enumerate(copies, 1):
-            found[part::count] = copy.result()
+        parts = [function(items[::count]), *(copy.result() for copy in copies)]
     finally:
         for copy in copies:
             copy.end()
-    return found  # type: ignore[return-value]  # every part is filled
+    return [parts[place % count][place // count] for place in range(len(items))]
 
 
 def _may_be_copied() -> bool:
