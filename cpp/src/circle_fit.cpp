@@ -19,7 +19,7 @@ namespace {
 constexpr double kRelativeTolerance = 1e-12;
 constexpr int kMostRepetitions = 50;     // paths of a ball bar need two or three
 constexpr double kZeroWeight = 1e-13;    // weights and pivots below are rounding of zero: columns are of unit size
-constexpr double kRounded = 1e-9;        // of the width, below any digit shown: where steps that rounding led round may end
+constexpr double kRounded = 1e-9;        // of the width, below any digit shown: steps that go round may end there
 constexpr double kOneLine = 1e-9;        // ratio of the points' two spreads below which they lie on one line
 constexpr double kSameAngle_rad = 1e-9;  // directions that differ by less are one
 
