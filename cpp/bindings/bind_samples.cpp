@@ -2,6 +2,7 @@
 
 #include "bindings.hpp"
 #include "hexdbb/prediction.hpp"
+#include "hexdbb/run_up.hpp"
 
 namespace hexdbb::bindings {
 
@@ -96,6 +97,21 @@ void bind_samples(py::module_& module) {
       .def_property_readonly(
           "may_be_nan", [](const NamedColumn& column) { return column.info.may_be_nan; },
           "Whether nan is a value: not measured.");
+  module.attr("RUN_UP_RAD") = kRunUp_rad;
+  module.def(
+      "run_up",
+      [](const Eigen::VectorXd& time_s, const Eigen::VectorXd& angle_rad, double run_up_rad) {
+        if (time_s.size() != angle_rad.size()) throw std::invalid_argument("times and angles differ in number");
+        const RunUp found = run_up(time_s, angle_rad, run_up_rad);
+        return py::make_tuple(found.first, found.end, found.lap_s);
+      },
+      py::arg("time_s"), py::arg("angle_rad"), py::arg("run_up_rad") = kRunUp_rad,
+      "Return the rows of a sweep, from the first to before the last, that lie a lap behind the run-up to it, and the\n"
+      "time of that lap, s; no rows where the sweep is less than a lap.\n\n"
+      "Parameters\n----------\ntime_s, angle_rad : ndarray, shape (n,)\n    Times, which rise, and polar angles, with "
+      "or\n"
+      "    without their turns.\nrun_up_rad : float\n\nRaises\n------\nValueError\n    Where times and angles differ "
+      "in number.");
   module.def("state_columns", &state_columns,
              "Return every column of a sample's state, sliders_mm first: the one vocabulary of names and units.");
 

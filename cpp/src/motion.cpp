@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "hexdbb/run_up.hpp"
 #include "hexdbb/state.hpp"
 #include "local_polynomial.hpp"
 #include "sampling_times.hpp"
@@ -198,8 +199,19 @@ Turns turns_of(const Smooth& track, int k) {
   return out;
 }
 
-void fill_reversals(const Smooth& track, const Rows& rows, int k, Motion& out) {
-  const Turns turns = turns_of(track, k);
+/// Return a sweep's track behind that of its run-up; of the derivatives the velocity alone.
+Smooth with_run_up(const Smooth& track, const RunUp& up) {
+  const auto joined = [&](const Track& of) {
+    Track out(up.size() + of.rows(), kLegs);
+    out << of.middleRows(up.first, up.size()), of;
+    return out;
+  };
+  Eigen::VectorXd time_s(up.size() + track.time_s.size());
+  time_s << track.time_s.segment(up.first, up.size()).array() - up.lap_s, track.time_s;
+  return {time_s, joined(track.place_mm), {joined(track.velocity_mm_s())}};
+}
+
+void fill_reversals(const Smooth& track, const Turns& turns, const Rows& rows, int k, Motion& out) {
   double direction = turns.first_direction;
   std::size_t passed = 0;
   for (Eigen::Index at = 0; at < track.time_s.size(); ++at) {
@@ -232,7 +244,7 @@ Motion unfilled(Eigen::Index count, int derivatives) {
 }  // namespace
 
 std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep,
-                            const std::vector<Coordinates>& coordinates) {
+                            const Eigen::VectorXd& angle_rad, const std::vector<Coordinates>& coordinates) {
   std::vector<Motion> out;
   for (const Coordinates& each : coordinates) out.push_back(unfilled(each.table.rows(), each.derivatives));
   for (const Rows& rows : rows_by_sweep(sweep)) {
@@ -243,20 +255,22 @@ std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi
     }
     const Eigen::VectorXd times_s = without_rounding(time_s(rows));
     const Stencils stencils(times_s);
+    const RunUp up = angle_rad.size() > 0 ? run_up(times_s, angle_rad(rows)) : RunUp();
     for (std::size_t which = 0; which < coordinates.size(); ++which) {
       const Coordinates& each = coordinates[which];
       const Smooth track = smooth(times_s, stencils, each.table(rows, Eigen::all), each.derivatives);
       for (int order = 0; order < each.derivatives; ++order) {
         (out[which].*kDerivatives[order])(rows, Eigen::all) = track.derivative[static_cast<std::size_t>(order)];
       }
-      for (int k = 0; k < kLegs; ++k) fill_reversals(track, rows, k, out[which]);
+      const Smooth whole = up.size() > 0 ? with_run_up(track, up) : track;
+      for (int k = 0; k < kLegs; ++k) fill_reversals(track, turns_of(whole, k), rows, k, out[which]);
     }
   }
   return out;
 }
 
 Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm) {
-  return std::move(motions(time_s, sweep, {{sliders_mm, kMostDerivatives}}).front());
+  return std::move(motions(time_s, sweep, Eigen::VectorXd(), {{sliders_mm, kMostDerivatives}}).front());
 }
 
 }  // namespace hexdbb

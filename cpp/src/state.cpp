@@ -45,7 +45,8 @@ void take(SliderTable& column, SliderTable& computed) {
 /// Fill the columns of the sliders' motion, as many derivatives as asked for.
 void fill_motion(Samples& samples, int derivatives) {
   State& state = samples.state;
-  Motion slider = std::move(motions(state.time_s, state.sweep, {{samples.sliders_mm, derivatives}}).front());
+  Motion slider =
+      std::move(motions(state.time_s, state.sweep, state.angle_rad, {{samples.sliders_mm, derivatives}}).front());
   state.velocity_mm_s = std::move(slider.velocity_mm_s);
   take(state.acceleration_mm_s2, slider.acceleration_mm_s2);
   take(state.jerk_mm_s3, slider.jerk_mm_s3);
@@ -76,7 +77,7 @@ void fill_joint_motion(const NominalGeometry& nominal, Samples& samples) {
   SliderTable position_mm = SliderTable::Zero(samples.size(), kLegs);
   position_mm.leftCols<3>() = state.position_mm;
   std::vector<Motion> all =
-      motions(state.time_s, state.sweep, {{slider_arc_mm, 1}, {platform_arc_mm, 1}, {position_mm, 1}});
+      motions(state.time_s, state.sweep, state.angle_rad, {{slider_arc_mm, 1}, {platform_arc_mm, 1}, {position_mm, 1}});
   const auto turned_mm = all[0].since_reversal_mm.array();
   state.slider_joint_rate_rad_s = all[0].velocity_mm_s.cwiseQuotient(length_mm);
   state.slider_joint_direction = std::move(all[0].travel_direction);

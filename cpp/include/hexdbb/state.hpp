@@ -4,11 +4,13 @@
 // a motion controller that predicts or corrects one sample fills in what it knows. An effect lists the columns it needs
 // (EffectInfo::needs), and a model refuses samples that lack one.
 //
-// Assumptions: inside a sweep (one uninterrupted capture) the sliders move smoothly; before it, each slider moved as it
-// does at its start. Encoder positions are smoothed by a parabola through the neighbours within 50 ms (at least two on
-// either side): long against quantisation of 0.1 um, short against circles, which take seconds. Derivatives are those of
-// a longer polynomial, over 0.4 rad of the motion on either side; where sampling is fast, the velocity has what is
-// faster than that besides. Time stamps of even samples are taken without the rounding of their last digit.
+// Assumptions: inside a sweep (one uninterrupted capture) the sliders move smoothly; before it, they came along the last
+// kRunUp_rad of the circle as they do a lap later, so that a reversal there is known; before a sweep of less than a lap,
+// each slider moved as it does at its start. Encoder positions are smoothed by a parabola through the neighbours within
+// 50 ms (at least two on either side): long against quantisation of 0.1 um, short against circles, which take seconds.
+// Derivatives are those of a longer polynomial, over 0.4 rad of the motion on either side; where sampling is fast, the
+// velocity has what is faster than that besides. Time stamps of even samples are taken without the rounding of their
+// last digit.
 //
 // The joints of leg k. u is the unit vector from the slider joint to the platform joint. The slider translates, so the
 // leg's angular velocity relative to it is u x du/dt (rotation about the leg's own line is not determined and moves
@@ -20,6 +22,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +39,7 @@ using AxisTable = Eigen::Matrix<double, Eigen::Dynamic, 3>;        // a row per 
 constexpr double kGravity_m_s2 = 9.80665;  // standard gravity (CGPM 1901)
 constexpr double kReversal_mm = 0.002;     // a return by less is encoder noise, not a reversal
 constexpr double kLongAgo = 1e6;           // s, mm or rad since a reversal that never was
+constexpr double kRunUp_rad = M_PI / 4.0;  // along which a circle is run up to, where nothing else is said
 
 struct State {
   Eigen::VectorXi row;
@@ -122,11 +126,10 @@ void for_each_column(StateType& state, Visit visit) {
   visit(ColumnInfo{"travel_direction", "1", "direction in which the slider last moved, +1 or -1; 0: never moved",
                    Of::kSlider},
         state.travel_direction);
-  visit(ColumnInfo{"since_reversal_s", "s", "time since the slider last reversed in its sweep; 1e6: not yet",
-                   Of::kSlider},
+  visit(ColumnInfo{"since_reversal_s", "s",
+                   "time since the slider last reversed; 1e6: neither in its sweep nor along the run-up", Of::kSlider},
         state.since_reversal_s);
-  visit(ColumnInfo{"since_reversal_mm", "mm", "travel since the slider last reversed in its sweep; 1e6: not yet",
-                   Of::kSlider},
+  visit(ColumnInfo{"since_reversal_mm", "mm", "travel since the slider last reversed; 1e6: likewise", Of::kSlider},
         state.since_reversal_mm);
   visit(ColumnInfo{"leg_force", "1",
                    "axial force per newton of vertical load at the platform's reference point, tension positive",
@@ -143,7 +146,7 @@ void for_each_column(StateType& state, Visit visit) {
                  Of::kLeg},
       state.slider_joint_direction);
   visit(ColumnInfo{"slider_joint_since_reversal_rad", "rad",
-                   "angle turned since the slider joint last reversed in its sweep; 1e6: not yet", Of::kLeg},
+                   "angle turned since the slider joint last reversed; 1e6: likewise", Of::kLeg},
         state.slider_joint_since_reversal_rad);
   visit(ColumnInfo{"platform_joint_angle_rad", "rad", "angle between the leg and the platform's normal", Of::kLeg},
         state.platform_joint_angle_rad);
@@ -176,12 +179,12 @@ struct Coordinates {
 };
 
 /// Compute the motion of several tables of coordinates with common times, as motion(); derivatives beyond those wanted
-/// stay empty.
+/// stay empty. With polar angles, a reversal along the run-up of a circle is known.
 std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep,
-                            const std::vector<Coordinates>& coordinates);
+                            const Eigen::VectorXd& angle_rad, const std::vector<Coordinates>& coordinates);
 
-/// Compute the motion of six coordinates. Rows of a sweep need not be neighbours but must be in order of time,
-/// otherwise std::invalid_argument names the row.
+/// Compute the motion of six coordinates, in sweeps before which nothing is known. Rows of a sweep need not be neighbours
+/// but must be in order of time, otherwise std::invalid_argument names the row.
 Motion motion(const Eigen::VectorXd& time_s, const Eigen::VectorXi& sweep, const SliderTable& sliders_mm);
 
 /// Axial force in each leg per newton of load in static equilibrium of the nominal machine, tension positive. By

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.samples.over_time import FAR_RUN_UP_RAD, RUN_UP_RAD, followed, sweeps_of
+from hexdbb import _core
+from hexdbb.samples.over_time import FAR_RUN_UP_RAD, followed, sweeps_of
 
 Floats = NDArray[np.float64]
 
@@ -66,7 +67,7 @@ def remembered_column(
         run_up_s = [np.radians(constant) / _rate_rad_s(time_s[rows], angle_rad[rows]) for rows in sweeps]
         added = np.repeat(run_up_s, [rows.stop - rows.start for rows in sweeps])
         return np.asarray((values + added[:, None]).reshape(column.shape))
-    kind, run_up_rad = how.removesuffix(FAR), FAR_RUN_UP_RAD if how.endswith(FAR) else RUN_UP_RAD
+    kind, run_up_rad = how.removesuffix(FAR), FAR_RUN_UP_RAD if how.endswith(FAR) else _core.RUN_UP_RAD
 
     def follow(at_s: Floats, given: Floats) -> Floats:
         if kind == "slipping":

@@ -15,12 +15,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb import _core
+
 Floats = NDArray[np.float64]
 
-RUN_UP_RAD = np.pi / 4.0
-"""Angle along which a circle is run up to before it is captured, where its plan says nothing else."""
 FAR_RUN_UP_RAD = np.pi
-"""The same of ball-bar tests that overshoot by half a circle, the usual setting of their makers' programs."""
+"""Angle along which ball-bar tests run up to a circle that overshoot by half a circle, the usual setting of their
+makers' programs; the engine's RUN_UP_RAD stands where nothing else is said."""
 
 
 def sweeps_of(sweep: NDArray[np.integer[Any]]) -> list[slice]:
@@ -35,7 +36,7 @@ def followed(
     time_s: Floats,
     sweeps: Sequence[slice],
     angle_rad: Floats,
-    run_up_rad: float = RUN_UP_RAD,
+    run_up_rad: float = _core.RUN_UP_RAD,
 ) -> Floats:
     """Return what follows values over time, shape (n, k).
 
@@ -86,19 +87,16 @@ class _Way:
 
 def _way(time_s: Floats, angle_rad: Floats, values: Floats, run_up_rad: float) -> _Way:
     """Return a sweep with run-up and run-out, as it came round a lap later and before; none of less than a lap."""
-    turned = np.abs(np.unwrap(angle_rad) - angle_rad[0])
-    lap, back = np.searchsorted(turned, [2.0 * np.pi, turned[-1] - 2.0 * np.pi])
-    first, last = np.searchsorted(turned, [2.0 * np.pi - run_up_rad, turned[-1] - 2.0 * np.pi + run_up_rad])
-    if turned[-1] < 2.0 * np.pi:
-        first = lap = back = last = 0
-    lap = min(int(lap), len(turned) - 1)
-    up, out = slice(first, lap), slice(back + 1, last)
+    first, end, lap_s = _core.run_up(time_s, angle_rad, run_up_rad)
+    # Seen from its end, a sweep runs out as it was run up to.
+    behind, from_end, _ = _core.run_up(-time_s[::-1], angle_rad[::-1], run_up_rad)
+    up, out = slice(first, end), slice(len(time_s) - from_end, len(time_s) - behind)
     return _Way(
         at_s=time_s,
         values=values,
-        up_s=time_s[up] - time_s[lap] + time_s[0],
+        up_s=time_s[up] - lap_s,
         up=values[up],
-        out_s=time_s[out] - time_s[back] + time_s[-1],
+        out_s=time_s[out] + lap_s,
         out=values[out],
     )
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb import _core
 from hexdbb.samples.loads import LOADS
 
 Floats = NDArray[np.float64]
@@ -23,29 +24,31 @@ LEAST_TURN_OF_LOAD = 1e-4
 slider turn a leg of 400 mm by less than 1e-6), a thousandth of what a circle changes."""
 
 
-def turns_of_load(load: str, values: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]]) -> dict[str, Floats]:
+def turns_of_load(
+    load: str, values: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]], angle_rad: Floats
+) -> dict[str, Floats]:
     """Return the two columns of `TURNS_OF_LOADS` of a load, each shape (n, 6).
 
     Parameters
     ----------
     load : str
     values : ndarray, shape (n, 6)
-    time_s : ndarray, shape (n,)
+    time_s, angle_rad : ndarray, shape (n,)
     sweep : ndarray of int, shape (n,)
     """
-    found = [direction_and_travel(each, time_s, sweep, LEAST_TURN_OF_LOAD) for each in values.T]
+    found = [direction_and_travel(each, time_s, sweep, angle_rad, LEAST_TURN_OF_LOAD) for each in values.T]
     names = (f"{load}_direction", f"{load}_since_turn")
     return {name: np.column_stack(each) for name, each in zip(names, zip(*found, strict=True), strict=True)}
 
 
 def direction_and_travel(
-    values: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]], least: float
+    values: Floats, time_s: Floats, sweep: NDArray[np.integer[Any]], angle_rad: Floats, least: float
 ) -> tuple[Floats, Floats]:
     """Return the direction in which a quantity moves, and its travel since it turned.
 
     Parameters
     ----------
-    values, time_s : ndarray, shape (n,)
+    values, time_s, angle_rad : ndarray, shape (n,)
     sweep : ndarray of int, shape (n,)
     least : float
         It turns over where it has come back by that much from the farthest that it was: noise does not show in it.
@@ -55,12 +58,14 @@ def direction_and_travel(
     direction : ndarray, shape (n,)
         +1, -1, 0 where it never moved in its sweep.
     travel : ndarray, shape (n,)
-        From the farthest that it was before; 1e6 where it has not turned in its sweep yet.
+        From the farthest that it was before; 1e6 where it has turned neither in its sweep yet nor along the run-up.
     """
     order = np.lexsort((time_s, sweep))
     found, since = np.zeros(len(values)), np.full(len(values), NOT_YET)
     for rows in np.split(order, np.flatnonzero(np.diff(sweep[order])) + 1):
-        found[rows], since[rows] = _turning(values[rows], least)
+        first, end, _ = _core.run_up(time_s[rows], angle_rad[rows])
+        whole = np.concatenate([values[rows[first:end]], values[rows]])
+        found[rows], since[rows] = (each[end - first :] for each in _turning(whole, least))
     return found, since
 
 

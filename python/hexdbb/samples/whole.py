@@ -124,7 +124,7 @@ class Whole:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
         elif name in TURNS_OF_LOADS:
             load = TURNS_OF_LOADS[name]
-            self.columns |= turns_of_load(load, *self._known(load, "time_s", "sweep"))
+            self.columns |= turns_of_load(load, *self._known(load, "time_s", "sweep", "angle_rad"))
         elif name in COURSES:
             self.columns |= courses(*self._known(*COURSES_FROM))
         elif name == REACTION:
@@ -145,8 +145,8 @@ class Whole:
         elif name == SCALE:
             self.columns[name] = scale_mm(*self._known("reading_mm", "nominal_reading_mm"))
         elif name in DIRECTION_AND_TRAVEL:
-            deflection_mm, time_s, sweep = self._known(DEFLECTION, "time_s", "sweep")
-            found = direction_and_travel(deflection_mm, time_s, sweep, LEAST_TURN_MM)
+            given = self._known(DEFLECTION, "time_s", "sweep", "angle_rad")
+            found = direction_and_travel(*given, LEAST_TURN_MM)
             self.columns |= dict(zip(DIRECTION_AND_TRAVEL, found, strict=True))
 
     def _remembered(self, name: str, how: str, constant: float) -> Floats | None:

@@ -111,9 +111,8 @@ def test_the_direction_of_a_gauge_turns_once_where_it_comes_back() -> None:
     time_s = np.linspace(0.0, 2.0, 4001)
     steps_mm = 1e-4 * np.random.default_rng(5).uniform(-1.0, 1.0, len(time_s))
     moved_mm = 0.05 * np.sin(2.0 * np.pi * time_s)
-    direction, since_mm = direction_and_travel(
-        moved_mm + steps_mm, time_s, np.zeros(len(time_s), np.int32), LEAST_TURN_MM
-    )
+    sweep, no_lap_rad = np.zeros(len(time_s), np.int32), np.zeros(len(time_s))
+    direction, since_mm = direction_and_travel(moved_mm + steps_mm, time_s, sweep, no_lap_rad, LEAST_TURN_MM)
     assert np.count_nonzero(np.diff(direction[100:])) == 4
     assert np.mean(direction == np.sign(np.cos(2.0 * np.pi * time_s))) > 0.95
     later = time_s > 0.3
@@ -122,16 +121,15 @@ def test_the_direction_of_a_gauge_turns_once_where_it_comes_back() -> None:
 
 
 def test_a_gauge_that_rests_has_no_direction() -> None:
-    direction, since_mm = direction_and_travel(
-        np.full(50, 0.02), np.arange(50.0), np.zeros(50, np.int32), LEAST_TURN_MM
-    )
+    sweep, no_lap_rad = np.zeros(50, np.int32), np.zeros(50)
+    direction, since_mm = direction_and_travel(np.full(50, 0.02), np.arange(50.0), sweep, no_lap_rad, LEAST_TURN_MM)
     assert not direction.any() and (since_mm == 1e6).all()
 
 
 def test_the_travel_of_a_gauge_begins_anew_with_each_sweep() -> None:
     time_s, sweep = np.arange(8.0), np.repeat(np.array([3, 4], np.int32), 4)
     moved_mm = np.array([0.0, 0.1, 0.04, 0.0, 0.5, 0.4, 0.3, 0.35])
-    direction, since_mm = direction_and_travel(moved_mm, time_s, sweep, LEAST_TURN_MM)
+    direction, since_mm = direction_and_travel(moved_mm, time_s, sweep, np.zeros(8), LEAST_TURN_MM)
     assert direction.tolist() == [0.0, 1.0, -1.0, -1.0, 0.0, -1.0, -1.0, 1.0]
     assert since_mm == pytest.approx([1e6, 1e6, 0.06, 0.1, 1e6, 1e6, 1e6, 0.05])
 

@@ -40,7 +40,7 @@ def test_the_columns_are_those_of_the_engine_and_their_own(samples: Samples) -> 
         set_up=samples["set_up"],
         mount=samples["mount"],
         set_ups=list(samples.set_ups),
-        state={name: samples[name] for name in ("time_s", "sweep", "direction")},
+        state={name: samples[name] for name in ("time_s", "sweep", "direction", "angle_rad")},
     )
     made.derive(engine_machine(MACHINE))
     derived = set(made.state)
