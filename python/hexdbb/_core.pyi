@@ -30,6 +30,8 @@ __all__: list[str] = [
     "PORTS",
     "ParameterInfo",
     "Prediction",
+    "REVERSAL_MM",
+    "RUN_UP_RAD",
     "Samples",
     "SetUp",
     "StateColumn",
@@ -77,6 +79,7 @@ __all__: list[str] = [
     "rotation_from_rpy",
     "rpy_from_rotation",
     "rssr_angles",
+    "run_up",
     "schur_complement",
     "state_columns",
     "status_name",
@@ -1354,6 +1357,28 @@ def rssr_angles(
     Compute theta, delta, phi of the nominal machine, (3,) in rad, with the thesis' signs.
     """
 
+def run_up(
+    time_s: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    angle_rad: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, 1]"],
+    run_up_rad: typing.SupportsFloat | typing.SupportsIndex = 0.7853981633974483,
+) -> tuple[int, int, float]:
+    """
+    Return the rows of a sweep, from the first to before the last, that lie a lap behind the run-up to it, and the
+    time of that lap, s; no rows where the sweep is less than a lap.
+
+    Parameters
+    ----------
+    time_s, angle_rad : ndarray, shape (n,)
+        Times, which rise, and polar angles, with or
+        without their turns.
+    run_up_rad : float
+
+    Raises
+    ------
+    ValueError
+        Where times and angles differ in number.
+    """
+
 def schur_complement(
     information: typing.Annotated[numpy.typing.ArrayLike, numpy.float64, "[m, n]"],
     wanted: collections.abc.Sequence[typing.SupportsInt | typing.SupportsIndex],
@@ -1405,6 +1430,8 @@ PORTS: dict = {
     "cup": (51, 3),
     "reading": (54, 1),
 }
+REVERSAL_MM: float = 0.002
+RUN_UP_RAD: float = 0.7853981633974483
 TABLE_VARIABLES: tuple = (
     "sliders_mm",
     "velocity_mm_s",

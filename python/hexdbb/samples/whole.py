@@ -145,8 +145,8 @@ class Whole:
         elif name == SCALE:
             self.columns[name] = scale_mm(*self._known("reading_mm", "nominal_reading_mm"))
         elif name in DIRECTION_AND_TRAVEL:
-            given = self._known(DEFLECTION, "time_s", "sweep", "angle_rad")
-            found = direction_and_travel(*given, LEAST_TURN_MM)
+            deflection_mm, time_s, sweep, angle_rad = self._known(DEFLECTION, "time_s", "sweep", "angle_rad")
+            found = direction_and_travel(deflection_mm, time_s, sweep, angle_rad, LEAST_TURN_MM)
             self.columns |= dict(zip(DIRECTION_AND_TRAVEL, found, strict=True))
 
     def _remembered(self, name: str, how: str, constant: float) -> Floats | None:

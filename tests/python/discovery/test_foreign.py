@@ -262,6 +262,9 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
         # A coupling that slips three times explains 4,000 times the noise, of which its shape leaves 16; beside it legs
         # that sag explained less than the form of such an effect might hide.
         ("steps-and-sag", {"gravity_sag", "learned:slider:3:step"}),
+        # A chip in the cup, and a stiction that stands at once: readings within ms of a reversal had it or not, and a
+        # pitch error of 0.3 µm was named besides.
+        ("spike-and-chip", {"reversal_spike:5", "learned:reading:fine_bar_azimuth"}),
         # The cage of a screw's bearing, whose period is no part of the lead's, and legs that grow.
         ("bearing-and-legs", {"leg_thermal", "learned:slider:1:fine_position"}),
     ],
@@ -287,6 +290,13 @@ def test_what_time_alone_says_better_is_no_screw_that_warms_for_sure() -> None:
     assert grades == {"screw_thermal:2": "ambiguous", "gravity_sag": "effect"}
     rivals = [rival for each in found.causes for rival in each.rivals]
     assert any("learned:slider:2:fine_time" in rival for rival in rivals)
+
+
+def test_a_slider_that_reversed_along_the_run_up_had_its_spike() -> None:
+    """It reverses a degree before the first reading of each circle; its stiction rings, legs sag."""
+    found = found_in("sag-and-ripple")
+    assert found.verdict == "effect"
+    assert {each.choice for each in found.causes} == {"gravity_sag", "reversal_spike:3"}
 
 
 def test_a_delay_that_scatters_is_a_delay() -> None:
