@@ -98,7 +98,6 @@ void bind_samples(py::module_& module) {
           "may_be_nan", [](const NamedColumn& column) { return column.info.may_be_nan; },
           "Whether nan is a value: not measured.");
   module.attr("RUN_UP_RAD") = kRunUp_rad;
-  module.attr("REVERSAL_MM") = kReversal_mm;
   module.def(
       "run_up",
       [](const Eigen::VectorXd& time_s, const Eigen::VectorXd& angle_rad, double run_up_rad) {

@@ -17,10 +17,6 @@ class Criteria:
     block_turns : float
         Turns of a screw in which readings of a block are averaged, at most: their mean loses 1.6 % of a pitch error,
         less than forms differ.
-    timing_s : float
-        Time from a reversal of a slider or its joint within which readings are left out, as are those nearer to it than
-        the way back that the engine takes for a reversal: a bus cycle of 4 ms, by which axes and gauge may be read
-        apart. A stiction that stands at once is there in one such reading or is not, and its breakaway hangs on it.
     fit_rows : int
         Rows of the full fits, evenly spread: some tens for each free value; all rows follow to first order.
     thinned_rows : int
@@ -270,7 +266,6 @@ class Criteria:
 
     max_rows: int = 12000
     block_turns: float = 0.1
-    timing_s: float = 0.004
     fit_rows: int = 3000
     thinned_rows: int = 2400
     fewest_rows: int = 1200

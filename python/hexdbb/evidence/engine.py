@@ -17,7 +17,7 @@ from hexdbb.evidence.axes import LearnedAxes, Standing, learned_of
 from hexdbb.evidence.criteria import DEFAULT, Criteria
 from hexdbb.evidence.prior import LEAST_SCALE, prior_scale
 from hexdbb.evidence.readings import ARC, Linear, Readings, State
-from hexdbb.evidence.rows import arcs_of, at_a_turn, blocks_of, codes_of, means_of, middles_of
+from hexdbb.evidence.rows import arcs_of, blocks_of, codes_of, means_of, middles_of
 from hexdbb.learned import Learned
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, new_term
 from hexdbb.samples import Samples, of_its_own
@@ -70,8 +70,6 @@ class Engine:
         within_mm = criteria.block_turns * samples.machine.sliders.screw_lead_mm
         blocks = blocks_of(samples["sweep"], criteria.max_rows)
         begin, count = middles_of(*blocks, samples["sliders_mm"], within_mm)
-        told = ~_turns(samples, criteria.timing_s)[begin + count // 2]
-        begin, count = begin[told], count[told]
         chosen = begin + count // 2
         self.part = samples.part(chosen)
         averaged = means_of(self.residual_mm, begin, count)
@@ -325,10 +323,3 @@ class Engine:
             return self._tables[effect]
         whole = self.samples.tabulated(effect, values)
         return replace(whole, per_unit=whole.per_unit[part.row_numbers])
-
-
-def _turns(samples: Samples, timing_s: float) -> NDArray[np.bool_]:
-    """Check which readings stand at a reversal of a slider or, by the arc of the leg's far end, of its joint."""
-    arc_mm_s = samples["slider_joint_rate_rad_s"] * np.asarray(samples.machine.legs.lengths_mm)
-    rate_mm_s = np.hstack([samples["velocity_mm_s"], arc_mm_s])
-    return at_a_turn(rate_mm_s, samples["time_s"], samples["sweep"], timing_s, _core.REVERSAL_MM)

@@ -47,30 +47,6 @@ def middles_of(begin: Ints, count: Ints, sliders_mm: Floats, within_mm: float) -
     return begin + (count - kept) // 2, kept
 
 
-def at_a_turn(
-    rate_mm_s: Floats, time_s: Floats, sweep: NDArray[np.integer], within_s: float, within_mm: float
-) -> NDArray[np.bool_]:
-    """Check for each reading whether something turns within a time, or within a way, before or after it.
-
-    Parameters
-    ----------
-    rate_mm_s : ndarray, shape (n, k)
-    time_s : ndarray, shape (n,)
-    sweep : ndarray of int, shape (n,)
-        Rises from sweep to sweep.
-    within_s, within_mm : float
-    """
-    found = np.zeros(len(rate_mm_s), np.bool_)
-    edges = np.concatenate([[0], np.flatnonzero(np.diff(sweep)) + 1, [len(sweep)]])
-    for rows in (slice(*ends) for ends in pairwise(edges)):
-        if rows.stop - rows.start > 1:
-            change = np.abs(np.gradient(rate_mm_s[rows], time_s[rows], axis=0))
-            # From a rate the turn is rate / change away, and half of that at this rate.
-            nearest = np.maximum(within_s * change, np.sqrt(2.0 * within_mm * change))
-            found[rows] = (np.abs(rate_mm_s[rows]) < nearest).any(axis=1)
-    return found
-
-
 def means_of(values: Floats, begin: Ints, count: Ints) -> Floats:
     """Return the mean of some values in each block."""
     until = np.concatenate([[0.0], np.cumsum(values)])
