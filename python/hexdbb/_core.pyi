@@ -30,7 +30,6 @@ __all__: list[str] = [
     "PORTS",
     "ParameterInfo",
     "Prediction",
-    "REVERSAL_MM",
     "RUN_UP_RAD",
     "Samples",
     "SetUp",
@@ -1430,7 +1429,6 @@ PORTS: dict = {
     "cup": (51, 3),
     "reading": (54, 1),
 }
-REVERSAL_MM: float = 0.002
 RUN_UP_RAD: float = 0.7853981633974483
 TABLE_VARIABLES: tuple = (
     "sliders_mm",

@@ -262,8 +262,7 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
         # A coupling that slips three times explains 4,000 times the noise, of which its shape leaves 16; beside it legs
         # that sag explained less than the form of such an effect might hide.
         ("steps-and-sag", {"gravity_sag", "learned:slider:3:step"}),
-        # A chip in the cup, and a stiction that stands at once: readings within ms of a reversal had it or not, and a
-        # pitch error of 0.3 µm was named besides.
+        # A chip in the cup, and a stiction that stands at once: a reading or two at a reversal have it or not.
         ("spike-and-chip", {"reversal_spike:5", "learned:reading:fine_bar_azimuth"}),
         # The cage of a screw's bearing, whose period is no part of the lead's, and legs that grow.
         ("bearing-and-legs", {"leg_thermal", "learned:slider:1:fine_position"}),

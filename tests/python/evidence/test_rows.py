@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from hexdbb.evidence.rows import at_a_turn, blocks_of, means_of, middles_of
+from hexdbb.evidence.rows import blocks_of, means_of, middles_of
 
 ROWS, LEAD_MM = 4000, 10.0
 
@@ -40,20 +40,3 @@ def test_blocks_stay_within_their_sweeps() -> None:
     sweep = np.repeat([0, 1, 2], [50, 7, 43])
     assert all(len(set(sweep[first : first + length])) == 1 for first, length in zip(begin, count, strict=True))
     assert count.sum() == 100
-
-
-def test_readings_at_a_turn_are_those_near_in_time_or_in_way() -> None:
-    """A quantity turns at 0.5 s and at 1.5 s, fast or slowly: 4 ms are more than 2 µm of way where it does so fast."""
-    time_s = np.arange(0.0, 2.0, 1e-3)
-    for amplitude_mm, nearest_s in ((100.0, 0.004), (0.1, np.sqrt(2.0 * 0.002 / (0.1 * np.pi**2)))):
-        rate_mm_s = amplitude_mm * np.pi * np.cos(np.pi * time_s)
-        found = at_a_turn(rate_mm_s[:, None], time_s, np.zeros(len(time_s), np.intp), 0.004, 0.002)
-        near = np.minimum(abs(time_s - 0.5), abs(time_s - 1.5))
-        assert found[near < 0.98 * nearest_s].all()
-        assert not found[near > 1.02 * nearest_s].any()
-
-
-def test_what_stands_never_turns() -> None:
-    sweep = np.repeat(np.arange(3), 20)
-    assert not at_a_turn(np.zeros((60, 2)), np.arange(60.0), sweep, 0.004, 0.002).any()
-    assert not at_a_turn(np.ones((1, 2)), np.zeros(1), np.zeros(1, np.intp), 0.004, 0.002).any()
