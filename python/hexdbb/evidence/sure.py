@@ -60,7 +60,8 @@ def is_for_sure(search: Search, node: Node, missed_most: float | None = None) ->
     checked, is_one = search.checked(node), node.faults == 1
     if checked.share < search.criteria.explained_min or not _predicts_more_than_laps(search, node):
         return False
-    if is_one and _is_outdone_untested(search, node):
+    # Sizes of its own at each element make one effect no less free than several causes: a function is asked of it, too.
+    if len(node.members) == 1 and _is_outdone_untested(search, node):
         return False
     if _is_put_together(search, node):
         return err_by_geometry(search, node)

@@ -57,7 +57,8 @@ def table_of(sliders_mm: Floats, machine: MachineFile = MACHINE) -> tuple[Table,
     count = len(sliders_mm)
     zeros = np.zeros(count, np.int32)
     state = {"time_s": STEP_S * np.arange(count), "sweep": zeros, "warming_k": np.full(count, WARMING_K)}
-    state["angle_rad"] = state["time_s"]
+    # Less than a lap: of what was before the path a controller knows as little as a record of an arc.
+    state["angle_rad"] = np.linspace(0.0, 6.0, count)
     set_up = _core.SetUp(cup_mm=np.zeros(3), ball_offset_mm=np.zeros(3), bar_length_mm=100.0)
     block = _core.Samples(sliders_mm=sliders_mm, set_up=zeros, mount=zeros, set_ups=[set_up], state=state)
     block.derive(engine_machine(machine))
