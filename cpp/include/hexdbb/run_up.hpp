@@ -10,7 +10,8 @@ namespace hexdbb {
 /// Rows of a sweep, [first, end), that lie a lap behind its run-up, and the time of that lap; none where it is less than
 /// a lap.
 struct RunUp {
-  Eigen::Index first = 0, end = 0;
+  Eigen::Index first = 0;
+  Eigen::Index end = 0;
   double lap_s = 0.0;
 
   Eigen::Index size() const { return end - first; }
