@@ -39,7 +39,9 @@ using AxisTable = Eigen::Matrix<double, Eigen::Dynamic, 3>;        // a row per 
 constexpr double kGravity_m_s2 = 9.80665;  // standard gravity (CGPM 1901)
 constexpr double kReversal_mm = 0.002;     // a return by less is encoder noise, not a reversal
 constexpr double kLongAgo = 1e6;           // s, mm or rad since a reversal that never was
-constexpr double kRunUp_rad = M_PI / 4.0;  // along which a circle is run up to, where nothing else is said
+// Angle of a circle driven before its first reading: the overshoot of the plans here. A record does not state it; what a
+// slider did longer ago has settled at usual feeds.
+constexpr double kRunUp_rad = M_PI / 4.0;
 
 struct State {
   Eigen::VectorXi row;

@@ -23,8 +23,8 @@ EffectPtr gravity_sag(const Context& context) {
       .source = "static equilibrium, Hooke's law",
       .element_kind = "machine",
       .elements = kWhole,
-      // A slender leg with its two joints gives 0.02 to 0.2 um/N; some tenths where a joint is worn. What geometry can
-      // imitate most of is seen where it is large alone: the limit is a hundred times the prior, as of play and delay.
+      // A slender leg with its two joints gives 0.02 to 0.2 um/N; some tenths where a joint is worn. Geometry
+      // imitates most of a sag, so that only a large one is seen: the limit is a hundred times the prior, as for a delay.
       .parameters =
           {{.name = "compliance", .unit = "mm/N", .prior_sigma = 2e-4, .limit = 2e-2, .is_nonnegative = true}},
       .ports = {"leg"},

@@ -49,6 +49,7 @@ def direction_and_travel(
     Parameters
     ----------
     values, time_s, angle_rad : ndarray, shape (n,)
+        Polar angles with or without their turns.
     sweep : ndarray of int, shape (n,)
     least : float
         It turns over where it has come back by that much from the farthest that it was: noise does not show in it.
@@ -56,7 +57,7 @@ def direction_and_travel(
     Returns
     -------
     direction : ndarray, shape (n,)
-        +1, -1, 0 where it never moved in its sweep.
+        +1, -1, 0 where it has moved neither in its sweep yet nor along the run-up.
     travel : ndarray, shape (n,)
         From the farthest that it was before; 1e6 where it has turned neither in its sweep yet nor along the run-up.
     """
