@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -262,8 +263,8 @@ std::vector<Motion> motions(const Eigen::VectorXd& time_s, const Eigen::VectorXi
       for (int order = 0; order < each.derivatives; ++order) {
         (out[which].*kDerivatives[order])(rows, Eigen::all) = track.derivative[static_cast<std::size_t>(order)];
       }
-      const Smooth whole = up.size() > 0 ? with_run_up(track, up) : track;
-      for (int k = 0; k < kLegs; ++k) fill_reversals(track, turns_of(whole, k), rows, k, out[which]);
+      const std::optional<Smooth> longer = up.size() > 0 ? std::optional(with_run_up(track, up)) : std::nullopt;
+      for (int k = 0; k < kLegs; ++k) fill_reversals(track, turns_of(longer ? *longer : track, k), rows, k, out[which]);
     }
   }
   return out;
