@@ -1,4 +1,4 @@
-"""Stiction of a slider that reverses before the first reading of a circle, on the simulated machine, stepped in time."""
+"""Stiction of a slider that reverses before the first reading of a circle, on a simulated machine stepped in time."""
 
 from __future__ import annotations
 
