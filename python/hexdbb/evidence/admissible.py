@@ -12,7 +12,8 @@ from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.heldout import HeldOut, contradiction, heldout, is_its_formula
 from hexdbb.evidence.readings import ARC
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Trial, Trials
+from hexdbb.evidence.trial import Trial
+from hexdbb.evidence.trials import Trials
 
 WORDS = {"circle": "other circles", "feed": "the other feed", "direction": "the other direction", "lap": "other laps"}
 

@@ -11,7 +11,8 @@ from hexdbb.evidence.covered import is_covered
 from hexdbb.evidence.formula import left_by_formulas
 from hexdbb.evidence.readings import ARC, GROUPINGS, Readings
 from hexdbb.evidence.sums import Sums, squared_error
-from hexdbb.evidence.trial import Trial, Trials
+from hexdbb.evidence.trial import Trial
+from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned
 
 Group = tuple[int, NDArray[np.intp]]

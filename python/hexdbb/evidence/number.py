@@ -18,7 +18,8 @@ from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.screened import add_kin
 from hexdbb.evidence.signatures import signature_of
 from hexdbb.evidence.sums import Sums
-from hexdbb.evidence.trial import Member, Trial, Trials
+from hexdbb.evidence.trial import Member, Trial
+from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned, Variable, has_chosen_number, number_of
 from hexdbb.learned.numbered import rate_of
 

@@ -1,6 +1,6 @@
 """Search for what is missing: sets of hypotheses, grown one by one, every set decided by a joint full fit.
 
-Each step screens all hypotheses beside those of a set (`screen.py`) and fits the best in full (`trial.py`). Where one
+Each step screens all hypotheses beside those of a set (`screen.py`) and fits the best in full (`trials.py`). Where one
 hypothesis leaves no more than its set's form may, the search ends; else the best few sets are followed (beam search),
 so that two faults of one size, of which either alone explains half, are found together.
 """
@@ -37,7 +37,8 @@ from hexdbb.evidence.several import as_one_cause, is_at_most, is_of_several, or_
 from hexdbb.evidence.shortlist import shortlist
 from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.thinned import Thinned
-from hexdbb.evidence.trial import Member, Trial, Trials
+from hexdbb.evidence.trial import Member, Trial
+from hexdbb.evidence.trials import Trials
 from hexdbb.learned import ALL, Learned, settling
 
 Floats = NDArray[np.float64]

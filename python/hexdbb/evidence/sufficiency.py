@@ -17,7 +17,8 @@ from hexdbb.diagnosis.lack_of_fit import FitTest
 from hexdbb.diagnosis.noise import residual_repeats_to
 from hexdbb.diagnosis.sufficiency import default_matters_um, explained_um
 from hexdbb.evidence.criteria import Criteria
-from hexdbb.evidence.trial import Trial, Trials
+from hexdbb.evidence.trial import Trial
+from hexdbb.evidence.trials import Trials
 from hexdbb.samples import Samples, predict
 
 Floats = NDArray[np.float64]

@@ -17,7 +17,8 @@ from hexdbb.evidence.needed import by_formulas_instead, is_better, needs, needs_
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
-from hexdbb.evidence.trial import Member, Trials
+from hexdbb.evidence.trial import Member
+from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned
 
 DRIFT, GAIN, SCREW = (Member(Known(name, ("1",))) for name in ("bar_drift", "bar_gain", "screw_thermal"))

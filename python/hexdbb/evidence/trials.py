@@ -1,0 +1,323 @@
+"""Hypotheses tried in full: fitted by the engine, with their discrepancy, and their evidence (Laplace).
+
+A trial is a model with one or more hypotheses added, all free values fitted nonlinearly, then made linear about the
+fit. Every effect of the catalogue among them has a discrepancy beside it: functions of its own variables at its own
+place (`homes.py`), of a size that is a fraction f of the effect's, f half-normal with `Criteria.form_sigma`. These
+columns stand in the linearisation beside the model's own values, so that evidence, held-out prediction and the search
+for what else is missing all have them.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import replace
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hexdbb.errors import RunError
+from hexdbb.evidence.alike import gained_alike
+from hexdbb.evidence.axes import LearnedAxes
+from hexdbb.evidence.criteria import Criteria
+from hexdbb.evidence.engine import Engine, Fitted
+from hexdbb.evidence.form import Form, Forms
+from hexdbb.evidence.homes import Homes
+from hexdbb.evidence.physical import outside_domain
+from hexdbb.evidence.readings import Linear
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.trial import Member, Trial
+from hexdbb.learned import Learned
+from hexdbb.model import Model, Term
+from hexdbb.threads import fits_at_once
+
+Floats = NDArray[np.float64]
+KEPT = 24
+"""Linearisations kept in memory: some megabytes each."""
+
+
+class Trials:
+    """Tries hypotheses on one set of rows.
+
+    Parameters
+    ----------
+    engine : Engine
+    homes : Homes
+    criteria : Criteria
+    """
+
+    def __init__(self, engine: Engine, homes: Homes, criteria: Criteria) -> None:
+        self.engine, self.criteria = engine, criteria
+        self.forms = Forms(engine, homes, criteria)
+        self._known: dict[frozenset[str], Trial] = {}
+        self._ahead: dict[frozenset[str], Future[Fitted]] = {}
+        self.present = [Known(*each) for each in engine.present()]
+        self._linear: OrderedDict[frozenset[str], Linear] = OrderedDict()
+        self._base: dict[tuple[str, ...], Sums] = {}
+        self._last_sums: tuple[Trial, tuple[str, ...], Sums] | None = None
+        """What a check asks several questions of."""
+
+    def of(self, members: Sequence[Member], near: Trial | None = None) -> Trial:
+        """Fit a model with hypotheses.
+
+        Parameters
+        ----------
+        members : sequence of Member
+        near : Trial, optional
+            Of nearly the same members: the fit starts from its values.
+
+        Raises
+        ------
+        RunError
+            Where the engine cannot fit it.
+        """
+        key = _key(members)
+        if key not in self._known:
+            ahead = self._ahead.pop(key, None)
+            self._known[key] = self._about(
+                tuple(members), self._fitted(members, near) if ahead is None else ahead.result()
+            )
+        return self._known[key]
+
+    def of_fewer(self, members: Sequence[Member], whole: Trial) -> Trial:
+        """Fit what is left of a set, whose time constants are not sought anew from several starts."""
+        known = (each.hypothesis.effect for each in members if isinstance(each.hypothesis, Known))
+        return self.of(members, near=whole if any(map(self.engine.absent.has_shape, known)) else None)
+
+    def each_of(self, every: Iterable[Sequence[Member]], near: Trial | None = None) -> Iterator[Callable[[], Trial]]:
+        """Fit several models with hypotheses beside each other, as many at once as there are cores.
+
+        Parameters
+        ----------
+        every : iterable of sequences of Member
+        near : Trial, optional
+            As `of` has it.
+
+        Yields
+        ------
+        callable
+            Returns the next trial, as `of` does, while those behind it are fitted: the engine fits without Python's
+            lock.
+        """
+        new, at_once = list(every), fits_at_once()
+        with ThreadPoolExecutor(at_once) as pool:
+            for place, each in enumerate(new):
+                # As many again wait, so that no core does while a trial is weighed about its fit.
+                for later in new[place : place + 2 * at_once]:
+                    key = _key(later)
+                    if not (self.has(later) or key in self._ahead):
+                        self._ahead[key] = pool.submit(self._fitted, later, near)
+                yield partial(self.of, each, near)
+
+    def has(self, members: Sequence[Member]) -> bool:
+        """Check whether a model with hypotheses was fitted already."""
+        return _key(members) in self._known
+
+    def linear(self, trial: Trial) -> Linear:
+        """Return a trial's linearisation with the discrepancies; the last few are kept, others made anew."""
+        key = _key(trial.members)
+        if key not in self._linear:
+            linear = self.engine.linearised(trial.model).linear
+            # Which functions stand beside the effects was decided when they were weighed.
+            for form in sorted((form for form, _ in trial.columns_of_forms()), key=lambda each: each.first):
+                linear = self.forms.with_columns(linear, form)
+            self._keep(key, linear, self._change(linear))
+        self._linear.move_to_end(key)
+        return self._linear[key]
+
+    def _change(self, linear: Linear) -> Floats:
+        """Return the change of all values that leads to the best of all rows."""
+        return Sums(linear, self.engine.readings, ()).whole.own_values()
+
+    def _keep(self, key: frozenset[str], linear: Linear, change: Floats) -> Linear:
+        """Keep a linearisation, moved to the best values; of too many the one not asked for the longest is dropped."""
+        moved = self._linear[key] = linear.moved(change)
+        if len(self._linear) > KEPT:
+            self._linear.popitem(last=False)
+        return moved
+
+    def sums(self, trial: Trial, groupings: tuple[str, ...]) -> Sums:
+        """Return the sums of a trial's linearisation; those of the model without hypotheses are kept, and the last."""
+        if trial.members:
+            last = self._last_sums
+            if last is None or last[0] is not trial or last[1] != groupings:
+                last = self._last_sums = trial, groupings, Sums(self.linear(trial), self.engine.readings, groupings)
+            return last[2]
+        if groupings not in self._base:
+            self._base[groupings] = Sums(self.linear(trial), self.engine.readings, groupings)
+        return self._base[groupings]
+
+    @cached_property
+    def present_elements(self) -> set[tuple[str, str]]:
+        """Effects that the model had before, each with its element."""
+        return {(each.effect, each.elements[0]) for each in self.present}
+
+    @cached_property
+    def explained_before(self) -> float:
+        """Mean square of what the effects in the model explain that its other values do not, in noise variances.
+
+        With the functions of their forms: where geometry takes most of an effect, its form is what the readings show.
+        """
+        root = self.of(())
+        linear, own = self.linear(root), self._columns_of_present(root)
+        for _, columns in root.columns_of_forms():
+            own[columns] = True
+        return _beyond(linear.own, linear.standing, own, ~own)
+
+    def pushed(self, trial: Trial) -> Floats:
+        """Return what the effects that the model had before push on each row, in noise standard deviations."""
+        linear, own = self.linear(trial), self._columns_of_present(trial)
+        return linear.own[:, own] @ linear.standing[own]
+
+    def _columns_of_present(self, trial: Trial) -> NDArray[np.bool_]:
+        """Return which columns of a trial's linearisation are those of effects that the model had before."""
+        parameters, free = trial.model.parameters(), np.flatnonzero(trial.model.free)
+        own = np.zeros(self.linear(trial).own.shape[1], bool)
+        own[: len(free)] = [
+            (parameters[place].effect, parameters[place].element) in self.present_elements for place in free
+        ]
+        return own
+
+    def size(self, trial: Trial, known: Known) -> float:
+        """Mean square of what a known effect of a trial pushes that geometry does not, in noise variances.
+
+        What it explains alone; that other effects may stand in for it makes it no smaller.
+        """
+        linear, model = self.linear(trial), trial.model
+        free = [each for each, is_free in zip(model.parameters(), model.free, strict=True) if is_free]
+        own = np.zeros(linear.own.shape[1], bool)
+        own[: len(free)] = [each.effect == known.effect and each.element in known.elements for each in free]
+        geometry = np.zeros(linear.own.shape[1], bool)
+        geometry[: len(free)] = self.engine.geometry_of(model)
+        return _beyond(linear.own, linear.standing, own, geometry)
+
+    def bent(self, trial: Trial) -> float:
+        """Mean square, in noise variances, by which geometry is bent beyond its priors.
+
+        What a set leaves to geometry costs evidence as what it leaves unexplained does; a prior standard deviation of
+        each value is what a machine has.
+        """
+        standing = self.linear(trial).standing[: int(trial.model.free.sum())][self.engine.geometry_of(trial.model)]
+        return max(float(standing @ standing) - len(standing), 0.0) / len(self.engine.readings)
+
+    def _about(self, members: tuple[Member, ...], fitted: Fitted) -> Trial:
+        """Weigh members about their fit, and keep its linearisation."""
+        linear = fitted.linear
+        known = [each.hypothesis for each in members if isinstance(each.hypothesis, Known)]
+        linear, found = self._with_forms(linear, fitted, [*self.present, *known])
+        present = [(each.name, found[each]) for each in self.present]
+        forms = [found[each.hypothesis] if isinstance(each.hypothesis, Known) else None for each in members]
+        refused, penalty = outside_domain(fitted, [each.hypothesis for each in members], self.criteria)
+        every = [*forms, *(form for _, form in present)]
+        prior = sum(-0.5 * (form.fraction / self.criteria.form_sigma) ** 2 for form in every if form is not None)
+        whole = Sums(linear, self.engine.readings, ()).whole
+        change = whole.own_values()
+        gain = 0.5 * float(whole.own @ whole.own)
+        moved = self._keep(_key(members), linear, change)
+        alike = gained_alike(moved, fitted, [each.hypothesis for each in members])
+        return Trial(
+            members=members,
+            model=fitted.model,
+            log_evidence=linear.log_evidence + gain + penalty + prior + alike,
+            forms=tuple(forms),
+            refused=refused,
+            left=float(np.mean(moved.residual**2)),
+            present=tuple(present),
+        )
+
+    def _with_forms(self, linear: Linear, fitted: Fitted, every: Sequence[Known]) -> tuple[Linear, dict[Known, Form]]:
+        """Return a linearisation with the discrepancies of some effects, and these.
+
+        A form too large for its effect may be that of one which comes after it: it is asked for again beside them all.
+        """
+        found: dict[Known, Form] = {}
+        for each in every:
+            linear, found[each] = self.forms.beside(linear, fitted, each)
+        for place, each in enumerate(every):
+            if not found[each].functions and any(found[later].columns for later in every[place + 1 :]):
+                linear, found[each] = self.forms.beside(linear, fitted, each)
+        return linear, found
+
+    def _fitted(self, members: Sequence[Member], near: Trial | None = None) -> Fitted:
+        """Fit the model of some members: from `near`, or from where it was fitted with all but the last if it was."""
+        before = self._known.get(_key(members[:-1])) if len(members) > 1 else None
+        model, added = (self.engine.start, members) if before is None else (before.model, members[-1:])
+        for member in added:
+            if isinstance(member.hypothesis, Known):
+                model = self.engine.with_effect(model, member.hypothesis.effect, member.hypothesis.elements)
+            else:
+                assert member.factor is not None
+                model = self.engine.with_learned(model, member.hypothesis, member.factor, member.size_mm)
+        known = [each.hypothesis for each in added if isinstance(each.hypothesis, Known)]
+        # Shapes of known effects that `near` has are known from there: one start serves.
+        if near is not None and {each.name for each in known} <= {*near.names}:
+            return self.engine.fit(_from(near.model, model), from_minimum=True)
+        shapes, one_for_all = (
+            _free_shapes(model, {each.effect for each in some})
+            for some in (known, [each for each in known if len(each.elements) > 1])
+        )
+        if not shapes.any():
+            return self.engine.fit(model)
+        model = model.with_free(model.free & ~one_for_all)
+        starts = self.criteria.shapes_for_all if one_for_all.any() else self.criteria.shape_starts
+        begun = [np.where(shapes, start * model.prior_sigma, model.values) for start in starts]
+        if one_for_all.any():  # such a shape is held, and each value of it is a fit of its own
+            return self._best_fit(model.with_values(each) for each in begun)
+        return self.engine.fit(model.with_values(begun[0]), starts=begun[1:])
+
+    def _best_fit(self, models: Iterable[Model]) -> Fitted:
+        """Fit several models, and return the fit of most evidence."""
+        found = []
+        for each in models:
+            try:
+                found.append(self.engine.fit(each))
+            except RunError:
+                continue
+        if not found:
+            raise RunError("no start of the fit succeeded")
+        return max(found, key=lambda each: each.linear.log_evidence)
+
+
+def _from(found: Model, model: Model) -> Model:
+    """Return a model that begins where another ended, with the effects and functions that both have."""
+    known = {term.effect: term for term in found.terms}
+
+    def begun(term: Term) -> Term:
+        other, own, before = known.get(term.effect), model.own(term.effect), found.own(term.effect)
+        if other is None or len(other.values) != len(term.values):
+            return term
+        is_same = own.is_like(before) if isinstance(own, LearnedAxes) else own is before
+        # At other elements than the model's the effect was there, and is not now.
+        return replace(term, values=np.where(term.free, other.values, term.values)) if is_same else term
+
+    return replace(model, terms=tuple(begun(term) for term in model.terms))
+
+
+def _free_shapes(model: Model, effects: set[str]) -> NDArray[np.bool_]:
+    """Return which values of a model are free shapes of some effects of the engine's, shape (size,)."""
+    of = [each.is_shape and each.shape is None and each.effect in effects for each in model.parameters()]
+    return np.array(of, bool) & model.free
+
+
+def _beyond(columns: Floats, values: Floats, own: NDArray[np.bool_], others: NDArray[np.bool_]) -> float:
+    """Return the mean square of what some values push that others, with their priors, do not imitate."""
+    if not own.any():
+        return 0.0
+    part, rest = columns[:, own] @ values[own], columns[:, others]
+    imitated = rest @ np.linalg.solve(rest.T @ rest + np.eye(rest.shape[1]), rest.T @ part)
+    return float(np.mean((part - imitated) ** 2))
+
+
+def _key(members: Sequence[Member]) -> frozenset[str]:
+    return frozenset(f"{each.hypothesis.name} {_prior(each)}" for each in members)
+
+
+def _prior(member: Member) -> str:
+    """Return what tells one prior of a learned function from another: splines, smoothness, size."""
+    if not isinstance(member.hypothesis, Learned) or member.factor is None:
+        return ""
+    variable = member.hypothesis.variable
+    return f"{variable.count} {variable.is_even} {np.sum(member.factor**2):.4g} {member.size_mm:.3g}"
