@@ -5,14 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hexdbb.evidence.needed import best_of, needs
-from hexdbb.evidence.no_form import is_no_form
+from hexdbb.evidence.no_form import is_near, is_no_form
 from hexdbb.evidence.node import Node
-from hexdbb.evidence.place import at_a_place_of_its_kin
-from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.settling import leaves_room, predicts
 from hexdbb.evidence.several import beside
 from hexdbb.learned import Learned
-from hexdbb.learned.places import members
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -62,21 +59,11 @@ def _is_elsewhere(search: Search, functions: Node, node: Node) -> bool:
         return False
     last = node.members[-1].hypothesis
     learned = (each for each in functions.hypotheses if isinstance(each, Learned))
-    if any(_is_near(search, last, each) for each in learned):
+    if any(is_near(search, last, each) for each in learned):
         return False
     by_formula = functions.trial.left - _left_by_formula(search, node)
     is_much = by_formula >= search.criteria.formula_beside * (functions.trial.left - 1.0)
     return is_much and by_formula >= search.criteria.formula_most * (functions.trial.left - node.trial.left)
-
-
-def _is_near(search: Search, known: Hypothesis, learned: Learned) -> bool:
-    """Check whether a function acts where an effect does, or at a slider, a joint or a leg of the same number.
-
-    What lifts the joint of a slider after reversals leaves a spike of that slider.
-    """
-    numbers = {str(each) for each in members(learned.element)}
-    of_its_number = isinstance(known, Known) and not (known.is_whole or numbers.isdisjoint(known.elements))
-    return of_its_number or at_a_place_of_its_kin(search, known, learned)
 
 
 def _explains_the_rest(search: Search, functions: Node, node: Node) -> bool:

@@ -51,11 +51,25 @@ def _with_known_instead(search: Search, node: Node, learned: Learned) -> Iterato
         other = Node(trial, node.score + trial.log_evidence - node.trial.log_evidence)
         if trial.refused or not explains_nearly(search, trial.left, node.trial.left):
             continue
+        if kept and not _explains_most(search, other, node, kept):
+            continue
         # What is more than any simple function is no known effect that errs by all that it explains; but it is one
         # whose formula fits as well.
         is_more = search.learnable.is_further(learned) and trial.left - node.trial.left >= NOTHING_LEFT
         if not is_more or misses_most(search, other) <= misses_most(search, node):
             yield other
+
+
+def _explains_most(search: Search, node: Node, than: Node, kept: tuple[Member, ...]) -> bool:
+    """Check that known effects explain most of what functions explain beside what both sets have.
+
+    Against all that is missing, little is lost where what is small beside a large cause is called by another name.
+    """
+    try:
+        without = search.trials.of(kept).left
+    except RunError:
+        return True
+    return without - node.trial.left >= search.criteria.explained_min * (without - than.trial.left)
 
 
 def _as_good(search: Search, node: Node, learned: Learned) -> list[tuple[Known, ...]]:

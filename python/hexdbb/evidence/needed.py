@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.no_form import is_no_form
+from hexdbb.evidence.no_form import is_apart, is_no_form
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.settling import (
     explained,
@@ -122,7 +122,9 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     if beyond >= least or search.checked_trial(others).reasons:
         return True
     known = member.hypothesis
-    return isinstance(known, Known) and (_is_of_size(search, node, known, least) or is_no_form(search, node, member))
+    if not isinstance(known, Known):
+        return is_apart(search, node, member)
+    return _is_of_size(search, node, known, least) or is_no_form(search, node, member)
 
 
 def is_form_alone(search: Search, node: Node, member: Member, others: Trial) -> bool:

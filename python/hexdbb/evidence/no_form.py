@@ -1,13 +1,15 @@
-"""Whether a known effect, small beside others, is more than their forms: it explains what these do not describe."""
+"""Whether a cause, small beside others, is more than their forms: it explains what these do not describe."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hexdbb.evidence.place import functions_at
-from hexdbb.evidence.screen import Screen
+from hexdbb.evidence.place import at_a_place_of_its_kin, functions_at
+from hexdbb.evidence.screen import Hypothesis, Known, Screen
 from hexdbb.evidence.settling import explained, explains_by_formulas
 from hexdbb.evidence.sums import Sums
+from hexdbb.learned import Learned
+from hexdbb.learned.places import members
 
 if TYPE_CHECKING:
     from hexdbb.evidence.node import Node
@@ -42,6 +44,43 @@ def is_no_form(search: Search, node: Node, member: Member) -> bool:
     if beyond >= criteria.form_explains * left or beyond >= _seen(search, node, member):
         return True
     return beyond >= criteria.no_form * left * _explained_at_their_places(search, others)
+
+
+def is_apart(search: Search, node: Node, member: Member) -> bool:
+    """Check that a function beside known effects is no form of theirs: it is elsewhere, and explains most of the rest.
+
+    A battery that sags every ten seconds is no form of a slider's lag, however much smaller. It explains far more than
+    any function at the effects' own places does.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        The set.
+    member : Member
+        The function of the set.
+    """
+    criteria, learned = search.criteria, member.hypothesis
+    others = search.trials.of(node.without(member))
+    causes = [each.hypothesis for each in others.members]
+    if not isinstance(learned, Learned) or not causes or not all(isinstance(each, Known) for each in causes):
+        return False
+    if any(is_near(search, each, learned) for each in causes):
+        return False
+    beyond, left = others.left - node.trial.left, others.left - 1.0
+    if beyond < max(NOISE, criteria.formula_most * left):
+        return False
+    return beyond >= criteria.no_form * left * _explained_at_their_places(search, others)
+
+
+def is_near(search: Search, cause: Hypothesis, learned: Learned) -> bool:
+    """Check whether a function acts where a cause does, or at a slider, a joint or a leg of the same number.
+
+    What lifts the joint of a slider after reversals leaves a spike of that slider.
+    """
+    numbers = {str(each) for each in members(learned.element)}
+    of_its_number = isinstance(cause, Known) and not (cause.is_whole or numbers.isdisjoint(cause.elements))
+    return of_its_number or at_a_place_of_its_kin(search, cause, learned)
 
 
 def _by_formula(search: Search, node: Node, member: Member, others: Trial) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hexdbb.diagnosis import Sufficiency
 from hexdbb.evidence.admissible import Checked
@@ -15,6 +15,7 @@ from hexdbb.evidence.hidden import with_what_forms_hide
 from hexdbb.evidence.known_words import in_known_words
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
+from hexdbb.evidence.one_element import or_one_element
 from hexdbb.evidence.own_form import with_known_of_form
 from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
 from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
@@ -131,6 +132,9 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = in_simple_words(search, node)
     node, wider = or_one_place(search, *without_stand_ins(search, node, refined(search, node)))
     node, wider = with_known_of_form(search, with_numbers_of(search, node, wider), wider)
+    outdone = ""
+    if (alone := or_one_element(search, node)) is not node:
+        node, wider, outdone = alone, refined(search, alone), node.trial.names[0]
     causes, refinements = _grouped(search, node)
     known = {each.name for each in node.hypotheses}
     for each in wider.hypotheses:
@@ -142,6 +146,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
         _found(search, node, cause, refinements.get(cause.name, ()), is_lead=_is_lead(search, node, causes, cause))
         for cause in causes
     )
+    found = tuple(_without_rival(each, outdone) for each in found)
     grades = [each.grade for each in found]
     grade: Grade = "unknown" if "unknown" in grades else "ambiguous" if "ambiguous" in grades else "effect"
     return Verdict(graded(search, node, grade), found, node, search.checked(node), before, wider)
@@ -203,3 +208,8 @@ def _found(search: Search, node: Node, cause: Hypothesis, refinements: tuple[str
     form = node.trial.forms[node.hypotheses.index(cause)]
     deviation = 0.0 if form is None else form.deviation
     return Found(cause, rivals.others, rivals.margin, rivals.alike, refinements, deviation, is_lead)
+
+
+def _without_rival(found: Found, effect: str) -> Found:
+    """Return a cause without those rivals that have an effect among them."""
+    return replace(found, rivals=tuple(each for each in found.rivals if effect not in each.split(" + ")))

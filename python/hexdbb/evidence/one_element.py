@@ -1,0 +1,56 @@
+"""An effect of all elements of which one function, at one of them, says far more: that element is at fault alone.
+
+Weight makes all legs give. Where one leg gives and the others do not, the functions of the effect's form describe the
+difference, six of them being free enough, and its formula explains what a sixth of it explains of that leg.
+"""
+
+from __future__ import annotations
+
+from hexdbb.evidence.node import Node
+from hexdbb.evidence.place import homes_of
+from hexdbb.evidence.screen import Known
+from hexdbb.evidence.search import Search
+from hexdbb.evidence.settling import is_complete, of_forms, predicts
+from hexdbb.learned import ALL, Learned
+from hexdbb.learned.places import SHARED, members
+
+
+def or_one_element(search: Search, node: Node) -> Node:
+    """Return the function of one element that explains far more than one effect of all does by its formula.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Returned unchanged where it is no such effect, or there is no such function.
+    """
+    if len(node.members) != 1 or not _is_of_all(search, node):
+        return node
+    effect = node.hypotheses[0]
+    assert isinstance(effect, Known)
+    most = search.left_by_formulas(node.trial) - of_forms(search, node.trial)
+    ports = search.engine.absent.ports(effect.effect)
+    found = [
+        each
+        for each in search.nodes
+        if each.trial.left < most and _is_of_one(each, ports) and is_complete(search, each) and predicts(search, each)
+    ]
+    return max(found, key=lambda each: each.score, default=node)
+
+
+def _is_of_all(search: Search, node: Node) -> bool:
+    """Check for a known effect that lives in a function which all elements share."""
+    effect = node.hypotheses[0]
+    if not isinstance(effect, Known):
+        return False
+    return any(each.place in SHARED and each.element == ALL for each in homes_of(search, effect))
+
+
+def _is_of_one(node: Node, ports: frozenset[str]) -> bool:
+    """Check for a function of one element, at one of some ports, that is admissible and no free function of time."""
+    if len(node.members) != 1 or node.trial.refused or node.trial.is_of_time:
+        return False
+    learned = node.hypotheses[0]
+    if not isinstance(learned, Learned) or learned.element == ALL:
+        return False
+    return learned.port in ports and len(members(learned.element)) == 1
