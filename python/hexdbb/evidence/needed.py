@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.no_form import is_apart, is_no_form
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.settling import (
+    NOTHING_LEFT,
     explained,
     explains_by_formulas,
     is_complete,
@@ -70,9 +71,26 @@ def _predict_instead(search: Search, node: Node, fewer: Trial) -> bool:
     """Check that known effects predict, far better, what one misses, or fewer are only excused from by their forms."""
     missing = search.checked_trial(fewer)
     in_doubt = missing.excused or (len(fewer.members) == 1 and missing.missed > search.criteria.missed_sure)
-    if not (node.is_known and in_doubt) or is_doubtful(search, node):
+    if not (node.is_known and in_doubt) or is_doubtful(search, node) or _is_of_its_element(search, node, fewer):
         return False
     return search.checked(node).missed < search.criteria.far_better * missing.missed
+
+
+def _is_of_its_element(search: Search, node: Node, fewer: Trial) -> bool:
+    """Check that what a set has more is known effects that push where one of the few does: they describe its form.
+
+    Play of a slider beside its stiction, which dies away otherwise than by its formula, says how it does elsewhere.
+    """
+    few = [each.hypothesis for each in fewer.members if isinstance(each.hypothesis, Known)]
+    more = [each for each in node.hypotheses if isinstance(each, Known) and each not in few]
+    ports = search.engine.absent.ports
+    return bool(more) and all(
+        any(
+            not {*each.elements}.isdisjoint(one.elements) and not ports(each.effect).isdisjoint(ports(one.effect))
+            for one in few
+        )
+        for each in more
+    )
 
 
 def explained_beyond(search: Search, trial: Trial, others: Trial) -> float:
@@ -114,7 +132,8 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     beyond = explained_beyond(search, node.trial, others)
     if gain < criteria.detect_nats or is_form_alone(search, node, member, others):
         return False
-    if _instead(search, node, others):
+    # What explains no more than the noise is uncertain by is no cause, whatever left-out circles make of it.
+    if beyond >= NOTHING_LEFT and _instead(search, node, others):
         return True
     if beyond < criteria.secondary * must_explain(search, others):
         return False
