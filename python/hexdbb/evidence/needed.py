@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.no_form import is_apart, is_no_form
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.settling import (
-    NOTHING_LEFT,
     explained,
     explains_by_formulas,
     is_complete,
@@ -83,14 +82,15 @@ def _is_of_its_element(search: Search, node: Node, fewer: Trial) -> bool:
     """
     few = [each.hypothesis for each in fewer.members if isinstance(each.hypothesis, Known)]
     more = [each for each in node.hypotheses if isinstance(each, Known) and each not in few]
+    return bool(more) and all(any(_is_at_one_element(search, each, one) for one in few) for each in more)
+
+
+def _is_at_one_element(search: Search, one: Known, other: Known) -> bool:
+    """Check that two effects push the same element; of what is but one, as the gauge, each has its own law."""
+    if one.is_whole or other.is_whole or {*one.elements}.isdisjoint(other.elements):
+        return False
     ports = search.engine.absent.ports
-    return bool(more) and all(
-        any(
-            not {*each.elements}.isdisjoint(one.elements) and not ports(each.effect).isdisjoint(ports(one.effect))
-            for one in few
-        )
-        for each in more
-    )
+    return not ports(one.effect).isdisjoint(ports(other.effect))
 
 
 def explained_beyond(search: Search, trial: Trial, others: Trial) -> float:
@@ -132,8 +132,7 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     beyond = explained_beyond(search, node.trial, others)
     if gain < criteria.detect_nats or is_form_alone(search, node, member, others):
         return False
-    # What explains no more than the noise is uncertain by is no cause, whatever left-out circles make of it.
-    if beyond >= NOTHING_LEFT and _instead(search, node, others):
+    if _instead(search, node, others):
         return True
     if beyond < criteria.secondary * must_explain(search, others):
         return False

@@ -21,7 +21,8 @@ from hexdbb.evidence.trial import Member
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned
 
-DRIFT, GAIN, SCREW = (Member(Known(name, ("1",))) for name in ("bar_drift", "bar_gain", "screw_thermal"))
+DRIFT, GAIN = (Member(Known(name, ("1",), is_whole=True)) for name in ("bar_drift", "bar_gain"))
+SCREW, PLAY = (Member(Known(name, ("1",))) for name in ("screw_thermal", "backlash"))
 
 
 class Trialled:
@@ -78,6 +79,7 @@ def searched(
         criteria=DEFAULT,
         trials=trials,
         root=SimpleNamespace(trial=SimpleNamespace(left=11.0)),
+        engine=SimpleNamespace(absent=SimpleNamespace(ports=lambda effect: {effect.partition("_")[0]})),
         nodes=[node],
         log_prior=lambda hypothesis: 0.0,
         left_by_formulas=lambda trial: (by_formulas or {}).get(trial.members, trial.left),
@@ -159,6 +161,16 @@ def test_two_effects_that_predict_are_better_than_one_that_does_not(
     alone = node_of(search.trials.of((DRIFT,)))
     assert is_better(search, both, alone) is expected
     assert needs_all(search, both) is expected
+
+
+@pytest.mark.parametrize("ports", [{"slider"}, set()], ids=["of its element", "of another port"])
+def test_what_makes_one_effect_predict_is_no_second_one_of_its_element(ports: set[str]) -> None:
+    """Play of a slider says how its stiction dies away otherwise than by its formula."""
+    left = {(SCREW, PLAY): 1.0, (SCREW,): 1.01, (PLAY,): 8.0}
+    search, both = searched(left, missing=(SCREW,), missed=2.0)
+    search.engine.absent.ports = lambda effect: ports or {effect}
+    assert is_better(search, both, node_of(search.trials.of((SCREW,)))) is not bool(ports)
+    assert needs_all(search, both) is not bool(ports)
 
 
 FORM = DEFAULT.secondary * DEFAULT.form_sigma**2 * 10.0
