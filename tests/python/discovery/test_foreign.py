@@ -264,8 +264,8 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
         ("steps-and-sag", {"gravity_sag", "learned:slider:3:step"}),
         # A chip in the cup, and a stiction that stands at once: a reading or two at a reversal have it or not.
         ("spike-and-chip", {"reversal_spike:5", "learned:reading:fine_bar_azimuth"}),
-        # A battery of the gauge that sags every 9.6 s explains less than a lag's form might hide, and is no form of it; a
-        # gauge of another gain stood for it, which left the most of it.
+        # A battery of the gauge that sags every 9.6 s explains less than a lag's form might hide, and is no form of it.
+        # A gauge of another gain stood for it, which left most of it.
         ("battery-sags", {"servo_lag:3", "learned:reading:time_period"}),
         # The cage of a screw's bearing, whose period is no part of the lead's, and legs that grow.
         ("bearing-and-legs", {"leg_thermal", "learned:slider:1:fine_position"}),
