@@ -232,7 +232,8 @@ class Criteria:
         Held-out error (noise standard deviations) at which they predict well enough: below the goal of 1.3, and further
         functions, or functions as stiff as the readings allow, gain a few hundredths.
     explained_min : float
-        Part of the unexplained that the causes named must explain together.
+        Part of the unexplained that the causes named must explain together. Also the part of what functions explain
+        beside other causes that known effects must explain in their place.
     form_limit : float
         Relative difference of form above which a catalogue effect is not called the cause: forms 20 % off, the largest
         that the calibration has, measure up to 0.42, a drive that lags in one direction alone 0.45.
@@ -255,9 +256,13 @@ class Criteria:
         larger than forms may be off, must explain more than `secondary` times its square where others stand in for
         most of it: a bow beside a screw that warms in a way of its own explained 0.8 of that.
     no_form : float
-        Multiple of what any function at the causes' own places explains that a further known effect must explain to be
-        no form of theirs, however small beside them: true ones a tenth as large had 2.6 and more, one that stood in for
-        a form 1.2.
+        Multiple of what any function at the causes' own places explains that a further known effect, or a function
+        elsewhere, must explain to be no form of theirs, however small beside them: true ones a tenth as large had 2.6
+        and more, one that stood in for a form 1.2.
+    apart : float
+        Part of what known effects leave that a function elsewhere must explain to be no form of theirs: the larger
+        part. A gauge's battery and mains hum, a fifth as large as a lag and as play, explained 0.77 and 0.65; functions
+        of other states 0.16 and less.
     of_size : float
         Part of what three and more known effects explain that the squares of what they push beyond geometry must sum
         to, and one over it the most: of true triples it is 0.34 to 2.6; three drifts that stood in for a ball off its
@@ -349,6 +354,7 @@ class Criteria:
     secondary: float = 2.0
     form_described: float = 0.05
     no_form: float = 2.0
+    apart: float = 0.5
     of_size: float = 0.25
 
     @property

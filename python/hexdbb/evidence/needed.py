@@ -139,10 +139,9 @@ def needs(search: Search, node: Node, member: Member) -> bool:
     least = of_forms(search, others)
     if beyond >= least or search.checked_trial(others).reasons:
         return True
-    known = member.hypothesis
-    if not isinstance(known, Known):
+    if not isinstance(member.hypothesis, Known):
         return is_apart(search, node, member)
-    return _is_of_size(search, node, known, least) or is_no_form(search, node, member)
+    return _is_of_size(search, node, member.hypothesis, least) or is_no_form(search, node, member)
 
 
 def is_form_alone(search: Search, node: Node, member: Member, others: Trial) -> bool:

@@ -68,7 +68,7 @@ def is_apart(search: Search, node: Node, member: Member) -> bool:
     if any(is_near(search, each, learned) for each in causes):
         return False
     beyond, left = others.left - node.trial.left, others.left - 1.0
-    if beyond < max(NOISE, criteria.formula_most * left):
+    if beyond < max(NOISE, criteria.apart * left):
         return False
     return beyond >= criteria.no_form * left * _explained_at_their_places(search, others)
 

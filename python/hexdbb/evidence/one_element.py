@@ -24,10 +24,9 @@ def or_one_element(search: Search, node: Node) -> Node:
     node : Node
         Returned unchanged where it is no such effect, or there is no such function.
     """
-    if len(node.members) != 1 or not _is_of_all(search, node):
+    effect = node.hypotheses[0] if len(node.members) == 1 else None
+    if not isinstance(effect, Known) or not _is_of_all(search, effect):
         return node
-    effect = node.hypotheses[0]
-    assert isinstance(effect, Known)
     most = search.left_by_formulas(node.trial) - of_forms(search, node.trial)
     ports = search.engine.absent.ports(effect.effect)
     found = [
@@ -38,11 +37,8 @@ def or_one_element(search: Search, node: Node) -> Node:
     return max(found, key=lambda each: each.score, default=node)
 
 
-def _is_of_all(search: Search, node: Node) -> bool:
-    """Check for a known effect that lives in a function which all elements share."""
-    effect = node.hypotheses[0]
-    if not isinstance(effect, Known):
-        return False
+def _is_of_all(search: Search, effect: Known) -> bool:
+    """Check that an effect lives in a function which all elements share."""
     return any(each.place in SHARED and each.element == ALL for each in homes_of(search, effect))
 
 
