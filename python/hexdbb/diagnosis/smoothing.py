@@ -107,7 +107,7 @@ def _signature(space: Space, around: Projection) -> Floats:
     parts = []
     for component in range(space.hypothesis.components):
         total = np.zeros((len(around.samples), space.hypothesis.variable.columns))
-        for element, pushes in space.hypothesis.pushes(component, around.samples.machine):
+        for element, pushes in space.pushes(component, around.samples, around.samples.machine):
             answer = sum(weight * around.ports[:, port] for port, weight in pushes)
             total += np.asarray(answer)[:, None] * space.design(around.samples, element)
         parts.append(total)

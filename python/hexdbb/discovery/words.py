@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from hexdbb.discovery.result import Grouping
 from hexdbb.evidence.heldout import HeldOut
 from hexdbb.learned import Learned, describe
-from hexdbb.learned.numbered import NUMBERED, is_relay
+from hexdbb.learned.numbered import NUMBERED, has_chosen_period, is_relay
 from hexdbb.learned.shown import sentence, whole_place_words
 from hexdbb.model import Term
 
@@ -42,7 +42,7 @@ def place_clause(hypothesis: Learned) -> str:
         return f"{place}: in {variable.words}"
     if NUMBERED in variable.name:
         repeats = f"repeats every {variable.period:.4g} {variable.unit}"
-        return f"{place}: {repeats if variable.period else f'follows the {variable.words}'}"
+        return f"{place}: {repeats if has_chosen_period(variable) else f'follows the {variable.words}'}"
     if not variable.column and not variable.times:
         return f"{place}: a constant"
     return f"{place}: follows the {variable.name.replace('_', ' ')}"

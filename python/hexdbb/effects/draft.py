@@ -79,7 +79,7 @@ def _effect(space: Space, curve: Curve, form: Form, number: int, machine: Machin
         f"    for element, pushed in {_pushed(space, number, machine)}:",
         *(f"        {line}" for line in _value(space, curve.times)),
         "        for column, weight in pushed:",
-        "            push[:, column] += weight * value",
+        f"            push[:, column] += {_weight(space, number)} * value",
         f"    return push.reshape(len(samples), *{PUSH_SHAPES[port]!r})",
     ]
     return "\n".join(lines) + "\n"
@@ -94,16 +94,27 @@ def _pushed(space: Space, function: int, machine: MachineFile) -> str:
     return repr([(each, [(port - first, weight) for port, weight in columns]) for each, columns in pushes])
 
 
+def _weight(space: Space, function: int) -> str:
+    """Return by what a column is pushed, as source: a load by its share in every sample."""
+    lever = space.hypothesis.lever(space.hypothesis.component_of(function))
+    return f'weight * samples["{lever}"][:, column]' if lever else "weight"
+
+
 def _value(space: Space, times: str) -> list[str]:
     """Return the lines that evaluate the function, with the column that multiplies, for one element, as ``value``."""
     variable = space.hypothesis.variable
     lines = ["value = np.ones(len(samples))"]
     if variable.column:
         of_two = f"x[:, element if x.shape[1] == 6 else {variable.axis}]"
-        lines = [f'x = samples["{variable.column}"]', f"x = {of_two} if x.ndim == 2 else x"]
+        lines = [f'x = samples["{variable.state}"]', f"x = {of_two} if x.ndim == 2 else x"]
         if variable.period:
             lines.append(f"x = np.mod(x, {_number(space.period)})")
-        lines.append("value = function(x)")
+        if variable.lingers_s:
+            acting = ["def acting(samples):", *(f"    {line}" for line in lines), "    return function(x)"]
+            standing = ", standing=function(np.zeros(1))" if variable.is_zero_at_rest else ""
+            lines = [*acting, f"value = samples.lingering(acting, {_number(variable.lingers_s)}{standing})"]
+        else:
+            lines.append("value = function(x)")
     if is_growing(times):
         lines.append(f'grown = (samples["time_s"] - {_number(space.since_s)}) / {_number(space.span_s)}')
         lines.append(f"value = value * {_grown(space)}")

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 from hexdbb import _core
 from hexdbb.evidence.readings import State
-from hexdbb.learned import Space
+from hexdbb.learned import Space, Weight
 from hexdbb.model import Model, Tabulated, Term
 
 Floats = NDArray[np.float64]
-Part = tuple[NDArray[np.intp], tuple[tuple[int, float], ...], Floats]
+Pushes = tuple[tuple[int, Weight], ...]
+Part = tuple[NDArray[np.intp], Pushes, Floats]
 """Axes, the engine's port columns that they push, each with its weight, and their functions in every row."""
 
 
@@ -79,7 +80,7 @@ class LearnedAxes:
             for port, weight in pushes:
                 values += axes.tolist()
                 ports += [port] * len(axes)
-                tables.append(weight * pushed)
+                tables.append(np.reshape(weight, (-1, 1)) * pushed)
         return Tabulated(self.info(), tuple(values), tuple(ports), np.hstack(tables))
 
     def pushes_mm(self, state: State, values: Floats) -> dict[int, Floats]:
@@ -109,11 +110,10 @@ class LearnedAxes:
             axes = np.flatnonzero(np.any(own != 0.0, axis=0))
             yield axes, pushes, state.design(self.space, element) @ own[:, axes]
 
-    def _acting(self, state: State) -> Iterator[tuple[int, int, tuple[tuple[int, float], ...]]]:
+    def _acting(self, state: State) -> Iterator[tuple[int, int, Pushes]]:
         """Yield each of its functions: component, element of the variable, and what it pushes."""
-        hypothesis = self.space.hypothesis
-        for component in range(hypothesis.components):
-            for element, pushes in hypothesis.pushes(component, state.machine):
+        for component in range(self.space.hypothesis.components):
+            for element, pushes in self.space.pushes(component, state, state.machine):
                 yield component, element, pushes
 
     def _own(self, component: int) -> slice:

@@ -46,8 +46,10 @@ def or_one_fine_enough(search: Search, node: Node) -> Node:
     best = max((node, *tuned), key=lambda each: each.score)
     if best is node or not search.learnable.is_further(best.hypotheses[0]):
         return best
-    # A scale that bends is no scale that bends a few milliseconds late, though that fits a little better.
-    simple = (each for each in tuned if not search.learnable.is_further(each.hypotheses[0]))
+    # A scale that bends is no scale that bends a few milliseconds late, though that fits a little better. A function of
+    # time is not simpler: it describes whatever changes.
+    listed = (each for each in tuned if not search.learnable.is_further(each.hypotheses[0]))
+    simple = (each for each in listed if best.trial.is_of_time or not each.trial.is_of_time)
     as_good = (each for each in simple if explains_nearly(search, each.trial.left, best.trial.left))
     return max((each for each in as_good if leaves_no_structure(search, each)), key=lambda e: e.score, default=best)
 

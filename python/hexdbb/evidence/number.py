@@ -21,7 +21,7 @@ from hexdbb.evidence.sums import Sums
 from hexdbb.evidence.trial import Member, Trial
 from hexdbb.evidence.trials import Trials
 from hexdbb.learned import Learned, Variable, has_chosen_number, number_of
-from hexdbb.learned.numbered import rate_of
+from hexdbb.learned.numbered import has_chosen_period, rate_of
 
 if TYPE_CHECKING:
     from hexdbb.evidence.search import Search
@@ -53,7 +53,7 @@ def best_number(trials: Trials, trial: Trial, member: Member) -> Learned:
     assert isinstance(learned, Learned) and member.factor is not None
     variable, number = learned.variable, number_of(learned.variable)
     step = CONSTANT_STEP
-    if variable.period:
+    if has_chosen_period(variable):
         step = TURN_STEP * number / max(float(np.ptp(readings.state[variable.column])), number)
     mine = np.array([each.effect == learned.name for each in model.parameters()])
     coefficients = member.factor @ model.values[mine]
@@ -81,7 +81,8 @@ def with_best_number(search: Search, trial: Trial, hypothesis: Hypothesis) -> Tr
     if not isinstance(hypothesis, Learned) or not has_chosen_number(hypothesis.variable):
         return trial
     tuned = hypothesis
-    for _ in range(1 if hypothesis.variable.period else search.criteria.constant_rounds):
+    is_period = has_chosen_period(hypothesis.variable)
+    for _ in range(1 if is_period else search.criteria.constant_rounds):
         member = next(each for each in trial.members if each.hypothesis == tuned)
         moved = best_number(search.trials, trial, member)
         if moved.name != member.hypothesis.name and moved.name in trial.names:
@@ -95,7 +96,7 @@ def with_best_number(search: Search, trial: Trial, hypothesis: Hypothesis) -> Tr
         if found.log_evidence <= trial.log_evidence or found.refused:
             break
         trial, tuned = found, moved
-    if tuned != hypothesis and not hypothesis.variable.period:
+    if tuned != hypothesis and not is_period:
         # A gauge that settles within a tenth of a second is late by that: the same as one that is read late.
         add_kin(search, [tuned])
     return trial

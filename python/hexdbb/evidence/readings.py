@@ -11,7 +11,7 @@ few neighbouring ones where sampling is dense (`engine.py`).
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.learned import Columns, Learned, Space, Variable
+from hexdbb.learned import Columns, Learned, Space, Variable, Weight
 from hexdbb.machine import MachineFile
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.threads.copies import in_copies
@@ -64,6 +64,10 @@ class State:
         if name not in self._known:
             self._known[name] = np.asarray(self._columns[name], np.float64)
         return self._known[name]
+
+    def lingering(self, of: Callable[[Columns], Floats], constant_s: float, standing: Floats | None = None) -> Floats:
+        """Return what functions of all samples do with a first-order lag, of these rows (`Samples.lingering`)."""
+        return self._columns.lingering(of, constant_s, standing)
 
     def __len__(self) -> int:
         return len(self["time_s"])
@@ -121,6 +125,10 @@ class _Rows:
 
     def __getitem__(self, name: str) -> Floats:
         found: Floats = self._whole[name][self._rows]
+        return found
+
+    def lingering(self, of: Callable[[Columns], Floats], constant_s: float, standing: Floats | None = None) -> Floats:
+        found: Floats = self._whole.lingering(of, constant_s, standing)[self._rows]
         return found
 
     def __len__(self) -> int:
@@ -199,7 +207,7 @@ class Readings:
             self._cells[groupings] = Cells.of([self.groups[name] for name in groupings], len(self))
         return self._cells[groupings]
 
-    def answer(self, pushes: Sequence[tuple[int, float]]) -> Floats:
+    def answer(self, pushes: Sequence[tuple[int, Weight]]) -> Floats:
         """Return what a push of one mm at some port columns, each with its weight, does to the readings, shape (n,)."""
         (first, weight), *others = pushes
         found: Floats = weight * self.ports[:, first]

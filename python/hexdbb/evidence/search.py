@@ -317,7 +317,9 @@ class Search:
     def member(self, scored: Scored, most_seen: int | None = None) -> Member:
         """Return a screened hypothesis with the prior that full fits give it, of so many directions at most."""
         if isinstance(scored.hypothesis, Learned):
-            most = (most_seen or self.criteria.most_seen) // scored.hypothesis.components
+            # What has few splines on many axes is asked on all of them: a load's direction is in the sum.
+            shared = 1 if scored.hypothesis.variable.is_coarse else scored.hypothesis.components
+            most = (most_seen or self.criteria.most_seen) // shared
             seen = scored.marginal.seen(self.criteria.least_seen, most)
             return Member(scored.hypothesis, seen, scored.marginal.size)
         return Member(scored.hypothesis)

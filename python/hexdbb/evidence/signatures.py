@@ -69,7 +69,7 @@ def signature_of(hypothesis: Learned, readings: Readings, like: Space | None = N
     parts = []
     for component in range(hypothesis.components):
         total: Floats | None = None
-        for element, pushes in hypothesis.pushes(component, state.machine):
+        for element, pushes in space.pushes(component, state, state.machine):
             part = readings.answer(pushes)[:, None] * state.design(space, element)
             total = part if total is None else total + part
         assert total is not None  # every place has an element

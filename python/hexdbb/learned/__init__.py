@@ -24,7 +24,7 @@ from hexdbb.learned.numbered import (
     two_states,
 )
 from hexdbb.learned.places import ALL
-from hexdbb.learned.space import Columns, Space
+from hexdbb.learned.space import Columns, Space, Weight
 from hexdbb.learned.tables import Curve, Table
 from hexdbb.learned.variable import Variable
 from hexdbb.learned.words import Form, describe
@@ -40,6 +40,7 @@ __all__ = [
     "Space",
     "Table",
     "Variable",
+    "Weight",
     "crossed_hypotheses",
     "describe",
     "further_hypotheses",

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from hexdbb.learned import variables as v
 from hexdbb.learned.numbered import AFTER, FAR, LAGGED, RELAXING, SETTLING, SLIPPING, along, following
-from hexdbb.learned.variable import ELAPSED, Variable, is_growing
+from hexdbb.learned.variable import ELAPSED, LINGERING, Variable, is_growing
 
 SPLINES = 6
 """Splines of a product: what multiplies sets most of its form already."""
@@ -31,6 +31,8 @@ LONG_S = (6.0, 20.0)
 GROWTHS_S = (200.0, 800.0)
 """Time constants of what grows towards an end, at first: thin rails and screws take some minutes to warm, beams half an
 hour; the readings then move them. What takes much longer than a test grows evenly in it."""
+HEATS_S = (60.0, 240.0)
+"""Time constants of what warms, at first: nuts, posts and bars take one minute to some; the readings then move them."""
 RUN_UPS_DEG = (15.0, 45.0, 135.0)
 """Run-ups to circles that are tried first; the readings then move them. What settles since the start of the motion is
 smaller at the first reading of a slow circle than at that of a fast one. They are a factor of three apart, of which a
@@ -120,6 +122,12 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
             yield from (following(each, how, most) for most in SLIPS.get(each.name, ()))
 
 
+LINGERING_ANGLE = tuple(following(v.ANGLE, LINGERING, each) for each in CONSTANTS_S[1:])
+"""What warms or cools the bar on one side of the circle; what dies away within less follows at once."""
+HEATED = tuple(following(v.VELOCITY, LINGERING, each) for each in HEATS_S)
+"""A nut or a motor that its own travel heats."""
+LATE_WARMING = tuple(following(v.WARMING, LAGGED, each) for each in HEATS_S)
+"""What is thick warms later than the thermometer."""
 BY_TRAVEL = "travel_direction", "direction of travel"
 BY_CIRCLE = "direction", "direction of the circle"
 POSITION_EACH_WAY = each_way(v.POSITION, *BY_TRAVEL)
@@ -210,6 +218,7 @@ COURSES, COURSES_IN_PLATFORM = ((each, _by_speed(each)) for each in (v.COURSE, v
 """Friction and play along the direction of motion: constant, or a function of the speed."""
 OF_BALL = (
     *(v.ANGLE, v.ANGLE_DIRECTION, v.SPEED),
+    *(*LINGERING_ANGLE, *LATE_WARMING),
     *ROCKING,
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
@@ -230,6 +239,20 @@ OF_PLATFORM_JOINT = (v.DIRECTION, v.TRAVEL, v.FORCE, *COURSES_IN_PLATFORM)
 OF_PAIR_OF_JOINTS = (v.ANGLE, v.ANGLE_DIRECTION, v.CIRCLE_DIRECTION, v.SPEED, *COURSES_IN_PLATFORM)
 """Variables of the platform's joint that two legs share: those that both have. No function of time is among those of
 several axes here: such follow any drift, and claim nothing of a time that was left out."""
+
+
+def _of_loads(count: int, *variables: Variable) -> tuple[Variable, ...]:
+    return tuple(replace(each, count=count, is_coarse=True) for each in variables)
+
+
+LOADS = (
+    v.CONSTANT,
+    *_of_loads(8, *LEANING),
+    *_of_loads(4, v.TURNED, v.TIME),
+    *_of_loads(6, v.ANGLE),
+    *_of_loads(1, *(along("velocity", each) for each in DIRECTIONS_DEG)),
+)
+"""What a hose or a cable pulls by, a gas spring rubs by, and what is hung on the platform."""
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
@@ -244,6 +267,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *SETTLING_POSITION,
         *SINCE_START,
         *OTHER_DRIVES,
+        *HEATED,
         POSITION_EACH_WAY,
     ),
     "leg": (
@@ -261,7 +285,16 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "platform_joint": OF_PLATFORM_JOINT,
     "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
     "cup": (*OF_BALL, *COURSES, *LEANING, *of_drives((v.POSITION,))),
-    "reading": (*PRODUCTS_OF_READING, *READING_EACH_WAY, *_remembered(v.DEFLECTION), *SINCE_START, *CROSSTALK),
+    "load": LOADS,
+    "reading": (
+        *PRODUCTS_OF_READING,
+        *READING_EACH_WAY,
+        *_remembered(v.DEFLECTION),
+        *SINCE_START,
+        *CROSSTALK,
+        *LINGERING_ANGLE,
+        *LATE_WARMING,
+    ),
 }
 """Further variables of single elements by place."""
 RELAYS: dict[str, tuple[Variable, ...]] = {

@@ -19,6 +19,8 @@ from hexdbb.learned.places import (
     AXES,
     COMPONENTS,
     KINDS,
+    LEVER,
+    LEVERS,
     OF_GUIDEWAY,
     PORTS,
     PREFIX,
@@ -168,6 +170,7 @@ class Learned:
         plain = Learned.parse(self.name)
         if plain.variable.is_smooth:
             yield plain
+        if plain.variable.may_be_finer:
             yield from (plain.finer(each) for each in FINER if each * plain.variable.count <= MOST_SPLINES)
             if plain.variable.signed:
                 yield replace(plain, variable=replace(plain.variable, is_even=True))
@@ -207,7 +210,14 @@ class Learned:
 
     def axis_name(self, function: int) -> str:
         """Name of the axis along which a function, from 0, pushes; empty where there is one axis only."""
-        return AXES.get(self.place, "xyz")[self.component_of(function)] if self.components > 1 else ""
+        component = self.component_of(function)
+        if self.place in LEVERS:
+            return self.lever(component).removeprefix(LEVER)
+        return AXES.get(self.place, "xyz")[component] if self.components > 1 else ""
+
+    def lever(self, component: int) -> str:
+        """Return the column that says how much of a push each element gets, shape (n, 6); empty where each gets all."""
+        return LEVERS[self.place][component] if self.place in LEVERS else ""
 
     def part_name(self, function: int) -> str:
         """Name of a function, from 0, among its own: axis, and `by_direction`; empty where there is one only."""
@@ -217,6 +227,8 @@ class Learned:
     @property
     def elements(self) -> tuple[int, ...]:
         """Elements, from 0, whose variable the functions depend on; for a vector, its axes."""
+        if self.place in LEVERS:
+            return (0,)
         return (
             tuple(range(AXES_OF_VECTOR)) if self.variable.is_vector else tuple(self._by(each) for each in self._pushed)
         )
@@ -224,7 +236,8 @@ class Learned:
     @property
     def _pushed(self) -> tuple[int, ...]:
         """Elements, from 0, that are pushed."""
-        if self.place == "platform" or (self.place in (*SHARED, *OF_GUIDEWAY) and self.element == ALL):
+        is_whole = self.place == "platform" or self.place in LEVERS
+        if is_whole or (self.place in (*SHARED, *OF_GUIDEWAY) and self.element == ALL):
             return tuple(range(6))
         if self.place in OF_GUIDEWAY:
             return (2 * self.element - 2, 2 * self.element - 1)
@@ -246,6 +259,8 @@ class Learned:
         machine : Directed
         """
         first = _core.PORTS[self.port][0]
+        if self.place in LEVERS:
+            return ((0, tuple((first + each, 1.0) for each in self._pushed)),)
         if self.variable.is_vector:
             axes = range(AXES_OF_VECTOR)
             return tuple((axis, tuple((first + 3 * each + axis, 1.0) for each in self._pushed)) for axis in axes)

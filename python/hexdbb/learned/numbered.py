@@ -3,7 +3,8 @@
 Steps at instants (`step@12.5/340.2`), what repeats with a period (`time_period@0.25`), by the direction of travel
 besides (`direction_position_period@1.06`: balls that enter and leave a nut), what follows another variable late
 (`leg_force_lagged@12`, a first-order lag), yields to it and slips (`leg_force_slipping@0.06`) or wears off after it
-changed (`joint_angle_relaxing@12`, the variable less the same lag), what grows towards an end
+changed (`joint_angle_relaxing@12`, the variable less the same lag), functions whose effect lingers
+(`velocity_lingering@300`: a nut that its travel heats), what grows towards an end
 (`time_position_settling@470`, as what warms does), the time since a circle's run-up began (`time_in_sweep_after@45`,
 its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane), and
 a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
@@ -18,7 +19,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hexdbb.learned.variable import OF_MEMORY, Variable
+from hexdbb.learned.variable import LINGERING, OF_MEMORY, Variable
 
 NUMBERED = "@"
 """In the name of a variable: what follows are the numbers."""
@@ -34,6 +35,9 @@ INSTANT_S = 1e-4
 """Resolution of instants in names: far below the time between two samples."""
 FOLLOWING_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
+LINGERING_SPLINES = 24
+"""Splines of a turn where what they do lingers. More are not asked for: a lag smooths what is finer, and what readings
+say of it is their noise."""
 VELOCITY_SPLINES = 12
 """Splines over the platform's velocity: as many as a slider's has (`variables.VELOCITY`)."""
 POSITION_SPLINES = 12
@@ -45,6 +49,7 @@ RELAY = "relay"
 BY_NUMBER = {
     LAGGED: "{} as it was about {:.3g} s before",
     RELAXING: "change of the {} within about {:.3g} s",
+    LINGERING: "{}, whose effect lingers for about {:.3g} s",
     SLIPPING: "change of the {}, up to the {:.3g} {unit} at which it slips",
     SETTLING: "{} towards an end within about {:.3g} s",
     AFTER: "{} with its run-up of about {:.3g}°",
@@ -134,8 +139,9 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
         name=f"{variable.name}_{how}@{number}",
         column=f"{variable.column}{OF_MEMORY}{how}@{number}",
         words=BY_NUMBER[how].format(variable.words, float(number), unit=variable.unit).replace("  ", " "),
-        count=variable.count if how == AFTER else FOLLOWING_SPLINES,
+        count=variable.count if how == AFTER else LINGERING_SPLINES if variable.period else FOLLOWING_SPLINES,
         signed=False,
+        is_coarse=how == LINGERING,
     )
 
 
@@ -222,6 +228,11 @@ def has_chosen_number(variable: Variable) -> bool:
     return "@" in variable.name and not variable.instants and not is_relay(variable)
 
 
+def has_chosen_period(variable: Variable) -> bool:
+    """Whether that number is a period; what turns with the screw may have another."""
+    return any(variable.name.removeprefix("direction_").startswith(f"{each}_period{NUMBERED}") for each in REPEATING)
+
+
 def number_of(variable: Variable) -> float:
     """Return the number in a variable's name: a period (s or mm), a time constant (s), an angle (degrees)."""
     return float(variable.name.partition("@")[2])
@@ -270,7 +281,8 @@ def numbered(name: str, variables: Sequence[Variable]) -> Variable | None:
         return by_direction(periodic("position", values[0]))
     of, _, how = kind.rpartition("_")
     if how == ALONG:
-        return along(of, values[0]) if any(each.name.startswith(f"{kind}@") for each in variables) else None
+        listed = next((each for each in variables if each.name.startswith(f"{kind}@")), None)
+        return replace(along(of, values[0]), count=listed.count, is_coarse=listed.is_coarse) if listed else None
     known = {each.name: each for each in variables}
     if how not in BY_NUMBER or of not in known or (how == TURNING and turns_with(known[of]) is None):
         return None

@@ -6,6 +6,11 @@ from hexdbb.learned import further
 from hexdbb.learned import variables as v
 from hexdbb.learned.variable import Variable
 
+LEVER = "force_by_"
+"""How the name of a column begins that shares a load among the legs."""
+BY_LOAD = tuple(f"{LEVER}{how}_{axis}" for how in ("pull", "turn") for axis in "xyz")
+"""Forces in the legs by a pull on the platform along each axis, and by a couple that turns it about each."""
+
 PREFIX = "learned"
 ALL = 0
 """Element number of a function that all elements share, or of a place that has one element only."""
@@ -25,12 +30,16 @@ VARIABLES: dict[str, tuple[Variable, ...]] = {
     "guideway": (),
     "slider_joint": (),
     "platform": (),
+    "load": (),
 }
 """The simple variables of every place."""
 ELEMENTS = {"slider": 6, "leg": 6, "lateral": 3, "vertical": 3, "guideway": 3, "slider_joint": 6, "platform_joint": 6}
 """Number of elements of those places that have more than one."""
-COMPONENTS = {"platform_joint": 3, "ball": 3, "cup": 3, "guideway": 2, "slider_joint": 2}
+COMPONENTS = {"platform_joint": 3, "ball": 3, "cup": 3, "guideway": 2, "slider_joint": 2, "load": 6}
 """Number of functions of places that push along several axes, because the direction is not known."""
+LEVERS = {"load": BY_LOAD}
+"""Columns of the samples that say, axis by axis, how much of its push each element gets: a load on the platform is
+shared among the legs, and each yields by what it bears."""
 KINDS = {
     "slider": "slider",
     "leg": "leg",
@@ -47,6 +56,7 @@ PORTS = {
     "vertical": "slider_joint",
     "guideway": "slider_joint",
     "platform": "platform_joint",
+    "load": "leg",
 }
 """Ports of the engine that places push, where they have another name."""
 AXES = {"lateral": "x", "vertical": "z", "guideway": "xz", "slider_joint": "xz"}

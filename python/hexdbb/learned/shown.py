@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hexdbb.learned.hypothesis import Learned
-from hexdbb.learned.places import ALL, AXES, PAIRS
+from hexdbb.learned.places import ALL, AXES, LEVERS, PAIRS
 from hexdbb.learned.tables import Curve
 from hexdbb.learned.words import UM_PER_MM, describe, shown_places
 
@@ -23,6 +23,7 @@ PLACES = {
     "guideway": "guideway {}",
     "slider_joint": "joint of slider {}",
     "platform": "all joints of the platform, outward",
+    "load": "load on the platform, by elastic legs",
 }
 PAIR_OF = {
     "slider": "sliders {} and {} along their guideway",
@@ -36,11 +37,16 @@ ALL_OF = {
 }
 ACROSS = {"x": ", sideways", "z": ", up and down"}
 """Axes of a guideway in words."""
+SORTS = {"pull": ", a pull along {}", "turn": ", a couple about {}"}
+"""Sorts of loads in words."""
 
 
 def place_words(hypothesis: Learned, function: int = 0) -> str:
     """Return where a function pushes, in words."""
     axis = hypothesis.axis_name(function)
+    if hypothesis.place in LEVERS:
+        sort, _, about = axis.partition("_")
+        return whole_place_words(hypothesis) + SORTS[sort].format(about)
     across = ACROSS if hypothesis.place in AXES else {}
     return whole_place_words(hypothesis) + (across.get(axis, f" along {axis}") if axis else "")
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hexdbb import _core
 from hexdbb.errors import InputError
 from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
@@ -16,6 +18,8 @@ from hexdbb.learned.tables import Table
 from hexdbb.learned.variable import AXES_OF_VECTOR, BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
 
 Floats = NDArray[np.float64]
+Weight = float | Floats
+"""Of a push at a port column: the same in all samples, or one for each, shape (n,)."""
 
 NEVER = 1e5
 """Times and distances since a reversal beyond this stand for a reversal that never was (the engine's 1e6)."""
@@ -47,6 +51,10 @@ class Columns(Protocol):
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column, shape (n,), (n, 3) or (n, 6)."""
+        ...
+
+    def lingering(self, of: Callable[[Columns], Floats], constant_s: float, standing: Floats | None = None) -> Floats:
+        """Return what functions of all samples of the table, shape (m, k), do with a first-order lag, of these rows."""
         ...
 
     def __len__(self) -> int: ...
@@ -143,6 +151,16 @@ class Space:
             factor[first : first + variable.count, first : first + variable.count] = one
         return factor
 
+    def pushes(
+        self, component: int, samples: Columns, machine: Directed
+    ) -> Iterator[tuple[int, tuple[tuple[int, Weight], ...]]]:
+        """Yield by which element's variable one component goes, and the engine's port columns pushed with weights."""
+        hypothesis = self.hypothesis
+        lever = hypothesis.lever(component)
+        first = _core.PORTS[hypothesis.port][0]
+        for element, pushes in hypothesis.pushes(component, machine):
+            yield element, tuple((port, samples[lever][:, port - first]) for port, _ in pushes) if lever else pushes
+
     def design(self, samples: Columns, element: int) -> Floats:
         """Return the functions in every sample for the variable of one element, shape (n, columns)."""
         variable = self.hypothesis.variable
@@ -152,9 +170,18 @@ class Space:
             weight = _times(samples, variable, element) if variable.times else np.ones(len(samples))
         if not variable.column:
             return weight[:, None].copy()
-        functions = self.functions(_of(samples, variable, element))
+        functions = self._acting(samples, element)
         found: Floats = weight[:, None] * functions
         return np.hstack([functions, found]) if variable.each_way else found
+
+    def _acting(self, samples: Columns, element: int) -> Floats:
+        """Return the splines in every sample, or what lingers of them; shape (n, its own)."""
+        variable = self.hypothesis.variable
+        if variable.lingers_s:
+            standing = self.functions(np.zeros(1))[0] if variable.is_zero_at_rest else None
+            of = lambda every: self.functions(_of(every, variable, element))  # noqa: E731
+            return samples.lingering(of, variable.lingers_s, standing)
+        return self.functions(_of(samples, variable, element))
 
     def argument(self, samples: Columns, element: int) -> Floats:
         """Return what the splines are functions of, in every sample for the variable of one element, shape (n,)."""
@@ -234,7 +261,7 @@ class Space:
             table = Table(
                 port=self.hypothesis.port,
                 column=variable.column,
-                times=at_once(times),
+                times=self.hypothesis.lever(self.hypothesis.component_of(function)) or at_once(times),
                 period=self.period,
                 pushes=self.hypothesis.pushes(self.hypothesis.component_of(function), machine),
                 knots=tuple(map(float, points)),
@@ -264,7 +291,7 @@ def _grown(times: str, elapsed_s: Floats, span_s: float) -> Floats:
 
 def _of(samples: Columns, variable: Variable, element: int) -> Floats:
     """Return a variable's column: that of one element where it has six, one axis of three."""
-    values = np.asarray(samples[variable.column], np.float64)
+    values = np.asarray(samples[variable.state], np.float64)
     if values.ndim == 1:
         return values
     found: Floats = values[:, variable.axis if values.shape[1] == AXES_OF_VECTOR else element]

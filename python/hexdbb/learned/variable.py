@@ -25,6 +25,11 @@ AXES_OF_VECTOR = 3
 OF_MEMORY = "."
 """In the name of a column of the samples that remembers: what follows the column's own name, and says how."""
 
+LINGERING = "lingering"
+"""The same where functions of the state linger, not the state: what they do builds up and dies away."""
+
+ZERO_AT_REST = frozenset({"velocity_mm_s"})
+
 
 def is_growing(times: str) -> bool:
     """Whether what multiplies a function is no column of the samples but a growth with time."""
@@ -79,6 +84,9 @@ class Variable:
     each_way : bool
         Whether either direction, of which `times` holds the sign, has a function of its own: one alike both ways, and
         one times that sign.
+    is_coarse : bool
+        Whether it has no more splines, whatever readings ask for: along six axes at once they would describe anything,
+        of what lingers only the noise.
     """
 
     name: str
@@ -102,6 +110,7 @@ class Variable:
     parts: tuple[str, ...] = ()
     is_vector: bool = False
     each_way: bool = False
+    is_coarse: bool = False
 
     def __hash__(self) -> int:
         """Return a hash of what tells nearly all variables apart: one of all fields takes a twentieth of a search."""
@@ -116,6 +125,21 @@ class Variable:
     def columns(self) -> int:
         """Number of coefficients of one component."""
         return self.ways * (self.count + int(self.signed))
+
+    @property
+    def state(self) -> str:
+        """Column of the samples that its functions are functions of, whether what they do lingers or not."""
+        return self.column.partition(f"{OF_MEMORY}{LINGERING}@")[0]
+
+    @property
+    def lingers_s(self) -> float:
+        """Time constant (s) with which what its functions do dies away; 0 where they act at once."""
+        return float(self.column.partition(f"{OF_MEMORY}{LINGERING}@")[2] or 0.0)
+
+    @property
+    def is_zero_at_rest(self) -> bool:
+        """Whether that column is zero while the machine waits between two sweeps."""
+        return self.state in ZERO_AT_REST
 
     @property
     def needs(self) -> frozenset[str]:
@@ -133,3 +157,8 @@ class Variable:
     def is_smooth(self) -> bool:
         """Whether it has splines enough for their smoothness to be chosen."""
         return self.count > SPLINES_MIN and not self.instants
+
+    @property
+    def may_be_finer(self) -> bool:
+        """Whether readings may ask for more splines."""
+        return self.is_smooth and not self.is_coarse

@@ -185,6 +185,7 @@ SWING_ANGLE = Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of 
 INCLINATION = Variable(
     "inclination", "leg_inclination_rad", "rad", "inclination of the leg to the vertical", 12, least=LEAST_TILT
 )
+CONSTANT = Variable("constant", "", "", "nothing: an offset")
 FINE_TURN = 72
 """Splines of a turn, one for every five degrees: the width of a dent in a ball."""
 ANGLE = Variable("angle", "angle_rad", "rad", "polar angle", 24, period=TURN)
@@ -269,7 +270,7 @@ PLATFORM_JOINT_ANGLE = Variable("joint_angle", "platform_joint_angle_rad", "rad"
 DRAGGED_BY_ANGLE = replace(JOINT_ANGLE_DIRECTION, count=PLATFORM_JOINT_ANGLE.count, of_forms=True)
 """As few splines as other functions of a platform's joint have: each pushes along three axes."""
 OF_PLATFORM_JOINT = (
-    Variable("constant", "", "", "nothing: an offset"),
+    CONSTANT,
     PLATFORM_JOINT_ANGLE,
     Variable("swing_angle", "swing_angle_rad", "rad", "swing angle of the leg about its guideway", 5),
     Variable("time", "time_s", "s", "time", 10, from_start=True),

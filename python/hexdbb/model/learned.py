@@ -94,13 +94,13 @@ class LearnedEffect:
         hypothesis, columns = self.space.hypothesis, self.space.hypothesis.variable.columns
         pushed: dict[int, Floats] = {}
         for component in range(hypothesis.components):
-            for element, pushes in hypothesis.pushes(component, samples.machine):
+            for element, pushes in self.space.pushes(component, samples, samples.machine):
                 if element not in pushed:
                     pushed[element] = self.space.design(samples, element) @ self.factor
                 for port, weight in pushes:
                     values += range(component * columns, (component + 1) * columns)
                     ports += [port] * columns
-                    tables.append(weight * pushed[element])
+                    tables.append(np.reshape(weight, (-1, 1)) * pushed[element])
         return Tabulated(self.info(), tuple(values), tuple(ports), np.hstack(tables))
 
     def coefficients(self, values: Floats) -> Floats:

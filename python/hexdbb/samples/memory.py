@@ -79,6 +79,32 @@ def remembered_column(
     return found.reshape(column.shape)
 
 
+def lingering(
+    values: Floats,
+    constant_s: float,
+    standing: Floats | None,
+    time_s: Floats,
+    sweep: NDArray[np.integer[Any]],
+    angle_rad: Floats,
+) -> Floats:
+    """Return what is left of values that linger: a first-order lag of them, of their shape (n,) or (n, k).
+
+    A nut that its travel heats, a bar that a fan cools on one side: what acts is a function of a state, and dies away.
+    `standing`, shape (k,), are those values while the machine waits between two sweeps; those where the next run-up
+    begins if not given.
+    """
+    given = values.reshape(len(values), -1)
+
+    def follow(at_s: Floats, what: Floats) -> Floats:
+        return _lagged(what, (at_s - at_s[0]) / constant_s, what[0])
+
+    def waiting(next_up: Floats) -> Floats:
+        return next_up if standing is None else np.reshape(standing, (1, -1))
+
+    found = followed(follow, given, time_s, sweeps_of(sweep), angle_rad, waiting=waiting)
+    return found.reshape(values.shape)
+
+
 def _rate_rad_s(time_s: Floats, angle_rad: Floats) -> float:
     """Return at what rate a circle is driven; infinity for one sample."""
     turned_rad, took_s = float(np.ptp(np.unwrap(angle_rad))), float(np.ptp(time_s))

@@ -1,8 +1,8 @@
 """What follows a column over time, from sweep to sweep.
 
 What the machine did between two sweeps no record says: it is taken to have run out along the circle and up along the
-next one, as it came round in other laps, and to have gone evenly from the one to the other. Before the first sweep it
-stood.
+next one, as it came round in other laps, and to have gone evenly from the one to the other, or to have waited where the
+next run-up begins. Before the first sweep it stood.
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from hexdbb import _core
 
 Floats = NDArray[np.float64]
-
+Waiting = Callable[[Floats], Floats]
+STOPS_S = 0.01
+"""Time in which a machine goes to the state in which it waits: a hundredth of any time constant that is asked for."""
 FAR_RUN_UP_RAD = np.pi
 """Angle along which ball-bar tests run up to a circle that overshoot by half a circle, the usual setting of their
 makers' programs; the engine's RUN_UP_RAD stands where nothing else is said."""
@@ -37,6 +39,7 @@ def followed(
     sweeps: Sequence[slice],
     angle_rad: Floats,
     run_up_rad: float = _core.RUN_UP_RAD,
+    waiting: Waiting | None = None,
 ) -> Floats:
     """Return what follows values over time, shape (n, k).
 
@@ -52,10 +55,15 @@ def followed(
         Rows of each.
     run_up_rad : float
         Of every sweep; as far it runs out.
+    waiting : callable, optional
+        Of the values where the next run-up begins, shape (k,): those while the machine waits there, from the end of
+        the run-out on. Where not given, values go evenly from the one to the other.
     """
     found = np.empty_like(values)
     for chain in _chains(sweeps, time_s):
-        at_s, given = _joined([_way(time_s[rows], angle_rad[rows], values[rows], run_up_rad) for rows in chain])
+        at_s, given = _joined(
+            [_way(time_s[rows], angle_rad[rows], values[rows], run_up_rad) for rows in chain], waiting
+        )
         whole = follow(at_s, given)
         for rows in chain:
             found[rows] = whole[np.searchsorted(at_s, time_s[rows])]
@@ -101,7 +109,7 @@ def _way(time_s: Floats, angle_rad: Floats, values: Floats, run_up_rad: float) -
     )
 
 
-def _joined(ways: Sequence[_Way]) -> tuple[Floats, Floats]:
+def _joined(ways: Sequence[_Way], waiting: Waiting | None) -> tuple[Floats, Floats]:
     """Return times and values of all, where there is time between two sweeps with the run-out and the run-up."""
     times, values = [ways[0].up_s], [ways[0].up]
     for way, following in zip(ways, (*ways[1:], None), strict=True):
@@ -111,6 +119,12 @@ def _joined(ways: Sequence[_Way]) -> tuple[Floats, Floats]:
             break
         left, begins = np.max(way.out_s, initial=way.at_s[-1]), np.min(following.up_s, initial=following.at_s[0])
         if left < begins:
-            times += [way.out_s, following.up_s]
-            values += [way.out, following.up]
+            times.append(way.out_s)
+            values.append(way.out)
+            if waiting is not None and left + STOPS_S < begins:
+                times.append(np.array([left + STOPS_S, begins]))
+                first = following.up[:1] if len(following.up) else following.values[:1]
+                values.append(np.repeat(waiting(first), 2, axis=0))
+            times.append(following.up_s)
+            values.append(following.up)
     return np.concatenate(times), np.vstack(values)

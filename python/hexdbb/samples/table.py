@@ -11,7 +11,7 @@ again for them. For the engine the table takes the form of `block`: mounts are t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +25,7 @@ from hexdbb.machine import MachineFile
 from hexdbb.model import Model, MountKey, OwnEffect, Tabulated, is_shaped
 from hexdbb.plan import CircleRun
 from hexdbb.record import Record, rows_of_sweeps
+from hexdbb.samples.memory import lingering
 from hexdbb.samples.unmeasured import unmeasured_columns
 from hexdbb.samples.whole import Columns, Whole, of_records, of_runs
 
@@ -246,6 +247,27 @@ class Samples:
     def pushes_of(self, effect: OwnEffect, values: Floats) -> Floats:
         """Return what an effect that is not the engine's pushes at its values, (n, 55, size), mm per unit of one."""
         return self.tabulated(effect, values).pushes(self.row_numbers)
+
+    def lingering(self, of: Callable[[Samples], Floats], constant_s: float, standing: Floats | None = None) -> Floats:
+        """Return what functions of the samples do if it lingers: a first-order lag of them, with what came between.
+
+        Parameters
+        ----------
+        of : callable
+            Of all samples of the table: functions of them, shape (m,) or (m, k).
+        constant_s : float
+            Time constant.
+        standing : ndarray, shape (k,), optional
+            Those functions while the machine waits between two sweeps; as where the next run-up begins if not given.
+
+        Returns
+        -------
+        ndarray, shape (n,) or (n, k)
+            In these samples, wherever in the table they are.
+        """
+        whole = Samples(self._whole)
+        found = lingering(of(whole), constant_s, standing, whole["time_s"], whole["sweep"], whole["angle_rad"])
+        return found if self._rows is None else found[self._rows]
 
     def columns(self) -> Columns:
         """Return every column with shape (n,): ``velocity_mm_s_1`` of slider 1, ``position_mm_x``."""

@@ -16,8 +16,9 @@ from hexdbb.samples import Samples
 from hexdbb_truth.cases import case
 from hexdbb_truth.plans import PACE
 
-NAMES = ("learned:vertical:2:position", "learned:leg:all:leg_force", "learned:ball:time")
-"""One of two sliders that share a guideway, one of six legs alike, one with a function for each axis."""
+NAMES = ("learned:vertical:2:position", "learned:leg:all:leg_force", "learned:ball:time", "learned:load:angle")
+"""One of two sliders that share a guideway, one of six legs alike, one with a function for each axis, one that legs
+share by their forces."""
 
 
 @pytest.fixture(scope="module")

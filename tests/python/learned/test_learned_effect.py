@@ -245,6 +245,8 @@ def made(planned: Samples, name: str, function: Callable[[np.ndarray], np.ndarra
         ("learned:vertical:2:time_position_settling@150", lambda x: 1e-4 * (x - x.mean()), set()),
         ("learned:platform_joint:5-6:course", lambda x: 0.01 + 0.0 * x, set()),
         ("learned:platform_joint:1:course_speed", lambda x: 0.01 + 1e-4 * x, set()),
+        ("learned:slider:3:velocity_lingering@30", lambda x: 1e-5 * x**2, {"period", "phase"}),
+        ("learned:reading:angle_lingering@4.5", lambda x: 0.01 * np.sin(x + 0.3), {"period", "phase"}),
     ],
 )
 def test_a_draft_pushes_what_was_learned(
@@ -265,6 +267,30 @@ def test_a_draft_pushes_what_was_learned(
     ours = own.pushes(np.arange(len(planned)))[:, :, 0] * height_mm
     assert np.abs(theirs).max() > 1e-3
     assert np.abs(ours - theirs).max() < 2.0 * float(np.median(curve.sigma_mm))
+
+
+def test_drafts_of_a_load_share_it_among_the_legs(tmp_path: Path, planned: Samples) -> None:
+    name = "learned:load:position_along@40"
+    effect = LearnedEffect(Space.of(Learned.parse(name), planned, LEAD_MM), 0.1, 0.01)
+    model = new_model(planned.machine, []).knowing_effects([effect]).with_effect(Choice.parse(name))
+    points = effect.space.points()
+    line = np.linalg.lstsq(effect.space.functions(points) @ effect.factor, 1e-4 * points, rcond=None)[0]
+    model = model.with_values(np.kron([1.0, -2.0, 3.0, 0.5, 1.5, -1.0], line))
+    path = tmp_path / "draft.py"
+    path.write_text(draft(model, name))
+    drafted, rows = load_effects(path), np.arange(len(planned))
+    assert [each.name.rpartition("40_")[2] for each in drafted] == [
+        f"{how}_{axis}" for how in ("pull", "turn") for axis in "xyz"
+    ]
+    lines = (line for line in path.read_text().splitlines() if "As learned" in line)
+    heights_mm = [float(line.split()[5]) for line in lines]
+    ours = sum(
+        each.tabulated(planned).pushes(rows)[:, :, 0] * height_mm
+        for each, height_mm in zip(drafted, heights_mm, strict=True)
+    )
+    theirs = effect.tabulated(planned).pushes(rows) @ model.values
+    assert np.abs(theirs).max() > 1e-3
+    assert ours == pytest.approx(theirs, abs=1e-3 * float(np.abs(theirs).max()))
 
 
 def test_tables_for_a_compensation_are_the_function(planned: Samples) -> None:

@@ -7,10 +7,11 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from hexdbb.plan import load_plan
 from hexdbb.record import Record
 from hexdbb.samples import Samples
 from hexdbb.samples.deflection import LEAST_TURN_MM
-from hexdbb.samples.memory import remembered_column
+from hexdbb.samples.memory import lingering, remembered_column
 from hexdbb.samples.since_turn import direction_and_travel
 
 ONE_SWEEP, NOT_TURNED = np.zeros(400, np.int32), np.zeros(400)
@@ -152,3 +153,36 @@ def test_half_a_circle_of_run_up_tells_how_a_contact_is_strained_where_a_sweep_b
     found = remembered_column(how, 0.5, column, np.arange(400.0), ONE_SWEEP, angle_rad)
     # A lap later it has forgotten where it began: half a circle from 1 to -1 strains it by four times its most.
     assert (found[0] == pytest.approx(found[200], abs=1e-3)) == knows
+
+
+def test_what_lingers_dies_away_while_the_machine_waits() -> None:
+    """A nut is heated by the square of its velocity: it cools where the machine stands between two sweeps."""
+    time_s = np.concatenate([np.linspace(0.0, 50.0, 200), np.linspace(80.0, 130.0, 200)])
+    sweep = np.repeat(np.array([0, 1], np.int32), 200)
+    heat = np.full(400, 4.0)
+    found = lingering(heat, 20.0, np.zeros(1), time_s, sweep, NOT_TURNED)
+    assert found[:200] == pytest.approx(4.0)
+    assert found[200] == pytest.approx(4.0 * np.exp(-30.0 / 20.0), rel=1e-3)
+    assert found[-1] == pytest.approx(4.0 - (4.0 - found[200]) * np.exp(-50.0 / 20.0), rel=1e-6)
+
+
+def test_where_nothing_is_said_of_waiting_it_waits_where_the_next_sweep_begins() -> None:
+    time_s = np.concatenate([np.linspace(0.0, 10.0, 200), np.linspace(17.0, 30.0, 200)])
+    sweep = np.repeat(np.array([0, 1], np.int32), 200)
+    columns = np.column_stack([np.where(sweep == 0, 1.0, 2.0), np.where(sweep == 0, 5.0, 3.0)])
+    found = lingering(columns, 5.0, None, time_s, sweep, NOT_TURNED)
+    left = np.exp(-7.0 / 5.0)
+    assert found[199] == pytest.approx([1.0, 5.0])
+    assert found[200] == pytest.approx([2.0 - left, 3.0 + 2.0 * left], rel=1e-3)
+
+
+def test_a_part_of_a_table_has_what_lingers_in_the_whole() -> None:
+    plan = load_plan("standard")
+    planned = Samples.planned(plan.machine_file(), plan.runs()[:3], np.linspace(0.0, 6.0, 60), 100.0)
+
+    def function(samples: Samples) -> np.ndarray:
+        return np.cos(samples["angle_rad"])
+
+    whole = planned.lingering(function, 4.0)
+    rows = np.arange(5, len(planned), 7)
+    assert planned.part(rows).lingering(function, 4.0) == pytest.approx(whole[rows], abs=0.0)
