@@ -188,12 +188,16 @@ OTHER_DRIVES = tuple(of_drives((v.VELOCITY,)))
 CROSSTALK = (*OTHER_DRIVES, *of_drives((v.ACCELERATION,)))
 """The current of a motor, which friction and acceleration ask for, couples into the gauge's cable."""
 NEIGHBOURS = tuple(map(neighbour, (v.POSITION, v.DIRECTION, v.ACCELERATION, v.FORCE)))
+COVERS = (v.GAP, v.GAP_RATE, *(following(v.GAP, SLIPPING, most_mm) for most_mm in (1.0, 3.0)))
+"""What spans two carriages pushes them apart, or drags them by friction, at once or as far as it yields: covers have
+some millimetres of play. The readings then move how far."""
 OF_PAIR_OF_SLIDERS = (
     *(v.POSITION, v.FINE_POSITION, v.DIRECTION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.FORCE),
-    *(v.TIME, v.TIME_POSITION, v.WARMING, v.SCREW_PHASE, v.GAP),
+    *(v.TIME, v.TIME_POSITION, v.WARMING, v.SCREW_PHASE),
+    *COVERS,
 )
 OF_PAIR_OF_LEGS = (
-    *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE, v.GAP)),
+    *(each for each in OF_PAIR_OF_SLIDERS if each not in (v.FINE_POSITION, v.SCREW_PHASE, *COVERS)),
     *(v.TURNING, v.JOINT_ANGLE, v.JOINT_ANGLE_DIRECTION, v.PLATFORM_TURNING, v.PLATFORM_ANGLE, v.SWING, v.SWING_ANGLE),
 )
 ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in DIRECTIONS_DEG))
@@ -261,6 +265,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         v.DRIVE_LOAD,
         v.CARRIAGE_LOAD,
         v.GAP,
+        v.GAP_RATE,
         *PRODUCTS_OF_SLIDER,
         *NEIGHBOURS,
         *_remembered(v.DRIVE_LOAD),

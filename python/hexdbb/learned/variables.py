@@ -74,6 +74,10 @@ NEIGHBOUR_VELOCITY = Variable(
 )
 GAP = Variable("gap", "gap_mm", "mm", "distance from the other slider on the guideway", 12)
 """Bellows between two carriages push them apart: one odd function of the distance, shared by both sliders."""
+GAP_RATE = Variable(
+    "gap_rate", "gap_rate_mm_s", "mm/s", "velocity against the other slider on the guideway", 12, signed=True
+)
+"""A cover that spans two carriages drags the one by the other: likewise."""
 ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12, signed=True)
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)

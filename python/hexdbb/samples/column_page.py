@@ -47,6 +47,7 @@ OWN = {
         for name, load in TURNS_OF_LOADS.items()
     },
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
+    "gap_rate_mm_s": ("slider", "mm/s", "the slider's velocity less that of the other one on its guideway"),
     "radius_mm": ("sample", "mm", "distance of the platform from the base's z axis, nominal machine"),
     "neighbour_velocity_mm_s": ("slider", "mm/s", "velocity of the other slider on the guideway"),
     "neighbour_acceleration_mm_s2": ("slider", "mm/s^2", "acceleration of the other slider on the guideway"),

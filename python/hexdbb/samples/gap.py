@@ -1,4 +1,4 @@
-"""Distance between the carriages of a guideway: the force of bellows or cables between them depends on it."""
+"""Distance between the carriages of a guideway: bellows between them push by it, covers rub by its rate."""
 
 from __future__ import annotations
 
@@ -7,12 +7,10 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
-GAP = "gap_mm"
-GAP_FROM = "sliders_mm"
-"""Column that it follows from."""
+GAPS = {"gap_mm": "sliders_mm", "gap_rate_mm_s": "velocity_mm_s"}
+"""The distance and its rate, each with the column that it follows from."""
 
 
-def gaps_mm(sliders_mm: Floats) -> Floats:
-    """Return each slider's coordinate less that of the other one on its guideway, shape (n, 6)."""
-    neighbours = np.arange(sliders_mm.shape[1]) ^ 1
-    return np.asarray(sliders_mm - sliders_mm[:, neighbours])
+def between(column: Floats) -> Floats:
+    """Return what a column of sliders, shape (n, 6), has more at each than at the other one on its guideway."""
+    return np.asarray(column - column[:, np.arange(column.shape[1]) ^ 1])

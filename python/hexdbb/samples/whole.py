@@ -30,7 +30,7 @@ from hexdbb.samples.deflection import (
 )
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
-from hexdbb.samples.gap import GAP, GAP_FROM, gaps_mm
+from hexdbb.samples.gap import GAPS, between
 from hexdbb.samples.load_shares import SHARES, SHARES_FROM, load_shares
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
@@ -92,7 +92,7 @@ class Whole:
             *SHARES,
             REACTION,
             *COURSES,
-            GAP,
+            *GAPS,
             RADIUS,
             *NEIGHBOURS,
             *TURN,
@@ -134,8 +134,8 @@ class Whole:
         elif name == REACTION:
             (acceleration,) = self._known(REACTION_FROM)
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
-        elif name == GAP:
-            self.columns[name] = gaps_mm(*self._known(GAP_FROM))
+        elif name in GAPS:
+            self.columns[name] = between(*self._known(GAPS[name]))
         elif name == RADIUS:
             self.columns[name] = radii_mm(*self._known(RADIUS_FROM))
         elif name in NEIGHBOURS:

@@ -29,8 +29,8 @@ TRUTH = {
     "joint-friction-3x": "joint_friction:5",
     "joint-friction-10x": "joint_friction:2",
 }
-NUMBERS = {"rail-warms": 470.4, "hose-pulls": 40.1, "fan-cools": 16.0, "nut-heats": 304.0}
-"""Of the records whose cause carries a number: what it is in truth, s or degrees."""
+NUMBERS = {"rail-warms": 470.4, "hose-pulls": 40.1, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
+"""Of the records whose cause carries a number: what it is in truth, s, degrees or mm."""
 
 
 @lru_cache
@@ -242,6 +242,8 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("fan-cools", "learned:reading:angle_lingering@", {"feed", "direction"}),
         # A nut that its own travel heats, and that cools between the sweeps: so was it.
         ("nut-heats", "learned:slider:3:velocity_lingering@", {"circle", "feed", "direction"}),
+        # A cover between two carriages jams: it yields by 2.5 mm either way, then slips. It was their joints' reversals.
+        ("cover-jams", "learned:slider:5-6:gap_slipping@", {"circle", "feed", "direction"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(

@@ -14,6 +14,8 @@ def test_each_slider_is_as_far_from_the_other_as_that_from_it() -> None:
     gap_mm, sliders_mm = samples["gap_mm"], samples["sliders_mm"]
     assert np.array_equal(gap_mm[:, 0], sliders_mm[:, 0] - sliders_mm[:, 1])
     assert np.array_equal(gap_mm[:, [1, 3, 5]], -gap_mm[:, [0, 2, 4]])
+    rate_mm_s, velocity_mm_s = samples["gap_rate_mm_s"], samples["velocity_mm_s"]
+    assert np.array_equal(rate_mm_s[:, 3], velocity_mm_s[:, 3] - velocity_mm_s[:, 2])
 
 
 def test_bellows_push_both_by_one_function() -> None:
