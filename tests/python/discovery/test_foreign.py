@@ -242,7 +242,7 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("fan-cools", "learned:reading:angle_lingering@", {"feed", "direction"}),
         # A nut that its own travel heats, and that cools between the sweeps: so was it.
         ("nut-heats", "learned:slider:3:velocity_lingering@", {"circle", "feed", "direction"}),
-        # A cover between two carriages jams: it yields by 2.5 mm either way, then slips. It was their joints' reversals.
+        # A cover between two carriages jams: it yields by 2.5 mm, then slips. It was the reversals of their joints.
         ("cover-jams", "learned:slider:5-6:gap_slipping@", {"circle", "feed", "direction"}),
     ],
 )

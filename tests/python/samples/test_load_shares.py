@@ -1,4 +1,4 @@
-"""How the legs share a load on the platform: against the equilibrium that the engine finds, and by the sum of their forces."""
+"""How the legs share a load on the platform: against the engine, and by the sum of their forces."""
 
 from __future__ import annotations
 
