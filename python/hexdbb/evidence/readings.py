@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hexdbb.errors import InputError
-from hexdbb.learned import Columns, Learned, Space, Variable, Weight
+from hexdbb.learned import Columns, Learned, Ranges, Space, Variable, Weight
 from hexdbb.machine import MachineFile
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.threads.copies import in_copies
@@ -55,6 +55,7 @@ class State:
     def __init__(self, columns: Columns, machine: MachineFile, unmeasured: frozenset[str] = frozenset()) -> None:
         self._columns, self.machine, self.unmeasured = columns, machine, unmeasured
         self._known: dict[str, Floats] = {}
+        self._ranges = Ranges(self)
         self._spaces: dict[Learned, Space] = {}
         self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
         self._designs: dict[tuple[Variable, int, *tuple[float, ...]], NDArray[np.float32]] = {}
@@ -75,7 +76,7 @@ class State:
     def rows(self, rows: Ints) -> State:
         """Return some rows, whose functions are those of the whole."""
         part = State(_Rows(self, rows), self.machine, self.unmeasured)
-        part._spaces, part._alike = self._spaces, self._alike
+        part._spaces, part._alike, part._ranges = self._spaces, self._alike, self._ranges
         return part
 
     def space(self, hypothesis: Learned) -> Space:
@@ -87,7 +88,7 @@ class State:
             pushes = hypothesis.pushes(0, self.machine)
             alike = hypothesis.variable, tuple(element for element, _ in pushes)
             if alike not in self._alike:
-                self._alike[alike] = Space.of(hypothesis, self, self.machine.sliders.screw_lead_mm)
+                self._alike[alike] = Space.within(hypothesis, self._ranges, self.machine.sliders.screw_lead_mm)
             self._spaces[hypothesis] = replace(self._alike[alike], hypothesis=hypothesis)
         return self._spaces[hypothesis]
 

@@ -24,7 +24,8 @@ from hexdbb.learned.numbered import (
     two_states,
 )
 from hexdbb.learned.places import ALL
-from hexdbb.learned.space import Columns, Space, Weight
+from hexdbb.learned.ranges import Columns, Ranges
+from hexdbb.learned.space import Space, Weight
 from hexdbb.learned.tables import Curve, Table
 from hexdbb.learned.variable import Variable
 from hexdbb.learned.words import Form, describe
@@ -37,6 +38,7 @@ __all__ = [
     "Directed",
     "Form",
     "Learned",
+    "Ranges",
     "Space",
     "Table",
     "Variable",

@@ -251,12 +251,18 @@ def _of_loads(count: int, *variables: Variable) -> tuple[Variable, ...]:
 
 LOADS = (
     v.CONSTANT,
-    *_of_loads(8, *LEANING),
+    *_of_loads(8, *LEANING[1::2]),
     *_of_loads(4, v.TURNED, v.TIME),
     *_of_loads(6, v.ANGLE),
-    *_of_loads(1, *(along("velocity", each) for each in DIRECTIONS_DEG)),
+    *_of_loads(1, *(along("velocity", each) for each in DIRECTIONS_DEG[1::2])),
 )
-"""What a hose or a cable pulls by, a gas spring rubs by, and what is hung on the platform."""
+"""What a hose or a cable pulls by, what rubs, what is hung on the platform; each function six times.
+
+Eight splines follow a hose that goes taut, with six of them one was taken for a function of the angle; over turns and
+time four follow what grows steadily, over the angle six two waves; what rubs has its sign and is in proportion to the
+velocity. Directions are tried every 30° only, since each has some fifty coefficients: a load along the nearest explains
+93 % at least.
+"""
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 

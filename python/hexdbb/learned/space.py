@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,19 +13,14 @@ from hexdbb.errors import InputError
 from hexdbb.learned import splines
 from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S, at_once, rate_of, transition_rate
+from hexdbb.learned.ranges import NEVER, SHORTEST, Columns, Ranges, values_of
 from hexdbb.learned.tables import Table
-from hexdbb.learned.variable import AXES_OF_VECTOR, BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
+from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
 
 Floats = NDArray[np.float64]
 Weight = float | Floats
 """Of a push at a port column: the same in all samples, or one for each, shape (n,)."""
 
-NEVER = 1e5
-"""Times and distances since a reversal beyond this stand for a reversal that never was (the engine's 1e6)."""
-SHORTEST = 1e-3
-"""Shortest time (s) or distance (mm) since a reversal that a logarithm is taken of: below the samples' spacing."""
-FIRST_PART = 0.005
-"""Part of the samples below a logarithm's range: the first few after a reversal would take half of its splines."""
 SIGN_PART = 0.05
 """A step with the sign of a column is smeared over this part of the column's RMS, within which noise sets the sign."""
 WARP_PART = 0.1
@@ -40,24 +34,8 @@ SIGN_POINTS = (-3.0, -2.5, -2.0, -1.5, -1.25, -1.0, -0.75, -0.5, -0.25, 0.0)
 """Further points about a step, in its widths, on either side: lines between them miss tanh by 2 % at most."""
 SAMPLES_PER_SPLINE = 5
 """Fewest different samples per spline: fewer leave some splines to the prior alone."""
-COUNTED = 4096
-"""Samples of which different values are counted, evenly chosen: several times what any variable asks for."""
 SMALLEST_RANGE = 1e-9
 """Relative range below which a variable is constant but for rounding."""
-
-
-class Columns(Protocol):
-    """Samples, of which this package knows the columns alone (`hexdbb.samples.Samples`)."""
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """Return a column, shape (n,), (n, 3) or (n, 6)."""
-        ...
-
-    def lingering(self, of: Callable[[Columns], Floats], constant_s: float, standing: Floats | None = None) -> Floats:
-        """Return what functions of all samples of the table, shape (m, k), do with a first-order lag, of these rows."""
-        ...
-
-    def __len__(self) -> int: ...
 
 
 @dataclass(frozen=True)
@@ -97,37 +75,33 @@ class Space:
         InputError
             Where the variable is not measured or hardly varies.
         """
+        return cls.within(hypothesis, Ranges(samples), screw_lead_mm)
+
+    @classmethod
+    def within(cls, hypothesis: Learned, ranges: Ranges, screw_lead_mm: float) -> Space:
+        """Set the limits from what samples span; `InputError` likewise."""
         variable, name = hypothesis.variable, hypothesis.name
-        elements = hypothesis.elements
         period = screw_lead_mm if variable.period == SCREW_LEAD else variable.period
         low, high, sign_width, warp_width = 0.0, period or 1.0, 0.0, 0.0
         if variable.column:
-            values = np.concatenate([_of(samples, variable, each) for each in elements])
-            usual = np.abs(values) < NEVER  # which nan is not
-            known = values if usual.all() else values[usual]
-            lowest, highest = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
-            least = max(variable.least, SMALLEST_RANGE * max(-lowest, highest, 1.0))
-            if len(known) and highest - lowest <= least:
+            seen = ranges.of(variable, hypothesis.elements)
+            least = max(variable.least, SMALLEST_RANGE * max(-seen.lowest, seen.highest, 1.0))
+            if seen.is_known and seen.highest - seen.lowest <= least:
                 raise InputError(f"{name}: {variable.column} hardly varies in these samples (expected it to vary)")
-            some = known[:: max(1, len(known) // COUNTED)]
-            different = min(len(np.unique(some)), len(known) // len(elements))
-            if different < SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count:
-                raise InputError(f"{name}: {variable.column} has {different} different values (expected more)")
+            enough = SAMPLES_PER_SPLINE * (variable.count if variable.count > 1 else 0) + 2 * variable.count
+            if seen.different < enough:
+                raise InputError(f"{name}: {variable.column} has {seen.different} different values (expected more)")
             if variable.signed:
-                rms = float(np.sqrt(np.mean(known**2)))
-                sign_width = variable.turns_within or SIGN_PART * rms
+                sign_width = variable.turns_within or SIGN_PART * seen.rms
                 warp_width = 0.0 if variable.is_even else sign_width * WARP_PART / SIGN_PART
-            if not period:
-                argument = np.log(np.maximum(known, SHORTEST)) if variable.is_log else _warped(known, warp_width)
-                low, high = float(argument.min()), float(argument.max())
-                if variable.is_log:
-                    low = float(np.quantile(argument, FIRST_PART))
-        if variable.times and not is_growing(variable.times) and not np.any(np.nan_to_num(samples[variable.times])):
+            if variable.is_log and not period:
+                low, high = seen.log_low, seen.log_high
+            elif not period:
+                low, high = (float(_warped(np.array(each), warp_width)) for each in (seen.lowest, seen.highest))
+        if variable.times and not is_growing(variable.times) and not ranges.acts(variable.times):
             raise InputError(f"{name}: {variable.times} is zero or unknown in all samples (expected it to vary)")
-        time_s = samples["time_s"]
-        first, last = float(np.min(time_s)), float(np.max(time_s))
-        span_s = max(last - first, SMALLEST_RANGE)
-        return cls(hypothesis, low, high, period, sign_width, first, span_s, warp_width)
+        first, last = ranges.time_s
+        return cls(hypothesis, low, high, period, sign_width, first, max(last - first, SMALLEST_RANGE), warp_width)
 
     @property
     def size(self) -> int:
@@ -179,13 +153,13 @@ class Space:
         variable = self.hypothesis.variable
         if variable.lingers_s:
             standing = self.functions(np.zeros(1))[0] if variable.is_zero_at_rest else None
-            of = lambda every: self.functions(_of(every, variable, element))  # noqa: E731
+            of = lambda every: self.functions(values_of(every, variable, element))  # noqa: E731
             return samples.lingering(of, variable.lingers_s, standing)
-        return self.functions(_of(samples, variable, element))
+        return self.functions(values_of(samples, variable, element))
 
     def argument(self, samples: Columns, element: int) -> Floats:
         """Return what the splines are functions of, in every sample for the variable of one element, shape (n,)."""
-        return self._argument(_of(samples, self.hypothesis.variable, element))
+        return self._argument(values_of(samples, self.hypothesis.variable, element))
 
     def _argument(self, at: Floats) -> Floats:
         is_log = self.hypothesis.variable.is_log
@@ -241,7 +215,7 @@ class Space:
         points, variable = self.points(), self.hypothesis.variable
         if len(points) < 2:
             return np.full(1, float(len(samples)))
-        values = np.concatenate([_of(samples, variable, element) for element in self.hypothesis.elements])
+        values = np.concatenate([values_of(samples, variable, element) for element in self.hypothesis.elements])
         values = values[np.isfinite(values) & (np.abs(values) < NEVER)]
         if self.period:
             values = np.mod(values, self.period)
@@ -286,15 +260,6 @@ def _grown(times: str, elapsed_s: Floats, span_s: float) -> Floats:
         return 4.0 * part * (1.0 - part)
     constant_s = float(times.partition("@")[2])
     found: Floats = np.expm1(-elapsed_s / constant_s) / np.expm1(-span_s / constant_s)
-    return found
-
-
-def _of(samples: Columns, variable: Variable, element: int) -> Floats:
-    """Return a variable's column: that of one element where it has six, one axis of three."""
-    values = np.asarray(samples[variable.state], np.float64)
-    if values.ndim == 1:
-        return values
-    found: Floats = values[:, variable.axis if values.shape[1] == AXES_OF_VECTOR else element]
     return found
 
 
