@@ -19,7 +19,7 @@ from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Vari
 
 Floats = NDArray[np.float64]
 Weight = float | Floats
-"""Of a push at a port column: the same in all samples, or one for each, shape (n,)."""
+"""By what a push at a port column is multiplied: one number for all samples, or one for each, shape (n,)."""
 
 SIGN_PART = 0.05
 """A step with the sign of a column is smeared over this part of the column's RMS, within which noise sets the sign."""
@@ -151,11 +151,14 @@ class Space:
     def _acting(self, samples: Columns, element: int) -> Floats:
         """Return the splines in every sample, or what lingers of them; shape (n, its own)."""
         variable = self.hypothesis.variable
-        if variable.lingers_s:
-            standing = self.functions(np.zeros(1))[0] if variable.is_zero_at_rest else None
-            of = lambda every: self.functions(values_of(every, variable, element))  # noqa: E731
-            return samples.lingering(of, variable.lingers_s, standing)
-        return self.functions(values_of(samples, variable, element))
+
+        def acting(some: Columns) -> Floats:
+            return self.functions(values_of(some, variable, element))
+
+        if not variable.lingers_s:
+            return acting(samples)
+        standing = self.functions(np.zeros(1))[0] if variable.is_zero_at_rest else None
+        return samples.lingering(acting, variable.lingers_s, standing)
 
     def argument(self, samples: Columns, element: int) -> Floats:
         """Return what the splines are functions of, in every sample for the variable of one element, shape (n,)."""

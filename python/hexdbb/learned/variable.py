@@ -29,6 +29,7 @@ LINGERING = "lingering"
 """The same where functions of the state linger, not the state: what they do builds up and dies away."""
 
 ZERO_AT_REST = frozenset({"velocity_mm_s"})
+"""Columns that are zero while the machine waits between two sweeps."""
 
 
 def is_growing(times: str) -> bool:

@@ -30,7 +30,7 @@ TRUTH = {
     "joint-friction-10x": "joint_friction:2",
 }
 NUMBERS = {"rail-warms": 470.4, "hose-pulls": 40.1, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
-"""Of the records whose cause carries a number: what it is in truth, s, degrees or mm."""
+"""True value of the number in the name of the cause, by record: s, degrees or mm."""
 
 
 @lru_cache
