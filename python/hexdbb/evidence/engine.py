@@ -94,7 +94,7 @@ class Engine:
             ARC: arcs_of(codes_of(part["sweep"])),
         }
         ports = _core.port_sensitivity(*self.plain(self.base)) / self.row_noise_mm[:, None]
-        return Readings(self._state, groups, self.row_noise_mm, ports)
+        return Readings(self._state, groups, self.row_noise_mm, np.asfortranarray(ports))  # taken column by column
 
     @cached_property
     def _state(self) -> State:

@@ -19,7 +19,7 @@ from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import ALL, Learned, periodic, step
 from hexdbb.machine import MachineFile
-from hexdbb.predictors.periods import strongest_frequency
+from hexdbb.predictors.periods import COARSE, FINE, Grid, strongest_frequency
 
 Floats = NDArray[np.float64]
 
@@ -28,6 +28,11 @@ SCALE_NOISES = 8.0
 SCREW_TURNS = 0.02
 """Turns by which a lead may differ from whole periods and still repeat with the screw: a period is seen to a twentieth
 of a turn over all readings, which span three turns of the screw and more."""
+FASTEST_HZ = 125.0
+"""Highest frequency of what is sought between the readings' instants: mains hum at once and twice the mains' frequency
+(100 and 120 Hz); a post that shakes does so at some hertz."""
+SHAKING = (("reading", ALL), ("cup", ALL))
+"""Places that are sought for it: what hums is in the gauge, and the cup stands on the longest post."""
 EVERY = slice(0, None)
 """All rows."""
 
@@ -251,6 +256,26 @@ def periods(
                 yield from _period(place, element, "time", weighted, time_s, highest)
 
 
+def vibrations(linear: Linear, readings: Readings) -> Iterator[Proposal]:
+    """Yield the strongest period in time of what repeats faster than readings are taken.
+
+    Where they are taken at uneven intervals, or each feed at another, they tell it from what it would alias to.
+
+    Parameters
+    ----------
+    linear : Linear
+    readings : Readings
+    """
+    time_s = readings.state["time_s"]
+    gaps = np.diff(np.unique(time_s))
+    if not len(gaps) or "time_s" in readings.state.unmeasured:
+        return
+    for place, element in SHAKING:
+        weighted = linear.residual[:, None] * _answers(readings, place, element)
+        lowest = 0.5 / float(np.median(gaps))
+        yield from _period(place, element, "time", weighted, time_s, FASTEST_HZ, lowest, COARSE)
+
+
 def _is_of_screw(learned: Learned, machine: MachineFile) -> bool:
     """Check whether something repeats with each turn of the screw, or with a part of one: it is no carriage's."""
     turns = machine.sliders.screw_lead_mm / learned.variable.period
@@ -258,9 +283,16 @@ def _is_of_screw(learned: Learned, machine: MachineFile) -> bool:
 
 
 def _period(
-    place: str, element: int, column: str, weighted: Floats, values: Floats, highest: float
+    place: str,
+    element: int,
+    column: str,
+    weighted: Floats,
+    values: Floats,
+    highest: float,
+    lowest: float = 0.0,
+    grid: Grid = FINE,
 ) -> Iterator[Proposal]:
-    frequency = strongest_frequency(weighted, values, highest)
+    frequency = strongest_frequency(weighted, values, highest, lowest, grid)
     if frequency is not None:
         tried = max(float(np.ptp(values)) * highest, 1.0)
         yield Proposal(Learned(place, element, periodic(column, 1.0 / frequency)), -float(np.log(tried)))

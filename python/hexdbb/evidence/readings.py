@@ -26,6 +26,7 @@ from hexdbb.threads.copies import in_copies
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.intp]
+Functions = tuple[Variable, int, *tuple[float, ...]]
 
 GROUPINGS = ("circle", "feed", "direction", "lap")
 """What may be held out as a whole, in the order in which results are reported."""
@@ -58,7 +59,8 @@ class State:
         self._ranges = Ranges(self)
         self._spaces: dict[Learned, Space] = {}
         self._alike: dict[tuple[Variable, tuple[int, ...]], Space] = {}
-        self._designs: dict[tuple[Variable, int, *tuple[float, ...]], NDArray[np.float32]] = {}
+        self._designs: dict[Functions, NDArray[np.float32]] = {}
+        self._squares: dict[Functions, Floats] = {}
 
     def __getitem__(self, name: str) -> Floats:
         """Return a column, shape (n,), (n, 3) or (n, 6)."""
@@ -111,11 +113,24 @@ class State:
 
     def design(self, space: Space, element: int) -> NDArray[np.float32]:
         """Return a space's functions in every row, shape (n, columns), kept: places share their variables."""
-        limits = (space.low, space.high, space.sign_width, space.since_s, space.span_s, space.warp_width)
-        key = (space.hypothesis.variable, element, *limits)
+        key = _functions(space, element)
         if key not in self._designs:
             self._designs[key] = space.design(self, element).astype(np.float32)
         return self._designs[key]
+
+    def square(self, space: Space, element: int) -> Floats:
+        """Return the mean over rows of B'B of a space's functions B, shape (columns, columns), kept likewise."""
+        key = _functions(space, element)
+        if key not in self._squares:
+            design = self.design(space, element)
+            self._squares[key] = (design.T @ design).astype(np.float64) / len(self)
+        return self._squares[key]
+
+
+def _functions(space: Space, element: int) -> Functions:
+    """Return what tells the functions of one place from those of another."""
+    limits = (space.low, space.high, space.sign_width, space.since_s, space.span_s, space.warp_width)
+    return (space.hypothesis.variable, element, *limits)
 
 
 class _Rows:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hexdbb.evidence.homes import Homes
 from hexdbb.evidence.place import kin_of
-from hexdbb.evidence.proposals import proposals
+from hexdbb.evidence.proposals import proposals, vibrations
 from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Hypothesis, Known, Scored, Screen
 from hexdbb.evidence.shortlist import better_shaped
@@ -83,7 +83,9 @@ def _known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:
 
 
 def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored]:
-    """Screen the further learned hypotheses beside those of a trial: products, memory, neighbours, pairs, two states.
+    """Screen the further learned hypotheses beside those of a trial, and what readings propose besides.
+
+    Products, memory, neighbours and pairs; two states, vibrations.
 
     Parameters
     ----------
@@ -95,10 +97,10 @@ def screened_further(search: Search, base: Trial, screen: Screen) -> list[Scored
     present = {each.hypothesis for each in base.members}
     along = {_directed(each) for each in present} - {None}
     every = [e for e in _absent(base, search.learnable.further.values()) if _directed(e) not in along]
-    proposed = relays(screen.sums.linear, search.engine.readings, search.criteria)
+    linear, readings = screen.sums.linear, search.engine.readings
+    proposed = [*relays(linear, readings, search.criteria), *vibrations(linear, readings)]
     search.learnable.propose(proposed)
-    in_two_states = varying((each.hypothesis for each in proposed), search.engine.readings)
-    found = screen.learned([*every, *in_two_states])
+    found = screen.learned([*every, *varying((each.hypothesis for each in proposed), readings)])
     _add_kin_of_best(search, base, screen, found)
     return found
 

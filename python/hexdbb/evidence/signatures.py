@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import compress
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +35,7 @@ class Signature:
     """
 
     space: Space
-    table: Floats
+    table: NDArray[Any]
     square: Floats
 
     @property
@@ -54,7 +55,9 @@ class Signature:
         return float(np.sqrt(np.sum(parts * (parts @ self.square))))
 
 
-def signature_of(hypothesis: Learned, readings: Readings, like: Space | None = None) -> Signature:
+def signature_of(
+    hypothesis: Learned, readings: Readings, like: Space | None = None, table: NDArray[Any] | None = None
+) -> Signature:
     """Return a hypothesis' signature on some rows.
 
     Parameters
@@ -63,21 +66,30 @@ def signature_of(hypothesis: Learned, readings: Readings, like: Space | None = N
     readings : Readings
     like : Space, optional
         Of the same hypothesis but for its number: whose splines' limits to take.
+    table : ndarray, shape (n, components x columns), optional
+        What W is written into, in its own precision; a new one where not given.
     """
     state = readings.state
     space = state.space(hypothesis) if like is None or like.period else replace(like, hypothesis=hypothesis)
-    parts = []
+    columns = hypothesis.variable.columns
+    table = np.empty((len(readings), hypothesis.components * columns)) if table is None else table
     for component in range(hypothesis.components):
-        total: Floats | None = None
-        for element, pushes in space.pushes(component, state, state.machine):
-            part = readings.answer(pushes)[:, None] * state.design(space, element)
-            total = part if total is None else total + part
-        assert total is not None  # every place has an element
-        parts.append(total)
-    designs = [state.design(space, element) for element in hypothesis.elements]
-    square = sum((np.asarray(each.T @ each, np.float64) for each in designs), np.zeros(2 * designs[0].shape[1:]))
-    table = parts[0] if len(parts) == 1 else np.hstack(parts)
-    return Signature(space, table, square / (len(designs) * len(readings)))
+        _write(table[:, component * columns : (component + 1) * columns], space, component, readings)
+    squares = [state.square(space, element) for element in hypothesis.elements]
+    return Signature(space, table, np.asarray(sum(squares)) / len(squares))
+
+
+def _write(table: NDArray[Any], space: Space, component: int, readings: Readings) -> None:
+    """Write what one component does to the readings."""
+    state, is_first = readings.state, True
+    for element, pushes in space.pushes(component, state, state.machine):
+        answer = readings.answer(pushes).astype(table.dtype)[:, None]
+        if is_first:
+            np.multiply(answer, state.design(space, element), out=table)
+        else:
+            table += answer * state.design(space, element)
+        is_first = False
+    assert not is_first  # every place has an element
 
 
 def varying(every: Iterable[Learned], readings: Readings) -> Iterator[Learned]:

@@ -53,7 +53,7 @@ class Thinned:
             readings.state.rows(self.rows),
             {name: numbers[self.rows] for name, numbers in readings.groups.items()},
             readings.noise_mm[self.rows],
-            readings.ports[self.rows],
+            np.asfortranarray(readings.ports[self.rows]),
         )
         self._kept: dict[Learned, Signature] = {}
         self._priors: dict[Learned, tuple[Floats, Floats]] = {}
@@ -65,8 +65,8 @@ class Thinned:
     def signature(self, hypothesis: Learned) -> Signature:
         """Return a hypothesis' signature on these rows."""
         if hypothesis not in self._kept:
-            found = signature_of(hypothesis, self.readings)
-            self._kept[hypothesis] = replace(found, table=found.table.astype(np.float32))
+            table = np.empty((len(self.rows), _width(hypothesis)), np.float32)
+            self._kept[hypothesis] = signature_of(hypothesis, self.readings, table=table)
         return self._kept[hypothesis]
 
     def log_evidences(self, hypotheses: Sequence[Learned], linear: Linear, sizes_mm: Floats, temper: float) -> Floats:
@@ -90,7 +90,7 @@ class Thinned:
 
     def _of_some(self, hypotheses: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
         """Return the log evidence of hypotheses; `right`: [J L^-T y'] (`Training.without_own`)."""
-        widths = np.array([each.components * each.variable.columns for each in hypotheses], np.intp)
+        widths = np.array([_width(each) for each in hypotheses], np.intp)
         found = np.empty(len(hypotheses))
         for width in np.unique(widths):
             same, many = np.flatnonzero(widths == width), max(1, COLUMNS_AT_ONCE // int(width))
@@ -101,20 +101,29 @@ class Thinned:
 
     def _of_one_width(self, some: Sequence[Learned], right: Floats, sizes_mm: Floats, temper: float) -> Floats:
         """Return the log evidence of hypotheses of as many functions."""
-        width = some[0].components * some[0].variable.columns
+        width = _width(some[0])
         tables = np.empty((len(self.rows), len(some) * width))
-        for place, each in enumerate(some):
-            tables[:, place * width : (place + 1) * width] = self.signature(each).table
         parts = np.split(tables, range(width, tables.shape[1], width), axis=1)
-        factors, squares = (np.stack(each) for each in zip(*map(self._prior, some, parts), strict=True))
+        factors, squares = (np.stack(each) for each in zip(*map(self._written, some, parts), strict=True))
         cross = np.matmul(factors.transpose(0, 2, 1), (tables.T @ right).reshape(len(some), -1, right.shape[1]))
         half = cross[:, :, :-1]
         information = squares - np.matmul(half, half.transpose(0, 2, 1))
         return log_evidences(information, cross[:, :, -1], sizes_mm, temper)
 
-    def _prior(self, hypothesis: Learned, table: Floats) -> tuple[Floats, Floats]:
-        """Return the prior factor T of a hypothesis' functions, and T'W'W T, of its signature W; kept."""
+    def _written(self, hypothesis: Learned, table: Floats) -> tuple[Floats, Floats]:
+        """Write a hypothesis' signature W; return the prior factor T of its functions, and T'W'W T."""
+        if not self._keeps:
+            return self._prior(signature_of(hypothesis, self.readings, table=table), table)
+        kept = self.signature(hypothesis)
+        table[:] = kept.table
         if hypothesis not in self._priors:
-            factor = self.signature(hypothesis).prior_factor(self._roughness)
-            self._priors[hypothesis] = factor, factor.T @ (table.T @ table) @ factor
+            self._priors[hypothesis] = self._prior(kept, table)
         return self._priors[hypothesis]
+
+    def _prior(self, signature: Signature, table: Floats) -> tuple[Floats, Floats]:
+        factor = signature.prior_factor(self._roughness)
+        return factor, factor.T @ (table.T @ table) @ factor
+
+
+def _width(hypothesis: Learned) -> int:
+    return hypothesis.components * hypothesis.variable.columns

@@ -206,7 +206,7 @@ class Learned:
 
     def times_of(self, function: int) -> str:
         """Return the column that multiplies a function; empty where none does."""
-        return "" if self.variable.each_way and function % self.variable.ways == 0 else self.variable.times
+        return self.variable.all_times[function % self.variable.ways]
 
     def axis_name(self, function: int) -> str:
         """Name of the axis along which a function, from 0, pushes; empty where there is one axis only."""
@@ -220,9 +220,10 @@ class Learned:
         return LEVERS[self.place][component] if self.place in LEVERS else ""
 
     def part_name(self, function: int) -> str:
-        """Name of a function, from 0, among its own: axis, and `by_direction`; empty where there is one only."""
-        is_turning = self.variable.each_way and self.times_of(function)
-        return "_".join(filter(None, (self.axis_name(function), "by_direction" if is_turning else "")))
+        """Name of a function, from 0, among its own: axis, and what multiplies it; empty where there is one only."""
+        times = self.times_of(function) if self.variable.beside else ""
+        by = "by_direction" if self.variable.each_way else f"times_{times}"
+        return "_".join(filter(None, (self.axis_name(function), by if times else "")))
 
     @property
     def elements(self) -> tuple[int, ...]:

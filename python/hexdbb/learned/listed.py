@@ -29,7 +29,7 @@ def products() -> Iterator[Learned]:
     """
     for place, variables in further.FURTHER.items():
         for element in single(place):
-            every = (Learned(place, element, each) for each in variables if each.times and not each.each_way)
+            every = (Learned(place, element, each) for each in variables if each.times and not each.beside)
             yield from (each for each in every if not each.is_of_time and not further.is_slow(each.variable))
 
 

@@ -25,6 +25,10 @@ NUMBERED = "@"
 """In the name of a variable: what follows are the numbers."""
 PERIOD_SPLINES = 8
 """Splines of a period that the readings chose: a sine with two harmonics."""
+PERIOD_DIGITS = 7
+"""Significant digits of a period in a name: of a thousand turns in a test, to a thousandth of a turn."""
+SHORT_S, FAST_DIGITS = 0.5, 10
+"""Period below which there are more, and their digits: mains hum has a hundred thousand turns in half an hour."""
 REPEATING = {
     "time": ("time_s", "s", "time"),
     "position": ("sliders_mm", "mm", "position of the slider"),
@@ -90,7 +94,8 @@ def step(instants_s: Sequence[float]) -> Variable:
 
 def periodic(column: str, period: float) -> Variable:
     """Return the variable of what repeats with a period of `time` (s), `position` or `scale` (mm)."""
-    name = f"{period:.7g}"
+    is_fast = column == "time" and period < SHORT_S
+    name = f"{period:.{FAST_DIGITS if is_fast else PERIOD_DIGITS}g}"
     return Variable(f"{column}_period@{name}", *REPEATING[column], PERIOD_SPLINES, period=float(name))
 
 
@@ -249,7 +254,7 @@ def with_number(variable: Variable, number: float, variables: Sequence[Variable]
         Those at its place, of which it may remember one.
     """
     kind = variable.name.partition("@")[0]
-    found = numbered(f"{kind}@{number:.7g}", variables)
+    found = numbered(f"{kind}@{number:.{FAST_DIGITS}g}", variables)
     assert found is not None  # the variable has such a name
     return replace(found, count=variable.count)
 

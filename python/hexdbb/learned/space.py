@@ -15,7 +15,7 @@ from hexdbb.learned.hypothesis import Directed, Learned
 from hexdbb.learned.numbered import INSTANT_S, at_once, rate_of, transition_rate
 from hexdbb.learned.ranges import NEVER, SHORTEST, Columns, Ranges, values_of
 from hexdbb.learned.tables import Table
-from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, Variable, is_growing
+from hexdbb.learned.variable import BENT, ELAPSED, SCREW_LEAD, SPLINES_MIN, is_growing
 
 Floats = NDArray[np.float64]
 Weight = float | Floats
@@ -138,15 +138,19 @@ class Space:
     def design(self, samples: Columns, element: int) -> Floats:
         """Return the functions in every sample for the variable of one element, shape (n, columns)."""
         variable = self.hypothesis.variable
-        if is_growing(variable.times):
-            weight = _grown(variable.times, samples["time_s"] - self.since_s, self.span_s)
-        else:
-            weight = _times(samples, variable, element) if variable.times else np.ones(len(samples))
-        if not variable.column:
-            return weight[:, None].copy()
-        functions = self._acting(samples, element)
-        found: Floats = weight[:, None] * functions
-        return np.hstack([functions, found]) if variable.each_way else found
+        functions = self._acting(samples, element) if variable.column else np.ones((len(samples), 1))
+        parts = [
+            self._weight(samples, times, element)[:, None] * functions if times else functions
+            for times in variable.all_times
+        ]
+        return parts[0] if len(parts) == 1 else np.hstack(parts)
+
+    def _weight(self, samples: Columns, times: str, element: int) -> Floats:
+        """Return by what a function is multiplied in every sample, shape (n,)."""
+        if is_growing(times):
+            return _grown(times, samples["time_s"] - self.since_s, self.span_s)
+        values = np.asarray(samples[times], np.float64)
+        return values if values.ndim == 1 else values[:, element]
 
     def _acting(self, samples: Columns, element: int) -> Floats:
         """Return the splines in every sample, or what lingers of them; shape (n, its own)."""
@@ -264,8 +268,3 @@ def _grown(times: str, elapsed_s: Floats, span_s: float) -> Floats:
     constant_s = float(times.partition("@")[2])
     found: Floats = np.expm1(-elapsed_s / constant_s) / np.expm1(-span_s / constant_s)
     return found
-
-
-def _times(samples: Columns, variable: Variable, element: int) -> Floats:
-    values = np.asarray(samples[variable.times], np.float64)
-    return values if values.ndim == 1 else values[:, element]

@@ -82,9 +82,9 @@ class Variable:
         For a product of two states, the names of their variables; a place need not have them.
     is_vector : bool
         Whether `times` is a vector; one function then pushes along each of its three axes.
-    each_way : bool
-        Whether either direction, of which `times` holds the sign, has a function of its own: one alike both ways, and
-        one times that sign.
+    beside : tuple of str
+        Columns that multiply further functions of the column, one each, before the one that `times` multiplies; an
+        empty name: nothing multiplies that function.
     is_coarse : bool
         Whether it has no more splines, whatever readings ask for: along six axes at once they would describe anything,
         of what lingers only the noise.
@@ -110,7 +110,7 @@ class Variable:
     instants: tuple[float, ...] = ()
     parts: tuple[str, ...] = ()
     is_vector: bool = False
-    each_way: bool = False
+    beside: tuple[str, ...] = ()
     is_coarse: bool = False
 
     def __hash__(self) -> int:
@@ -119,8 +119,21 @@ class Variable:
 
     @property
     def ways(self) -> int:
-        """Number of functions of the column: two where either direction has its own."""
-        return 2 if self.each_way else 1
+        """Number of functions of the column: several where each is multiplied by something else."""
+        return 1 + len(self.beside)
+
+    @property
+    def all_times(self) -> tuple[str, ...]:
+        """What multiplies its functions of the column, one after the other; empty where nothing does."""
+        return (*self.beside, self.times)
+
+    @property
+    def each_way(self) -> bool:
+        """Whether either direction, of which `times` holds the sign, has a function of its own.
+
+        One is alike both ways, and one times that sign.
+        """
+        return len(self.beside) == 1 and not any(self.beside)
 
     @property
     def columns(self) -> int:
@@ -145,7 +158,7 @@ class Variable:
     @property
     def needs(self) -> frozenset[str]:
         """Columns of the samples that its functions follow from."""
-        named = {"time_s" if is_growing(each) else each for each in (self.times, self.column)} - {""}
+        named = {"time_s" if is_growing(each) else each for each in (*self.all_times, self.column)} - {""}
         remembered = {"time_s" for each in named if OF_MEMORY in each}
         return frozenset({each.partition(OF_MEMORY)[0] for each in named} | remembered)
 

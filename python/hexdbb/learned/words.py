@@ -43,6 +43,12 @@ TIMES = {
     "leg_force_direction": ", its sign turning over with the sense in which the leg's force changes",
     "drive_load_direction": ", its sign turning over with the sense in which the force along the guideway changes",
     "carriage_load_direction": ", its sign turning over with the sense in which the force across the guideway changes",
+    "screw_cos": ", times the cosine of the screw's turn",
+    "screw_sin": ", times the sine of the screw's turn",
+    "leg_tilt_in_platform": ", times the leg's tilt in the platform",
+    "leg_tilt_in_platform_squared": ", times the square of the leg's tilt in the platform",
+    "leg_tilt_in_base": ", times the leg's tilt",
+    "leg_tilt_in_base_squared": ", times the square of the leg's tilt",
     "slider_joint_angle_rad": ", for each rad of the joint's angle",
     "neighbour_velocity_mm_s": ", for each mm/s of the other slider's velocity",
     "neighbour_acceleration_mm_s2": ", for each mm/s² of the other slider's acceleration",
@@ -137,7 +143,12 @@ def _words(fit: Fit, curve: Curve) -> str:
         return f"a step of {2.0 * size_um[0]:.3g} µm with the sign of the {curve.variable}"
     if fit.kind == "sine":
         amplitude = float(np.hypot(*size_um))
-        return f"a sine of period {fit.shapes[0] * factor:.4g} {unit} and amplitude {amplitude:.3g} µm"
+        return f"a sine of period {_with(unit, fit.shapes[0] * factor, 4)} and amplitude {amplitude:.3g} µm"
     centre, width = fit.shapes * factor
     name = "bump" if size_um[0] > 0.0 else "dip"
-    return f"a {name} of {abs(size_um[0]):.3g} µm at {centre:.4g} {unit}, {width:.3g} {unit} wide at half height"
+    at, wide = _with(unit, centre, 4), _with(unit, width, 3)
+    return f"a {name} of {abs(size_um[0]):.3g} µm at {at}, {wide} wide at half height"
+
+
+def _with(unit: str, number: float, digits: int) -> str:
+    return f"{number:.{digits}g} {unit}".rstrip()

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from hexdbb import _core
 from hexdbb.record.file_pages import replaced
+from hexdbb.samples.leg_directions import LEG_DIRECTIONS
 from hexdbb.samples.load_shares import SHARES
 from hexdbb.samples.since_turn import TURNS_OF_LOADS
 
@@ -35,6 +36,7 @@ OWN = {
     "drive_load": ("leg", "1", "part of `leg_force` along the guideway"),
     "carriage_load": ("leg", "1", "part of `leg_force` across the guideway"),
     **{name: ("leg", "1", f"axial force of the leg by {load}") for name, load in SHARES.items()},
+    **{name: ("leg", "1", f"{meaning}, nominal machine") for name, meaning in LEG_DIRECTIONS.items()},
     "carriages_acceleration_mm_s2": ("axis", "mm/s^2", "sum of the sliders' accelerations as vectors, base frame"),
     **{
         name: (

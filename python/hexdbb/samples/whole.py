@@ -31,6 +31,7 @@ from hexdbb.samples.deflection import (
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAPS, between
+from hexdbb.samples.leg_directions import LEG_DIRECTIONS, LEG_DIRECTIONS_FROM, leg_directions
 from hexdbb.samples.load_shares import SHARES, SHARES_FROM, load_shares
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
@@ -90,6 +91,7 @@ class Whole:
             *LOADS,
             *TURNS_OF_LOADS,
             *SHARES,
+            *LEG_DIRECTIONS,
             REACTION,
             *COURSES,
             *GAPS,
@@ -126,6 +128,8 @@ class Whole:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
         elif name in SHARES:
             self.columns |= load_shares(self.machine, *self._known(*SHARES_FROM))
+        elif name in LEG_DIRECTIONS:
+            self.columns |= leg_directions(self.machine, *self._known(*LEG_DIRECTIONS_FROM))
         elif name in TURNS_OF_LOADS:
             load = TURNS_OF_LOADS[name]
             self.columns |= turns_of_load(load, *self._known(load, "time_s", "sweep", "angle_rad"))

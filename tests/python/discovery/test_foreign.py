@@ -30,6 +30,7 @@ TRUTH = {
     "joint-friction-10x": "joint_friction:2",
 }
 NUMBERS = {"rail-warms": 470.4, "hose-pulls": 40.1, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
+NUMBERS |= {"mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s, degrees or mm."""
 
 
@@ -244,6 +245,12 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("nut-heats", "learned:slider:3:velocity_lingering@", {"circle", "feed", "direction"}),
         # A cover between two carriages jams: it yields by 2.5 mm, then slips. It was the reversals of their joints.
         ("cover-jams", "learned:slider:5-6:gap_slipping@", {"circle", "feed", "direction"}),
+        # Mains hum, seven times and thirty times as fast as readings are taken: a period of the gauge's scale stood in.
+        ("mains-hums", "learned:reading:time_period@", {"circle", "feed", "direction", "lap"}),
+        # Lobes of a ball in two angles, of which no function of one says half: two bows and a joint stood in.
+        ("lobes-both-ways", "learned:leg:3:leg_in_platform", {"feed", "direction", "lap"}),
+        # A bent screw that drags its carriage round, most in mid-travel: a pitch error, and one of nearly its period.
+        ("screw-bent", "learned:slider_joint:6:screw_wave_position", {"circle", "feed", "direction", "lap"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
@@ -293,6 +300,27 @@ def test_one_leg_that_gives_is_no_sag_of_all() -> None:
     (only,) = found.causes
     assert only.choice == "learned:leg:3:leg_force"
     assert not any("gravity_sag" in each for each in only.rivals)
+
+
+def test_one_drive_that_lags_is_no_lag_of_all() -> None:
+    """By the speed of all; five others that lag alike, as geometry imitates, fit better and predict worse."""
+    found = found_in("bus-droops")
+    assert (found.verdict, [each.choice for each in found.causes]) == ("effect", ["servo_lag:2"])
+    assert not any("servo_lag" in each for each in found.causes[0].rivals)
+
+
+@pytest.mark.long
+def test_what_shakes_faster_than_readings_are_taken_is_found_where_it_shakes() -> None:
+    """A compressor in the building sways the cup's post for some minutes at a time, at 4.63 Hz.
+
+    A function of one period says what all of these bursts have in common.
+    """
+    found = found_in("post-shakes")
+    assert found.verdict == "unknown"
+    places = {each.choice.partition("@")[0] for each in found.causes}
+    periods_s = [float(each.choice.partition("@")[2]) for each in found.causes]
+    assert places == {"learned:cup:time_period"}
+    assert periods_s == pytest.approx([NUMBERS["post-shakes"]] * len(periods_s), rel=1e-3)
 
 
 @pytest.mark.long

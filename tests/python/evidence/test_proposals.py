@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from hexdbb.evidence.criteria import DEFAULT
-from hexdbb.evidence.proposals import proposals
-from hexdbb.evidence.readings import Linear, Readings
+from hexdbb.evidence.proposals import proposals, vibrations
+from hexdbb.evidence.readings import Linear, Readings, State
 from hexdbb.evidence.thinned import Thinned
+from hexdbb.learned import Learned
 
 Port = Callable[[str], np.ndarray]
 
@@ -78,3 +79,22 @@ def test_a_period_in_time_is_found_of_a_leg_that_swings(linear: Linear, readings
     swing = port("leg")[:, 1] * 3e-3 * np.sin(2.0 * np.pi * readings.state["time_s"] / 2.3)
     (found,) = _of(replace(linear, residual=linear.residual + swing), readings, "learned:leg:2:time_period")
     assert found.hypothesis.variable.period == pytest.approx(2.3, rel=0.01)
+
+
+@pytest.mark.parametrize(("place", "period_s"), [("reading", 1.0 / 49.963), ("cup", 1.0 / 4.63)])
+def test_what_shakes_faster_than_readings_are_taken_is_found(
+    linear: Linear, readings: Readings, port: Port, place: str, period_s: float
+) -> None:
+    """At 3 Hz and at 11 Hz, as slow and fast feeds have it: at one rate it cannot be told from what it aliases to."""
+    is_slow = (readings.groups["feed"] == 0) | (readings.groups["circle"] == 0)
+    gap_s = np.where(is_slow, 1.0 / 3.1, 1.0 / 11.3)
+    time_s = np.cumsum(gap_s)
+    other = replace(readings, state=State({"time_s": time_s}, readings.state.machine))
+    wave = 4.0 * np.sin(2.0 * np.pi * time_s / period_s) * port(place)[:, 0] / np.abs(port(place)[:, 0]).max()
+    found = {
+        each.hypothesis.place: each for each in vibrations(replace(linear, residual=linear.residual + wave), other)
+    }
+    turns = np.ptp(time_s) / period_s
+    assert found[place].hypothesis.variable.period == pytest.approx(period_s, rel=0.02 / turns)
+    assert found[place].log_prior < -5.0
+    assert found[place].hypothesis == Learned.parse(found[place].hypothesis.name)

@@ -1,4 +1,4 @@
-"""Functions of their own for either direction: a part alike both ways, and one times the direction's sign."""
+"""Several functions of one state: alike both ways and times the direction's sign, or times what else there is."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ NAMES = [
     "learned:leg:2:joint_angle_each_way",
     "learned:slider_joint:3:position_each_way",
     "learned:reading:bar_angle_each_way",
+    "learned:slider_joint:6:screw_wave_position",
+    "learned:leg:3:leg_in_platform",
 ]
 
 
@@ -46,8 +48,8 @@ def made(planned: Samples, name: str, form: Callable[[np.ndarray], np.ndarray] =
     """Return a model with such a function, one way in each of its components, with a band."""
     space = Space.of(Learned.parse(name).finer(4), planned, LEAD_MM)
     points, effect = space.points(), LearnedEffect(space, 0.1, 0.01)
-    half = space.functions(points).shape[1]
-    one = np.linalg.lstsq(space.functions(points) @ effect.factor[:half, :half], form(points), rcond=None)[0]
+    part = space.functions(points).shape[1]
+    one = np.linalg.lstsq(space.functions(points) @ effect.factor[:part, :part], form(points), rcond=None)[0]
     values = 0.005 * np.tile(one, space.hypothesis.functions)
     band = (3e-4,) * (len(points) * space.hypothesis.functions)
     effect = LearnedEffect(space, 0.1, 0.01, band, tuple(space.counts(planned)))
@@ -84,7 +86,7 @@ def test_either_way_is_as_likely_whatever_the_other(planned: Samples) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_a_file_keeps_both_functions(planned: Samples, name: str, tmp_path: Path) -> None:
+def test_a_file_keeps_all_functions(planned: Samples, name: str, tmp_path: Path) -> None:
     model = made(planned, name)
     save_model(model, tmp_path / "model.toml")
     again = load_model(tmp_path / "model.toml")
@@ -93,7 +95,8 @@ def test_a_file_keeps_both_functions(planned: Samples, name: str, tmp_path: Path
     assert term.learned is not None
     curves = term.learned.curves(term.values)
     assert len(curves) == term.learned.space.hypothesis.functions
-    assert [bool(each.times) for each in curves] == [False, True] * (len(curves) // 2)
+    hypothesis = term.learned.space.hypothesis
+    assert [each.times for each in curves] == [*hypothesis.variable.all_times] * hypothesis.components
     assert [len(each.sigma_mm) for each in curves] == [len(curves[0].at)] * len(curves)
     assert len(learned_figure(again, name).axes) == 2 * len(curves)
 
