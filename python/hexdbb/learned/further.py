@@ -279,19 +279,25 @@ def _of_loads(count: int, *variables: Variable) -> tuple[Variable, ...]:
     return tuple(replace(each, count=count, is_coarse=True) for each in variables)
 
 
+DRAGGED = Variable(
+    "course", "", "", "direction in which the platform moves", times="course_y", beside=("course_x",), is_coarse=True
+)
+"""A cable that drags over a cover pulls against the motion with one force, and turns the platform by where it is tied:
+each pull and couple by both parts of the direction."""
 LOADS = (
     v.CONSTANT,
+    DRAGGED,
     *_of_loads(8, *LEANING[1::2]),
-    *_of_loads(4, v.TURNED, v.TIME),
+    *_of_loads(4, v.TURNED, v.TIME, v.ROLL, v.PITCH, v.YAW),
     *_of_loads(6, v.ANGLE),
     *_of_loads(1, *(along("velocity", each) for each in DIRECTIONS_DEG[1::2])),
 )
 """What a hose or a cable pulls by, what rubs, what is hung on the platform; each function six times.
 
-Eight splines follow a hose that goes taut, with six of them one was taken for a function of the angle; over turns and
-time four follow what grows steadily, over the angle six two waves; what rubs has its sign and is in proportion to the
-velocity. Directions are tried every 30° only, since each has some fifty coefficients: a load along the nearest explains
-93 % at least.
+Eight splines follow a hose that goes taut, with six of them one was taken for a function of the angle; over turns, time
+and orientations four follow what grows steadily, over the angle six two waves; what rubs has its sign and is in
+proportion to the velocity. Directions are tried every 30° only, since each has some fifty coefficients: a load along
+the nearest explains 93 % at least.
 """
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""

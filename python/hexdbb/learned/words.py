@@ -36,6 +36,8 @@ TIMES = {
     "speed_mm_s": ", for each mm/s of the platform's speed",
     "carriages_acceleration_mm_s2": ", for each mm/s² of the carriages' acceleration",
     "course": ", along the direction in which the platform moves",
+    "course_x": ", times the part along x of the direction in which the platform moves",
+    "course_y": ", times the part along y of the direction in which the platform moves",
     "course_in_platform": ", along the direction in which the platform moves",
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",

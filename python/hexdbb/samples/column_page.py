@@ -58,6 +58,7 @@ OWN = {
     "screw_sin": ("slider", "1", "its sine"),
     "course": ("axis", "1", "direction in which the platform moves, a unit vector in the base frame; 0: it stands"),
     "course_in_platform": ("axis", "1", "the same in the platform frame"),
+    **{f"course_{axis}": ("sample", "1", f"part of `course` along {axis}") for axis in "xy"},
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "bar_azimuth_rad": ("sample", "rad", "angle of the bar about the base's z, nominal machine"),
     "bar_elevation_rad": ("sample", "rad", "angle of the bar to the horizontal, nominal machine"),

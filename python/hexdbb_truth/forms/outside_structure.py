@@ -181,6 +181,7 @@ def _cable_drags(draw: Draw) -> Fault:
         return 1e-3 * size * np.linalg.solve(np.swapaxes(wrench, 1, 2), load)[:, :, 0]
 
     same = (
+        Equivalent("load", "yaw", None, "it is a load on the platform, shared among the legs"),
         Equivalent("ball", "yaw", None, "all legs together move the platform as a whole"),
         Equivalent("cup", "yaw", None, "all legs together move the platform as a whole"),
         Equivalent("reading", "yaw", None, "what the ball's motion does to the reading"),

@@ -21,6 +21,7 @@ def test_a_course_is_the_direction_of_motion_and_none_where_the_platform_stands(
     assert found["course"] == pytest.approx(np.array([[0.6, 0.8, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, -1.0]]))
     back = np.einsum("nij,nj->ni", rotation_from_rpy(RPY_RAD), found["course_in_platform"])
     assert back == pytest.approx(found["course"])
+    assert np.column_stack([found["course_x"], found["course_y"]]) == pytest.approx(found["course"][:, :2])
 
 
 def test_carriages_that_all_go_one_way_have_six_times_ones_acceleration() -> None:

@@ -70,6 +70,10 @@ VARIABLES = {
     "position_along": ("position",),
     "velocity_along": ("velocity", "direction"),
     **{f"platform_{each}": ("position",) for each in ("x", "y", "z", "radius")},
+    "leg_in_platform": ("joint_angle",),
+    "leg_in_base": ("joint_angle",),
+    "screw_wave_position": ("position",),
+    "screw_wave_velocity": ("position", "velocity"),
     "course": ("direction",),
     "course_speed": ("direction", "velocity"),
 }
