@@ -33,8 +33,8 @@ NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-ja
 NUMBERS |= {"mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
 DIRECTION_DEG = {"hose-pulls": (40.1, 3.0)}
-"""The same of a direction, and how near: the hose's pull turns with the platform, which no function has, and which moves
-the best direction by two degrees, a fifteenth of what lies between two that are tried."""
+"""The same of a direction, and how near: the hose's pull turns with the platform, which no function has, and which
+moves the best direction by two degrees, a fifteenth of what lies between two that are tried."""
 
 
 @lru_cache
