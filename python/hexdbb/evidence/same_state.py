@@ -50,10 +50,27 @@ def or_at_another_place(search: Search, node: Node) -> Node:
     if not tried:
         return node
     before = finely_tuned(search, node)
-    tuned = [each for each in (finely_tuned(search, one) for one in tried) if _is_there(search, each, before)]
+    tuned = [
+        each
+        for each in (finely_tuned(search, one) for one in tried)
+        if _is_there(search, each, before) or _says_as_much(search, each, before)
+    ]
     best = max(tuned, key=lambda each: each.score, default=node)
     search.nodes += [each for each in tried if not any(each is other for other in search.nodes)]
     return best
+
+
+def _says_as_much(search: Search, node: Node, before: Node) -> bool:
+    """Check that a set along fewer axes has as much evidence as another, and errs no more on anything left out.
+
+    What is freer expects to err more, and so is refused less: where it errs as much, but for the scatter of such a mean
+    square, that is no reason for it.
+    """
+    if node.score < before.score or node.trial.refused or axes_along(node) >= axes_along(before):
+        return False
+    own, others = search.checked(node).heldout, search.checked(before).heldout
+    most = 1.0 + (2.0 * len(search.engine.readings)) ** -0.5
+    return all(grouping in own and own[grouping].after <= most * held.after for grouping, held in others.items())
 
 
 def _is_there(search: Search, node: Node, before: Node) -> bool:

@@ -149,8 +149,8 @@ SCREW_WAVES = tuple(
     )
     for each in (v.POSITION, v.VELOCITY)
 )
-"""A bent screw drags its carriage round, most in mid-travel or at the speed at which it whips: cosine and sine of its
-turn, each times a function."""
+"""A bent screw drags its carriage round or moves it along, most in mid-travel or at the speed at which it whips: cosine
+and sine of its turn, each times a function."""
 LEG_DIRECTIONS = tuple(
     Variable(
         f"leg_in_{where}",
@@ -315,6 +315,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *SINCE_START,
         *OTHER_DRIVES,
         *HEATED,
+        *SCREW_WAVES,
         POSITION_EACH_WAY,
     ),
     "leg": (
