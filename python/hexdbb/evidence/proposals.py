@@ -31,6 +31,9 @@ of a turn over all readings, which span three turns of the screw and more."""
 FASTEST_HZ = 125.0
 """Highest frequency of what is sought between the readings' instants: mains hum at once and twice the mains' frequency
 (100 and 120 Hz); a post that shakes does so at some hertz."""
+EVEN, AS_LONG = 0.9, 0.01
+"""Part of the intervals between readings that are alike, and by what part, above which nothing is told from what it
+would alias to: with two feeds half of them are. Between sweeps, and by a clock that jitters, a tenth may differ."""
 SHAKING = (("reading", ALL), ("cup", ALL))
 """Places that are sought for it: what hums is in the gauge, and the cup stands on the longest post."""
 EVERY = slice(0, None)
@@ -259,7 +262,8 @@ def periods(
 def vibrations(linear: Linear, readings: Readings) -> Iterator[Proposal]:
     """Yield the strongest period in time of what repeats faster than readings are taken.
 
-    Where they are taken at uneven intervals, or each feed at another, they tell it from what it would alias to.
+    Where they are taken at uneven intervals, or each feed at another, they tell it from what it would alias to; else
+    there is none that a longer period would not say as well.
 
     Parameters
     ----------
@@ -270,9 +274,12 @@ def vibrations(linear: Linear, readings: Readings) -> Iterator[Proposal]:
     gaps = np.diff(np.unique(time_s))
     if not len(gaps) or "time_s" in readings.state.unmeasured:
         return
+    usual = float(np.median(gaps))
+    if np.mean(np.abs(gaps - usual) <= AS_LONG * usual) > EVEN:
+        return
     for place, element in SHAKING:
         weighted = linear.residual[:, None] * _answers(readings, place, element)
-        lowest = 0.5 / float(np.median(gaps))
+        lowest = 0.5 / usual
         yield from _period(place, element, "time", weighted, time_s, FASTEST_HZ, lowest, COARSE)
 
 

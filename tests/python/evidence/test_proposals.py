@@ -81,6 +81,10 @@ def test_a_period_in_time_is_found_of_a_leg_that_swings(linear: Linear, readings
     assert found.hypothesis.variable.period == pytest.approx(2.3, rel=0.01)
 
 
+def test_of_readings_at_one_rate_no_period_is_told_from_what_it_aliases_to(linear: Linear, readings: Readings) -> None:
+    assert not [*vibrations(linear, readings)]
+
+
 @pytest.mark.parametrize(("place", "period_s"), [("reading", 1.0 / 49.963), ("cup", 1.0 / 4.63)])
 def test_what_shakes_faster_than_readings_are_taken_is_found(
     linear: Linear, readings: Readings, port: Port, place: str, period_s: float
