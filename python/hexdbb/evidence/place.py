@@ -8,6 +8,7 @@ from hexdbb.evidence.proposals import periods, proposals
 from hexdbb.evidence.screen import Hypothesis
 from hexdbb.evidence.signatures import all_varying
 from hexdbb.learned import Learned, part_of
+from hexdbb.learned.further import is_slow
 
 if TYPE_CHECKING:
     from hexdbb.evidence.readings import Linear
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 
 Places = set[tuple[str, int]]
 """Parts of the machine and their elements."""
+CLOCKS = frozenset({"time_s", "time_in_circle_s", "time_since_fixing_s"})
+"""Columns that are time, whatever the machine does; time within a sweep goes with its reversals."""
 
 
 def at_its_place(search: Search, cause: Hypothesis, learned: Learned) -> bool:
@@ -26,6 +29,22 @@ def at_its_place(search: Search, cause: Hypothesis, learned: Learned) -> bool:
 def at_a_place_of_its_kin(search: Search, cause: Hypothesis, learned: Learned) -> bool:
     """Check the same of all that a cause's form reads like, at another port too."""
     return any(learned.is_within(part_of(home), home.element) for home in kin_of(search, cause))
+
+
+def may_say(search: Search, cause: Hypothesis, learned: Learned) -> bool:
+    """Check that a function may say what a cause does, by its form: at a place of its kin, and by time only if they do.
+
+    A guideway that is lifted now and then is no play of its slider.
+    """
+    there = [home for home in kin_of(search, cause) if learned.is_within(part_of(home), home.element)]
+    if not _is_by_clock(learned):
+        return bool(there)
+    return any(_is_by_clock(home) or is_slow(home.variable) for home in there)
+
+
+def _is_by_clock(learned: Learned) -> bool:
+    """Whether a function is one of time alone."""
+    return learned.variable.column in CLOCKS and not learned.variable.times
 
 
 def homes_of(search: Search, cause: Hypothesis) -> list[Learned]:

@@ -17,7 +17,7 @@ from hexdbb.evidence.node import Node
 from hexdbb.evidence.one_cause import is_refined, left_without, without_borrowed_forms
 from hexdbb.evidence.one_element import or_one_element
 from hexdbb.evidence.own_form import with_known_of_form
-from hexdbb.evidence.place import at_a_place_of_its_kin, at_its_place
+from hexdbb.evidence.place import at_its_place, may_say
 from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
@@ -197,7 +197,7 @@ def _is_lead(search: Search, node: Node, causes: list[Hypothesis], cause: Hypoth
     others = [each for each in causes if isinstance(each, Learned)]
     if not isinstance(cause, Known) or not others:
         return False
-    if any(at_a_place_of_its_kin(search, cause, each) for each in others):
+    if any(may_say(search, cause, each) for each in others):
         return True
     most = max(left_without(search, node, each) for each in others)
     return left_without(search, node, cause) < max(most, node.trial.left + of_forms(search, node.trial))
