@@ -218,7 +218,8 @@ class Criteria:
         Known effects together stand before one that its form excuses where they err by less than this part of its
         error: a true pair erred by 0.28 of it, the same with a wrong element by 0.49 and more. The same part of what
         several causes leave that explain less than `explained_min`: one function that leaves less is a lead in their
-        place, whether it predicts or not.
+        place, whether it predicts or not. The same part of what an effect at all elements misses: at one of them it
+        missed 0.31 of it where that element alone was at fault.
     most_refinements : int
         Functions that describe the forms of the causes found, at most: one for each of six legs, and two of all.
     refined_by : float

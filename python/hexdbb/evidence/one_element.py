@@ -45,7 +45,7 @@ def or_one_element(search: Search, node: Node) -> Node:
 
 def _alone(search: Search, node: Node, effect: Known) -> Node | None:
     """Return the best of the same effect at one element that may stand in place of it at all; None if none may."""
-    most = 0.5 * missed(search, node)
+    most = search.criteria.far_better * missed(search, node)
     found = (
         each
         for each in search.nodes
