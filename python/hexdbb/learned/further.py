@@ -163,9 +163,9 @@ LEG_DIRECTIONS = tuple(
     )
     for where in ("platform", "base")
 )
-"""A ball out of round, or a patch of its seat, lengthens the leg by its direction, in two angles: any function of one,
-times a parabola of the other. Of two simulators' faults, lobes and a patch, they explained 99 % at the right leg, and
-at no other predicted a circle that was left out."""
+"""A ball out of round, or a worn patch of its seat, changes the length of the leg by its direction, in two angles: any
+function of one, times a parabola of the other. With eight splines they explained 99 % of the faults of two simulators,
+lobes and a patch, at the right leg, and 29 to 78 % at the others; readings may ask for more splines."""
 SINCE_START = tuple(following(v.TIME_IN_SWEEP, AFTER, each) for each in RUN_UPS_DEG)
 SETTLING_POSITION = tuple(following(v.TIME_POSITION, SETTLING, each) for each in GROWTHS_S)
 WARMING_POSITION = product("warming", v.POSITION)
