@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.kinematics import inverse, rotation_from_rpy
+from hexdbb.kinematics import inverse
 from hexdbb.kinematics.legs import Legs
 from hexdbb.machine import MachineFile, home_heights_mm
 
@@ -25,28 +25,25 @@ LEG_DIRECTIONS = {
     f"leg_tilt_in_base{SQUARED}": "the square of that",
 }
 """Columns, and what they are."""
-LEG_DIRECTIONS_FROM = ("position_mm", "platform_rpy_rad", "sliders_mm")
-"""Columns that these follow from."""
 
 
-def leg_directions(
-    machine: MachineFile, position_mm: Floats, platform_rpy_rad: Floats, sliders_mm: Floats
-) -> dict[str, Floats]:
+def leg_directions(machine: MachineFile, legs: Legs, rotation: Floats) -> dict[str, Floats]:
     """Return the columns `LEG_DIRECTIONS`, shape (n, 6) each.
 
     Parameters
     ----------
     machine : MachineFile
-    position_mm, platform_rpy_rad : ndarray, shape (n, 3)
-    sliders_mm : ndarray, shape (n, 6)
+    legs : Legs
+        At n poses.
+    rotation : ndarray, shape (n, 3, 3)
+        Of the platform.
     """
-    rotation, home = rotation_from_rpy(platform_rpy_rad), _home(machine)
-    in_base = Legs.at(machine, position_mm, rotation, sliders_mm).unit
-    in_platform = np.einsum("nji,nkj->nki", rotation, in_base)
+    home = _home(machine)
+    in_platform = np.einsum("nji,nkj->nki", rotation, legs.unit)
     aside = np.cross([0.0, 0.0, 1.0], home)
     aside /= np.linalg.norm(aside, axis=1, keepdims=True)
     parts = []
-    for unit in (in_platform, in_base):
+    for unit in (in_platform, legs.unit):
         across, tilt = (np.einsum("nki,ki->nk", unit, axis) for axis in (aside, np.cross(home, aside)))
         parts += [across, tilt, tilt**2]
     return dict(zip(LEG_DIRECTIONS, parts, strict=True))

@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hexdbb.kinematics import rotation_from_rpy
 from hexdbb.kinematics.legs import Legs
 from hexdbb.machine import MachineFile
 
@@ -22,27 +21,22 @@ SHARES = {f"force_by_pull_{axis}": f"a pull of 1 N on the platform along {axis}"
 """Columns, and the loads that they are by. So both sorts are of one size."""
 SINGULAR = 1e-6
 """Determinant below which a pose counts as singular: legs would bear thousands of times the load."""
-SHARES_FROM = ("position_mm", "platform_rpy_rad", "sliders_mm")
-"""Columns that these follow from."""
 
 
-def load_shares(
-    machine: MachineFile, position_mm: Floats, platform_rpy_rad: Floats, sliders_mm: Floats
-) -> dict[str, Floats]:
+def load_shares(machine: MachineFile, legs: Legs) -> dict[str, Floats]:
     """Return the columns `SHARES`, shape (n, 6) each: axial forces of the legs, tension positive; nan where singular.
 
     Parameters
     ----------
     machine : MachineFile
-    position_mm, platform_rpy_rad : ndarray, shape (n, 3)
-    sliders_mm : ndarray, shape (n, 6)
+    legs : Legs
+        At n poses.
 
     Returns
     -------
     dict of str to ndarray
         Of pulls at the platform's reference point.
     """
-    legs = Legs.at(machine, position_mm, rotation_from_rpy(platform_rpy_rad), sliders_mm)
     turning = np.cross(legs.lever_mm, legs.unit) / machine.platform.circumradius_mm
     held = np.concatenate([legs.unit, turning], axis=2).transpose(0, 2, 1)
     forces = np.full_like(held, np.nan)

@@ -31,8 +31,7 @@ from hexdbb.samples.deflection import (
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAPS, between
-from hexdbb.samples.leg_directions import LEG_DIRECTIONS, LEG_DIRECTIONS_FROM, leg_directions
-from hexdbb.samples.load_shares import SHARES, SHARES_FROM, load_shares
+from hexdbb.samples.leg_columns import OF_LEGS, OF_LEGS_FROM, leg_columns
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
@@ -90,8 +89,7 @@ class Whole:
             *DERIVED,
             *LOADS,
             *TURNS_OF_LOADS,
-            *SHARES,
-            *LEG_DIRECTIONS,
+            *OF_LEGS,
             REACTION,
             *COURSES,
             *GAPS,
@@ -126,10 +124,8 @@ class Whole:
             self.columns |= derived_columns(self.machine, given, self.set_ups)
         elif name in LOADS:
             self.columns |= load_columns(*self._known(*LOADS_FROM))
-        elif name in SHARES:
-            self.columns |= load_shares(self.machine, *self._known(*SHARES_FROM))
-        elif name in LEG_DIRECTIONS:
-            self.columns |= leg_directions(self.machine, *self._known(*LEG_DIRECTIONS_FROM))
+        elif name in OF_LEGS:
+            self.columns |= leg_columns(self.machine, *self._known(*OF_LEGS_FROM))
         elif name in TURNS_OF_LOADS:
             load = TURNS_OF_LOADS[name]
             self.columns |= turns_of_load(load, *self._known(load, "time_s", "sweep", "angle_rad"))

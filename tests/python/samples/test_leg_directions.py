@@ -9,7 +9,8 @@ from hexdbb.machine import home_heights_mm
 from hexdbb.machine.home import home_legs
 from hexdbb.plan import load_plan
 from hexdbb.samples import Samples
-from hexdbb.samples.leg_directions import LEG_DIRECTIONS, leg_directions
+from hexdbb.samples.leg_columns import leg_columns
+from hexdbb.samples.leg_directions import LEG_DIRECTIONS
 
 
 @pytest.fixture(scope="module")
@@ -60,8 +61,8 @@ def test_at_home_nothing_is_across_and_squares_are_squares(planned: Samples) -> 
     spans_mm = [np.sqrt(leg.widest_mm**2 - height_mm**2) for leg in home_legs(machine)]
     sliders_mm = [leg.place_mm(span) for leg, span in zip(home_legs(machine), spans_mm, strict=True)]
     position_mm = [[0.0, 0.0, height_mm - machine.platform.joint_plane_height_mm]]
-    found = leg_directions(machine, np.array(position_mm), np.zeros((1, 3)), np.array([sliders_mm]))
-    assert all(np.abs(each).max() < 1e-9 for each in found.values())
+    found = leg_columns(machine, np.array(position_mm), np.zeros((1, 3)), np.array([sliders_mm]))
+    assert all(np.abs(found[each]).max() < 1e-9 for each in LEG_DIRECTIONS)
     for name in LEG_DIRECTIONS:
         if name.endswith("_squared"):
             assert planned[name] == pytest.approx(planned[name.removesuffix("_squared")] ** 2)

@@ -12,7 +12,8 @@ from hexdbb.learned.places import BY_LOAD
 from hexdbb.model import new_model
 from hexdbb.plan import load_plan
 from hexdbb.samples import Samples
-from hexdbb.samples.load_shares import SHARES, load_shares
+from hexdbb.samples.leg_columns import leg_columns
+from hexdbb.samples.load_shares import SHARES
 
 FAR_MM = 1e9
 
@@ -61,7 +62,7 @@ def test_the_legs_hold_the_load(planned: Samples) -> None:
 def test_a_pose_out_of_reach_has_no_forces(planned: Samples) -> None:
     position_mm = planned["position_mm"].copy()
     position_mm[3] = np.nan
-    found = load_shares(planned.machine, position_mm, planned["platform_rpy_rad"], planned["sliders_mm"])
+    found = leg_columns(planned.machine, position_mm, planned["platform_rpy_rad"], planned["sliders_mm"])
     assert all(np.isnan(each[3]).all() and np.isfinite(np.delete(each, 3, 0)).all() for each in found.values())
 
 
