@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -24,7 +24,10 @@ SHORTEST = 1e-3
 FIRST_PART = 0.005
 """Part of the samples below a logarithm's range: the first few after a reversal would take half of its splines."""
 COUNTED = 4096
-"""Samples of which different values are counted, evenly chosen: several times what any variable asks for."""
+"""Samples of which different values are counted: several times what any variable asks for."""
+GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
+"""Distance of two samples of which values are counted, in all samples, whole turns left out: laps repeat their positions,
+and every ninth sample of laps of 720 would be the same eighty again and again."""
 
 
 class Columns(Protocol):
@@ -103,7 +106,7 @@ class Ranges:
         known = values if usual.all() else values[usual]
         if not len(known):
             return Range()
-        some = known[:: max(1, len(known) // COUNTED)]
+        some = known if len(known) <= COUNTED else known[_spread(len(known))]
         log = np.log(np.maximum(known, SHORTEST)) if variable.is_log else np.zeros(1)
         return Range(
             lowest=float(known.min()),
@@ -114,6 +117,12 @@ class Ranges:
             different=min(len(np.unique(some)), len(known) // len(elements)),
             is_known=True,
         )
+
+
+@lru_cache
+def _spread(count: int) -> NDArray[np.intp]:
+    """Return the places of so many samples of which different values are counted, spread over all alike."""
+    return (np.arange(COUNTED) * GOLDEN % 1.0 * count).astype(np.intp)
 
 
 def values_of(samples: Columns, variable: Variable, element: int) -> Floats:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from hexdbb import _core
+from hexdbb.errors import InputError
 from hexdbb.learned import Learned, Space
 from hexdbb.learned.listed import further_hypotheses
 
@@ -49,6 +50,17 @@ def test_smooth_functions_of_large_values_can_still_be_said(columns: Rows) -> No
     space = Space.of(Learned.parse("learned:slider:2:velocity"), columns, LEAD_MM)
     values = columns["velocity_mm_s"][:, 1]
     assert left_of(space, columns, values**3, 1) < 0.01
+
+
+@pytest.mark.parametrize("laps", [4, 28])
+def test_laps_of_many_readings_allow_fine_functions(laps: int) -> None:
+    """Laps repeat their positions at the same places of the record: every ninth reading of 720 is one of eighty."""
+    angle = np.tile(np.arange(720) * (2.0 * np.pi / 720), laps)
+    position_mm = 400.0 + 100.0 * np.sin(angle[:, None] + np.arange(6)) + 1e-3 * np.arange(6)
+    columns = Rows({"time_s": np.arange(len(angle)) * 0.02, "sliders_mm": position_mm})
+    assert Space.of(Learned.parse("learned:vertical:3:fine_position"), columns, LEAD_MM).size == 100
+    with pytest.raises(InputError, match="sliders_mm has [0-9]+ different values"):
+        Space.of(Learned.parse("learned:vertical:3:fine_position").finer(4), columns, LEAD_MM)
 
 
 def test_what_warms_is_said_by_what_grows_and_bends() -> None:
