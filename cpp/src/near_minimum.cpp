@@ -9,7 +9,7 @@ namespace hexdbb {
 
 bool find_near(FewReadings& few, const Unknowns& unknowns, int max_iterations, double tolerance,
                const Eigen::VectorXd& bound, Eigen::VectorXd& near) {
-  constexpr int kFirst = 3;  // iterations: what a cost without kinks takes
+  constexpr int kFirst = 3;                 // iterations: what a cost without kinks takes
   constexpr EndOfDescent kCoarse{1.0, 60};  // of chi-square: the remaining readings move the minimum by more
   const Eigen::VectorXd start = near;
   const auto by_ceres = [&](int most, Eigen::VectorXd& z) {

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.readings import Linear, Readings
 from hexdbb.evidence.thinned import Thinned
-from hexdbb.learned import ALL, Learned, periodic, step
+from hexdbb.learned import ALL, PAIRS, Learned, periodic, step
 from hexdbb.machine import MachineFile
-from hexdbb.predictors.periods import COARSE, FINE, Grid, strongest_frequency
+from hexdbb.predictors.periods import COARSE, FINE, LEAST_TURNS, Grid, strongest_frequency
 
 Floats = NDArray[np.float64]
 
@@ -34,6 +34,9 @@ FASTEST_HZ = 125.0
 EVEN, AS_LONG = 0.9, 0.01
 """Part of the intervals between readings that are alike, and by what part, above which nothing is told from what it
 would alias to: with two feeds half of them are. Between sweeps, and by a clock that jitters, a tenth may differ."""
+OVERTONE = 3
+"""Highest overtone that the strongest frequency over a position is taken for: what is narrow within its period has the
+second, or the third, as strong as the first. A period in time has as many splines, and swings are nearly sines."""
 SHAKING = (("reading", ALL), ("cup", ALL))
 """Places that are sought for it: what hums is in the gauge, and the cup stands on the longest post."""
 EVERY = slice(0, None)
@@ -62,6 +65,8 @@ def _shifting() -> Iterator[tuple[str, int]]:
     for place in ("lateral", "vertical"):
         for element in range(1, 4):
             yield place, element
+    # A guideway shifts along itself with both of its sliders.
+    yield from (("slider", pair) for pair in PAIRS.values())
     yield from (("ball", ALL), ("cup", ALL), ("platform", ALL), ("reading", ALL))
 
 
@@ -245,8 +250,10 @@ def periods(
         axes = [learned.pushes(axis, machine) for axis in range(learned.components)]
         answers = [np.concatenate([linear.residual * readings.answer(ports) for _, ports in each]) for each in axes]
         values = np.concatenate([position[:, column] for column, _ in axes[0]])
-        found = _period(place, element, "position", np.column_stack(answers), values, 1.0 / criteria.shortest_mm)
-        yield from (each for each in found if place != "slider_joint" or not _is_of_screw(each.hypothesis, machine))
+        weighted = np.column_stack(answers)
+        found = [*_period(place, element, "position", weighted, values, 1.0 / criteria.shortest_mm, OVERTONE)]
+        if place != "slider_joint" or not any(_is_of_screw(each.hypothesis, machine) for each in found[:1]):
+            yield from found
     scale_mm, shortest_mm = readings.state["gauge_scale_mm"], SCALE_NOISES * float(np.mean(readings.noise_mm))
     if is_asked_for(Learned("reading", ALL, periodic("scale", 1.0))):
         yield from _period("reading", ALL, "scale", linear.residual, scale_mm, 1.0 / shortest_mm)
@@ -280,7 +287,7 @@ def vibrations(linear: Linear, readings: Readings) -> Iterator[Proposal]:
     for place, element in SHAKING:
         weighted = linear.residual[:, None] * _answers(readings, place, element)
         lowest = 0.5 / usual
-        yield from _period(place, element, "time", weighted, time_s, FASTEST_HZ, lowest, COARSE)
+        yield from _period(place, element, "time", weighted, time_s, FASTEST_HZ, lowest=lowest, grid=COARSE)
 
 
 def _is_of_screw(learned: Learned, machine: MachineFile) -> bool:
@@ -296,10 +303,17 @@ def _period(
     weighted: Floats,
     values: Floats,
     highest: float,
+    overtone: int = 1,
+    *,
     lowest: float = 0.0,
     grid: Grid = FINE,
 ) -> Iterator[Proposal]:
-    frequency = strongest_frequency(weighted, values, highest, lowest, grid)
-    if frequency is not None:
-        tried = max(float(np.ptp(values)) * highest, 1.0)
-        yield Proposal(Learned(place, element, periodic(column, 1.0 / frequency)), -float(np.log(tried)))
+    """Yield what repeats with the strongest frequency, and that of which it may be an overtone, up to such a one."""
+    strongest, spread = strongest_frequency(weighted, values, highest, lowest, grid), float(np.ptp(values))
+    if strongest is None:
+        return
+    tried = max(spread * highest, 1.0)
+    for number in range(1, overtone + 1):
+        frequency = strongest / number
+        if number == 1 or frequency * spread >= LEAST_TURNS:
+            yield Proposal(Learned(place, element, periodic(column, 1.0 / frequency)), -float(np.log(tried)))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from hexdbb.evidence.last_resort import axes_along, state_of
 from hexdbb.evidence.node import Node
 from hexdbb.evidence.refine import finely_tuned
-from hexdbb.evidence.settling import predicts
+from hexdbb.evidence.settling import explains_nearly, predicts
 from hexdbb.learned import Learned
 
 if TYPE_CHECKING:
@@ -58,6 +58,32 @@ def or_at_another_place(search: Search, node: Node) -> Node:
     best = max(tuned, key=lambda each: each.score, default=node)
     search.nodes += [each for each in tried if not any(each is other for other in search.nodes)]
     return best
+
+
+def or_at_the_rails(search: Search, node: Node) -> Node:
+    """Return the set in which what legs do by their sliders' positions is what the rails under these do, if they say it.
+
+    No leg knows where its slider stands. A dent that one slider alone passes lengthens its leg: the two read alike, and
+    the leg has less to say, by some tens of nats, where the rail leads the other slider too.
+
+    Parameters
+    ----------
+    search : Search
+    node : Node
+        Returned unchanged if no function of it goes by the rail, or no rail explains nearly as much and predicts.
+    """
+    for member in node.members:
+        if not isinstance(member.hypothesis, Learned) or not member.hypothesis.goes_by_the_rail:
+            continue
+        base = search.node(node.without(member), near=node)
+        screen = search.screen(base)
+        rails = [each for each in search.learnable.by_name.values() if each.is_at_the_rail_of(member.hypothesis)]
+        tried = search.tried(base, screen.learned(rails)[:TRIED])
+        search.nodes += [each for each in tried if not any(each is other for other in search.nodes)]
+        alike = (each for each in tried if explains_nearly(search, each.trial.left, node.trial.left))
+        good = [each for each in alike if not each.trial.refused and predicts(search, each)]
+        node = max(good, key=lambda each: each.score, default=node)
+    return node
 
 
 def _says_as_much(search: Search, node: Node, before: Node) -> bool:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hexdbb.evidence.criteria import Criteria
 from hexdbb.evidence.marginal import Marginal, marginal, solved
-from hexdbb.evidence.signatures import Signature, signature_of
+from hexdbb.evidence.signatures import Signature, signature_of, varying
 from hexdbb.evidence.sums import Block, Sums, Training, squared_error
 from hexdbb.evidence.thinned import Thinned
 from hexdbb.learned import Learned
@@ -101,8 +101,9 @@ class Screen:
         return found
 
     def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
-        """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows."""
-        return self._held_out([self._of(each) for each in self.ranked(hypotheses)[: self.criteria.held_out]])
+        """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows, fine enough."""
+        best = self._fine_enough(self.ranked(hypotheses)[: self.criteria.held_out])
+        return self._held_out([self._of(each) for each in best])
 
     def scored(self, hypothesis: Learned) -> Scored:
         """Score one learned hypothesis, held out too."""
@@ -125,6 +126,18 @@ class Screen:
         found = self.thinned.log_evidences(new, self.sums.linear, self.sizes_mm, self.temper)
         self._evidence.update(zip(new, found, strict=True))
         return sorted(hypotheses, key=lambda each: -self._evidence[each])
+
+    def _fine_enough(self, hypotheses: Sequence[Learned]) -> list[Learned]:
+        """Return hypotheses with as many splines as have the most evidence on few rows.
+
+        What repeats within a joint's angle is not described by a dozen splines over all of it, and a function of another
+        state that resembles it may then have more evidence than the true one.
+        """
+        may_be = [each for each in hypotheses if each.variable.may_be_finer]
+        finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]
+        few = [each for each in finer if each.components * each.variable.columns <= self.criteria.most_tuned]
+        best = {each.name: each for each in reversed(self.ranked([*hypotheses, *varying(few, self.sums.readings)]))}
+        return [best[each.name] for each in hypotheses]
 
     def _factors(self, space: Signature) -> list[Floats]:
         penalties = self._penalties if space.hypothesis.variable.is_smooth else self._penalties[:1]

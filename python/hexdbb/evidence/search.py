@@ -226,11 +226,16 @@ class Search:
         return (one.place, one.element) == (other.place, other.element)
 
     def _is_kin(self, known: Known, learned: Learned) -> bool:
-        """Check whether a function contains an effect; steps contain a drift where other functions of time do."""
+        """Check whether a function contains an effect.
+
+        Steps contain a drift where other functions of time do, a leg what the rail under its slider does.
+        """
         kin = self.kin.get(known.name, set())
-        if learned.name in kin or not learned.variable.instants:
-            return learned.name in kin
-        homes = (Learned.parse(name) for name in kin)
+        if learned.name in kin:
+            return True
+        homes = [Learned.parse(name) for name in kin]
+        if not learned.variable.instants:
+            return any(each.is_but_finer(learned) or each.is_at_the_rail_of(learned) for each in homes)
         return any(each.is_of_time and (each.place, each.element) == (learned.place, learned.element) for each in homes)
 
     def _children(self, node: Node, learns: bool) -> list[Node]:
@@ -255,9 +260,10 @@ class Search:
         return Screen(sums, self.criteria, self.thinned)
 
     def tried(self, node: Node, every: Sequence[Scored]) -> list[Node]:
-        """Fit sets with one more hypothesis each in full."""
+        """Fit sets with one more hypothesis each in full; a function is there once, with however many splines."""
         found = []
-        sets = [as_one_cause(self, (*node.members, self.member(scored))) for scored in every]
+        more = [self.member(each) for each in every if each.hypothesis.name not in node.trial.names]
+        sets = [as_one_cause(self, (*node.members, each)) for each in more]
         for fitted in self.trials.each_of(each for each in sets if each is not None):
             try:
                 trial = fitted()

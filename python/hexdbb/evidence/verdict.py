@@ -21,7 +21,7 @@ from hexdbb.evidence.place import at_its_place, may_say
 from hexdbb.evidence.predicting import or_another_that_predicts, or_fewer_by_formulas, or_one_that_predicts
 from hexdbb.evidence.refine import refined, refined_forms
 from hexdbb.evidence.rivals import rivals_of
-from hexdbb.evidence.same_state import or_at_another_place
+from hexdbb.evidence.same_state import or_at_another_place, or_at_the_rails
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
 from hexdbb.evidence.settling import explains_nearly, of_forms
@@ -125,7 +125,7 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     node = or_one_that_predicts(search, or_fewer_by_formulas(search, with_elements_that_predict(search, node)))
     node = with_turning(search, with_tuned_numbers(search, node))
     node = or_another_beside(search, node)
-    fine = or_at_another_place(search, or_one_fine_enough(search, node))
+    fine = or_at_the_rails(search, or_at_another_place(search, or_one_fine_enough(search, node)))
     node = with_known_left(search, node if fine is node else in_known_words(search, fine))
     if (forms := as_forms(search, node)) is not None:
         return Verdict("none", (), search.root, None, before, forms)

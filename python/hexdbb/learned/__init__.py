@@ -23,7 +23,7 @@ from hexdbb.learned.numbered import (
     turns_with,
     two_states,
 )
-from hexdbb.learned.places import ALL
+from hexdbb.learned.places import ALL, PAIRS
 from hexdbb.learned.ranges import Columns, Ranges
 from hexdbb.learned.space import Space, Weight
 from hexdbb.learned.tables import Curve, Table
@@ -33,6 +33,7 @@ from hexdbb.learned.words import Form, describe
 __all__ = [
     "ALL",
     "FINER",
+    "PAIRS",
     "Columns",
     "Curve",
     "Directed",

@@ -234,6 +234,9 @@ ROCKING = (v.CARRIAGES_ACCELERATION, *(along("acceleration", each) for each in D
 LEANING = tuple(along("position", each) for each in DIRECTIONS_DEG)
 """A frame bends, or a table tips, by where the platform's weight stands; the cup stands on it."""
 
+SINKING = (v.TILT, *(along("gravity", each) for each in DIRECTIONS_DEG))
+"""What is clamped loosely to the platform sinks towards where that leans, along one direction most."""
+
 
 def _by_speed(course: Variable) -> Variable:
     return replace(
@@ -256,7 +259,7 @@ OF_BALL = (
     *(product(factor, v.ANGLE) for factor in ("speed", "time")),
 )
 OF_GUIDEWAY = (
-    *(v.POSITION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_POSITION),
+    *(v.POSITION, v.DIRECTION_POSITION, v.TRAVEL, v.VELOCITY, v.ACCELERATION, v.CARRIAGE_LOAD, v.TIME_POSITION, v.GAP),
     product("leg_force", v.POSITION),
     *SETTLING_POSITION,
 )
@@ -284,9 +287,14 @@ DRAGGED = Variable(
 )
 """A cable that drags over a cover pulls against the motion with one force, and turns the platform by where it is tied:
 each pull and couple by both parts of the direction."""
+DRAGGED_FASTER = replace(
+    DRAGGED, name="course_speed", column="speed_mm_s", unit="mm/s", count=4, words=f"{v.SPEED.words}, along its course"
+)
+"""What drags the more the faster it is moved, as through oil."""
 LOADS = (
     v.CONSTANT,
     DRAGGED,
+    DRAGGED_FASTER,
     *_of_loads(8, *LEANING[1::2]),
     *_of_loads(4, v.TURNED, v.TIME, v.ROLL, v.PITCH, v.YAW),
     *_of_loads(6, v.ANGLE),
@@ -302,12 +310,14 @@ the nearest explains 93 % at least.
 GROWS = (v.TIME, v.WARMING)
 """Variables of what a whole structure does: it grows."""
 
+OF_RAIL = (v.CARRIAGE_LOAD, v.GAP, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD))
 FURTHER: dict[str, tuple[Variable, ...]] = {
     "slider": (
         v.DRIVE_LOAD,
         v.CARRIAGE_LOAD,
         v.GAP,
         v.GAP_RATE,
+        v.POWER,
         *PRODUCTS_OF_SLIDER,
         *NEIGHBOURS,
         *_remembered(v.DRIVE_LOAD),
@@ -327,12 +337,12 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *LEG_DIRECTIONS,
         JOINT_ANGLE_EACH_WAY,
     ),
-    "lateral": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),
-    "vertical": (v.CARRIAGE_LOAD, *PRODUCTS_OF_GUIDEWAY, v.WARMING, *SETTLING_POSITION, *_remembered(v.CARRIAGE_LOAD)),
+    "lateral": OF_RAIL,
+    "vertical": OF_RAIL,
     "guideway": OF_GUIDEWAY,
     "slider_joint": OF_SLIDER_JOINT,
     "platform_joint": OF_PLATFORM_JOINT,
-    "ball": (*OF_BALL, *COURSES_IN_PLATFORM),
+    "ball": (*OF_BALL, *COURSES_IN_PLATFORM, *SINKING),
     "cup": (*OF_BALL, *COURSES, *LEANING, *of_drives((v.POSITION,))),
     "load": LOADS,
     "reading": (

@@ -175,6 +175,21 @@ class Learned:
             if plain.variable.signed:
                 yield replace(plain, variable=replace(plain.variable, is_even=True))
 
+    def is_but_finer(self, other: Learned) -> bool:
+        """Check for the same function under another name, which has another number of splines."""
+        as_fine = replace(self.variable, name=other.variable.name, count=other.variable.count)
+        return (self.place, self.element, as_fine) == (other.place, other.element, other.variable)
+
+    def is_at_the_rail_of(self, other: Learned) -> bool:
+        """Check for what a guideway does by a slider's position, where another is what the slider's leg does by it."""
+        is_below = self.place in OF_GUIDEWAY and members(self.element) == ((other.element + 1) // 2,)
+        return is_below and other.goes_by_the_rail and self.variable.column == other.variable.column
+
+    @property
+    def goes_by_the_rail(self) -> bool:
+        """Whether a leg, or its joint, goes by where its slider stands, as the rail under the slider does."""
+        return self.variable.column == "sliders_mm" and self.place in ("leg", "platform_joint")
+
     @property
     def is_of_time(self) -> bool:
         """Whether it is a free function of time, which says nothing of a time that was left out."""

@@ -6,7 +6,7 @@ besides (`direction_position_period@1.06`: balls that enter and leave a nut), wh
 changed (`joint_angle_relaxing@12`, the variable less the same lag), functions whose effect lingers
 (`velocity_lingering@300`: a nut that its travel heats), what grows towards an end
 (`time_position_settling@470`, as what warms does), the time since a circle's run-up began (`time_in_sweep_after@45`,
-its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the base's x-y plane), and
+its angle in degrees), a vector's part along a direction (`acceleration_along@45`, degrees in the x-y plane), and
 a function whose sign changes smoothly with the direction of motion, as friction does (`direction_position_turning@0.5`,
 transition rate in mm/s or rad/s), and two states, of which one begins where a variable rises to a number and the other
 where it falls to a lower one (`leg_force_relay@7.1/14.5`).
@@ -47,6 +47,8 @@ VELOCITY_SPLINES = 12
 POSITION_SPLINES = 12
 """Splines over the platform's position: where a foot of a table lifts off, it leans more. What eight of them left of
 such a bend was taken for a leg's swing."""
+GRAVITY_SPLINES = 8
+"""Splines over gravity's share in the platform: as many as over its roll (`variables.ROLL`)."""
 LAGGED, RELAXING, SETTLING, AFTER, ALONG, TURNING = "lagged", "relaxing", "settling", "after", "along", "turning"
 SLIPPING = "slipping"
 RELAY = "relay"
@@ -76,6 +78,7 @@ DIRECTED = {
     "acceleration": ("carriages_acceleration_mm_s2", "mm/s²", "acceleration of all carriages", FOLLOWING_SPLINES),
     "position": ("position_mm", "mm", "position of the platform", POSITION_SPLINES),
     "velocity": ("platform_velocity_mm_s", "mm/s", "velocity of the platform", VELOCITY_SPLINES),
+    "gravity": ("gravity_in_platform", "", "share of gravity in the platform's frame", GRAVITY_SPLINES),
 }
 """Vectors of which the part along a direction counts: column, unit, words, splines."""
 SIGNED = ("velocity",)
@@ -215,7 +218,7 @@ def transition_rate(times: str) -> float:
 
 
 def along(vector: str, direction_deg: float) -> Variable:
-    """Return the variable of a vector's part along a direction in the base's x-y plane; `DIRECTED` names the vector."""
+    """Return the variable of a vector's part along a direction in its x-y plane; `DIRECTED` names the vector."""
     column, unit, words, count = DIRECTED[vector]
     number = f"{direction_deg % HALF_TURN_DEG or HALF_TURN_DEG:.{NUMBER_DIGITS}g}"
     return Variable(

@@ -25,7 +25,7 @@ VARIABLES: dict[str, tuple[Variable, ...]] = {
     "vertical": v.OF_GUIDEWAY,
     "platform_joint": v.OF_PLATFORM_JOINT,
     "ball": v.OF_BALL,
-    "cup": v.OF_BALL,
+    "cup": v.OF_CUP,
     "reading": v.OF_READING,
     "guideway": (),
     "slider_joint": (),

@@ -26,8 +26,8 @@ FIRST_PART = 0.005
 COUNTED = 4096
 """Samples of which different values are counted: several times what any variable asks for."""
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
-"""Distance of two samples of which values are counted, in all samples, whole turns left out: laps repeat their positions,
-and every ninth sample of laps of 720 would be the same eighty again and again."""
+"""Distance of two samples of which values are counted, in all samples, whole turns left out: laps repeat their
+positions, and every ninth sample of laps of 720 would be the same eighty again and again."""
 
 
 class Columns(Protocol):

@@ -79,6 +79,16 @@ GAP_RATE = Variable(
 )
 """A cover that spans two carriages drags the one by the other: likewise."""
 ACCELERATION = Variable("acceleration", "acceleration_mm_s2", "mm/s²", "acceleration of the slider", 12, signed=True)
+POWER = Variable(
+    "direction_power",
+    "power_mm2_s3",
+    "mm²/s³",
+    "power of the drive per mass, by direction of travel",
+    12,
+    times="travel_direction",
+    signed=True,
+)
+"""What a drive does only where it brakes, or only where it speeds up."""
 FORCE = Variable("leg_force", "leg_force", "", "axial force of the leg per load", 12)
 DRIVE_LOAD = Variable("drive_load", "drive_load", "", "force along the guideway per load", 12)
 CARRIAGE_LOAD = Variable("carriage_load", "carriage_load", "", "force across the guideway per load", 12)
@@ -110,6 +120,7 @@ ROLL, PITCH, YAW = (
     Variable(name, "platform_rpy_rad", "rad", f"{name} of the platform", 8, axis=axis, least=LEAST_TILT)
     for axis, name in enumerate(("roll", "pitch", "yaw"))
 )
+TILT = Variable("tilt", "tilt_rad", "rad", "tilt of the platform", 8, least=LEAST_TILT)
 TIME_POSITION = Variable(
     "time_position", "sliders_mm", "mm", "position of the slider, growing", 6, times=ELAPSED, parts=("time", "position")
 )
@@ -269,7 +280,9 @@ OF_GUIDEWAY = (
     Variable("fine_position", "sliders_mm", "mm", "position of the slider", 100),
     *(DIRECTION_POSITION, VELOCITY, ACCELERATION, FORCE, TIME, TIME_POSITION, TIME_POSITION_BENT),
 )
-OF_BALL = (TIME, FINE_TIME, IN_CIRCLE, SINCE_FIXING, ROLL, PITCH, YAW)
+OF_CUP = (TIME, FINE_TIME, IN_CIRCLE, SINCE_FIXING)
+OF_BALL = (*OF_CUP, ROLL, PITCH, YAW)
+"""The ball hangs on the platform; of how that is oriented the cup, on the table, knows nothing."""
 PLATFORM_JOINT_ANGLE = Variable("joint_angle", "platform_joint_angle_rad", "rad", "angle of the platform's joint", 5)
 DRAGGED_BY_ANGLE = replace(JOINT_ANGLE_DIRECTION, count=PLATFORM_JOINT_ANGLE.count, of_forms=True)
 """As few splines as other functions of a platform's joint have: each pushes along three axes."""

@@ -50,6 +50,7 @@ OWN = {
     },
     "gap_mm": ("slider", "mm", "the slider's coordinate less that of the other one on its guideway"),
     "gap_rate_mm_s": ("slider", "mm/s", "the slider's velocity less that of the other one on its guideway"),
+    "power_mm2_s3": ("slider", "mm^2/s^3", "velocity times acceleration of the slider; negative: it brakes"),
     "radius_mm": ("sample", "mm", "distance of the platform from the base's z axis, nominal machine"),
     "neighbour_velocity_mm_s": ("slider", "mm/s", "velocity of the other slider on the guideway"),
     "neighbour_acceleration_mm_s2": ("slider", "mm/s^2", "acceleration of the other slider on the guideway"),
@@ -59,6 +60,8 @@ OWN = {
     "course": ("axis", "1", "direction in which the platform moves, a unit vector in the base frame; 0: it stands"),
     "course_in_platform": ("axis", "1", "the same in the platform frame"),
     **{f"course_{axis}": ("sample", "1", f"part of `course` along {axis}") for axis in "xy"},
+    "gravity_in_platform": ("axis", "1", "direction in which gravity acts, a unit vector in the platform frame"),
+    "tilt_rad": ("sample", "rad", "angle of the platform's z to the vertical"),
     "bar_angle_rad": ("sample", "rad", "angle of the bar about the platform's z, nominal machine"),
     "bar_azimuth_rad": ("sample", "rad", "angle of the bar about the base's z, nominal machine"),
     "bar_elevation_rad": ("sample", "rad", "angle of the bar to the horizontal, nominal machine"),
@@ -77,7 +80,7 @@ OWN = {
     "NAME.along@D": (
         "sample",
         "1",
-        "part of the vector `NAME` along the direction of `D` degrees in the base's x-y plane",
+        "part of the vector `NAME` along the direction of `D` degrees in the x-y plane of its frame",
     ),
     "NAME.turning@R": (
         "sample",

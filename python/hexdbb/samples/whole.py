@@ -31,10 +31,12 @@ from hexdbb.samples.deflection import (
 from hexdbb.samples.distinct import distinct_rows
 from hexdbb.samples.fixings import mount_key, require_agreement
 from hexdbb.samples.gap import GAPS, between
+from hexdbb.samples.lean import LEANS, LEANS_FROM, leans
 from hexdbb.samples.leg_columns import OF_LEGS, OF_LEGS_FROM, leg_columns
 from hexdbb.samples.loads import LOADS, LOADS_FROM, load_columns
 from hexdbb.samples.memory import remembered_column, remembered_of
 from hexdbb.samples.neighbours import NEIGHBOURS, of_neighbours
+from hexdbb.samples.power import POWER, POWER_FROM, power_mm2_s3
 from hexdbb.samples.radius import RADIUS, RADIUS_FROM, radii_mm
 from hexdbb.samples.reaction import REACTION, REACTION_FROM, carriages_acceleration_mm_s2
 from hexdbb.samples.since_turn import TURNS_OF_LOADS, direction_and_travel, turns_of_load
@@ -92,7 +94,9 @@ class Whole:
             *OF_LEGS,
             REACTION,
             *COURSES,
+            *LEANS,
             *GAPS,
+            POWER,
             RADIUS,
             *NEIGHBOURS,
             *TURN,
@@ -131,11 +135,15 @@ class Whole:
             self.columns |= turns_of_load(load, *self._known(load, "time_s", "sweep", "angle_rad"))
         elif name in COURSES:
             self.columns |= courses(*self._known(*COURSES_FROM))
+        elif name in LEANS:
+            self.columns |= leans(*self._known(*LEANS_FROM))
         elif name == REACTION:
             (acceleration,) = self._known(REACTION_FROM)
             self.columns[name] = carriages_acceleration_mm_s2(engine_machine(self.machine), acceleration)
         elif name in GAPS:
             self.columns[name] = between(*self._known(GAPS[name]))
+        elif name == POWER:
+            self.columns[name] = power_mm2_s3(*self._known(*POWER_FROM))
         elif name == RADIUS:
             self.columns[name] = radii_mm(*self._known(RADIUS_FROM))
         elif name in NEIGHBOURS:

@@ -30,7 +30,7 @@ TRUTH = {
     "joint-friction-10x": "joint_friction:2",
 }
 NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
-NUMBERS |= {"mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
+NUMBERS |= {"column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
 DIRECTION_DEG = {"hose-pulls": (40.1, 3.0)}
 """The same of a direction, and how near: the hose's pull turns with the platform, which no function has, and which
@@ -256,6 +256,20 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("lobes-both-ways", "learned:leg:3:leg_in_platform", {"feed", "direction", "lap"}),
         # A bent screw that drags its carriage round, most in mid-travel: a pitch error, and one of nearly its period.
         ("screw-bent", "learned:slider_joint:6:screw_wave_position", {"circle", "feed", "direction", "lap"}),
+        # A joint between two pieces of rail, 5 mm long: the joint of one slider in two directions stood in.
+        ("rail-steps", "learned:vertical:3:fine_position", {"circle", "feed", "direction", "lap"}),
+        # Ridges every 27 degrees, of which twelve splines leave more than a function of the distance of two carriages.
+        ("socket-ridged", "learned:leg:2:joint_angle", {"circle", "feed", "direction", "lap"}),
+        # The spindle sinks in its clamp as the platform tilts: two joints off their places, for sure.
+        ("clamp-leans", "learned:ball:gravity_along@", {"circle", "feed", "direction", "lap"}),
+        # A cable carrier that drags more the faster it is pulled: a load without the speed, and all sliders beside it.
+        ("carrier-drags", "learned:load:course_speed", {"circle", "direction", "lap"}),
+        # The air conditioning sways one column along its guideway: the cup repeats itself nearly as well.
+        ("column-sways", "learned:slider:5-6:time_period@", {"circle", "feed", "direction", "lap"}),
+        # A drive that cannot feed power back overshoots where it brakes: its load's changes and reversals stood in.
+        ("brakes-overshoot", "learned:slider:5:direction_power", {"direction", "lap"}),
+        # A rail that rolls outward where its carriages come close: the same function along it said it nearly as well.
+        ("rail-rolls", "learned:guideway:3:gap", {"circle", "feed", "direction", "lap"}),
     ],
 )
 def test_the_place_and_the_variable_are_found_where_no_known_effect_is(

@@ -1,4 +1,4 @@
-"""Columns that are vectors: the platform's course in both frames, and what all carriages' accelerations add up to."""
+"""Columns that are vectors: the platform's course, gravity, and what all carriages' accelerations add up to."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from hexdbb import _core
 from hexdbb.kinematics import engine_machine, rotation_from_rpy
 from hexdbb.plan import load_plan
 from hexdbb.samples.course import courses
+from hexdbb.samples.lean import leans
 from hexdbb.samples.memory import remembered_column
 from hexdbb.samples.reaction import carriages_acceleration_mm_s2
 
@@ -39,3 +40,10 @@ def test_the_part_along_a_direction_is_a_projection(direction_deg: float, part: 
     found = remembered_column("along", direction_deg, VELOCITY_MM_S, time_s, sweep, time_s)
     assert found.shape == (3,)
     assert found[0] == pytest.approx(part)
+
+
+def test_gravity_acts_along_the_vertical_in_the_platform() -> None:
+    found = leans(np.array([[0.0, 0.0, 0.3], [0.2, 0.0, 0.0], [0.0, 0.3, 1.0]]))
+    down = np.array([[0.0, 0.0, -1.0], [0.0, -np.sin(0.2), -np.cos(0.2)], [np.sin(0.3), 0.0, -np.cos(0.3)]])
+    assert found["gravity_in_platform"] == pytest.approx(down)
+    assert found["tilt_rad"] == pytest.approx([0.0, 0.2, 0.3])
