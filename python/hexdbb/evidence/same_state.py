@@ -61,7 +61,7 @@ def or_at_another_place(search: Search, node: Node) -> Node:
 
 
 def or_at_the_rails(search: Search, node: Node) -> Node:
-    """Return the set in which what legs do by their sliders' positions is what the rails under these do, if they say it.
+    """Return the set in which what legs do by their sliders' positions is what the rails under these do.
 
     No leg knows where its slider stands. A dent that one slider alone passes lengthens its leg: the two read alike, and
     the leg has less to say, by some tens of nats, where the rail leads the other slider too.

@@ -130,8 +130,8 @@ class Screen:
     def _fine_enough(self, hypotheses: Sequence[Learned]) -> list[Learned]:
         """Return hypotheses with as many splines as have the most evidence on few rows.
 
-        What repeats within a joint's angle is not described by a dozen splines over all of it, and a function of another
-        state that resembles it may then have more evidence than the true one.
+        What repeats within a joint's angle is not described by a dozen splines over all of it, and a function of
+        another state that resembles it may then have more evidence than the true one.
         """
         may_be = [each for each in hypotheses if each.variable.may_be_finer]
         finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]

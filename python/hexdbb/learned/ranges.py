@@ -122,7 +122,7 @@ class Ranges:
 @lru_cache
 def _spread(count: int) -> NDArray[np.intp]:
     """Return the places of so many samples of which different values are counted, spread over all alike."""
-    return (np.arange(COUNTED) * GOLDEN % 1.0 * count).astype(np.intp)
+    return np.asarray(np.arange(COUNTED) * GOLDEN % 1.0 * count, np.intp)
 
 
 def values_of(samples: Columns, variable: Variable, element: int) -> Floats:
