@@ -133,13 +133,14 @@ def _leaves_more(search: Search, node: Node, than: Node, learned: Learned) -> bo
     thirds of the noise's variance as a joint off its place, and geometry off by as much as three of it.
 
     One that is looked at last was so because known effects left more: what pushes a joint upward after reversals was
-    play of its slider, which left three variances more.
+    play of its slider, which left three variances more. But not a free function of time, which leaves less of whatever
+    drifts, and predicts none of it.
     """
     if not node.is_known or len(node.members) > 1:
         return False
     beyond = explained_beyond(search, than.trial, node.trial)
     is_more = beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
-    is_last = search.learnable.is_further(learned)
+    is_last = search.learnable.is_further(learned) and not than.trial.is_of_time
     return is_more and (is_last or explained_by_formulas(search, node) < search.criteria.explained_min)
 
 

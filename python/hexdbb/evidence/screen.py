@@ -131,9 +131,10 @@ class Screen:
         """Return hypotheses with as many splines as have the most evidence on few rows.
 
         What repeats within a joint's angle is not described by a dozen splines over all of it, and a function of
-        another state that resembles it may then have more evidence than the true one.
+        another state that resembles it may then have more evidence than the true one. What changes its sign with a rate
+        is dense about zero already: more splines would describe how gradually another function does (`turning.py`).
         """
-        may_be = [each for each in hypotheses if each.variable.may_be_finer]
+        may_be = [each for each in hypotheses if each.variable.may_be_finer and not each.variable.signed]
         finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]
         few = [each for each in finer if each.components * each.variable.columns <= self.criteria.most_tuned]
         best = {each.name: each for each in reversed(self.ranked([*hypotheses, *varying(few, self.sums.readings)]))}

@@ -188,7 +188,8 @@ class Learned:
     @property
     def goes_by_the_rail(self) -> bool:
         """Whether a leg, or its joint, goes by where its slider stands, as the rail under the slider does."""
-        return self.variable.column == "sliders_mm" and self.place in ("leg", "platform_joint")
+        by_place = self.variable.column == "sliders_mm" and not self.variable.times
+        return by_place and self.place in ("leg", "platform_joint")
 
     @property
     def is_of_time(self) -> bool:
