@@ -71,18 +71,14 @@ Identifiability machine_identifiability(const Model& model, Accumulator& accumul
 struct Reached {
   Eigen::VectorXd z;
   double cost = std::numeric_limits<double>::infinity();
-  bool leaves_much = false;
 };
 
-/// Fit by Ceres to all readings, until no step improves the fit by more than a part of its cost, from the start, and from
-/// what was reached before where that is lower than the end: from afar Ceres may find the deeper minimum.
+/// Fit by Ceres to all readings, until no step improves the fit by more than a part of 1e-9 of its cost, from the start,
+/// and from what was reached before where that is lower than the end: from afar Ceres may find the deeper minimum.
 void minimize_all(const Model& model, Accumulator& accumulator, const Unknowns& unknowns, const FitOptions& options,
                   Eigen::VectorXd z, Reached before, FitResult& out) {
-  // Where a model leaves many times the noise, Ceres goes on along its valley: of 63 records whose model lacked a fault,
-  // twelve took all fifty steps, a second over 20,000 readings, for 0 to 1 % of what these leave (RMS).
-  const double tolerance = before.leaves_much ? 1e-4 : 1e-9;
   const auto from = [&](Eigen::VectorXd& at) {
-    return minimize(model, accumulator, unknowns, options.noise_mm, options.max_iterations, tolerance, at);
+    return minimize(model, accumulator, unknowns, options.noise_mm, options.max_iterations, 1e-9, at);
   };
   Minimum found = from(z);
   if (before.cost < found.cost) {
@@ -130,7 +126,7 @@ Reached fit_coarse_to_fine(const Model& model, Accumulator& accumulator, FewRead
   out.usable = end.is_at_rest && end.cost <= at_start;
   out.termination = "Converged: no further step improves the fit.";
   if (out.usable) out.values = unknowns.values(end.z.data());
-  return end.cost <= at_start ? Reached{end.z, end.cost, leaves_much(end.cost, few)} : Reached{};
+  return end.cost <= at_start ? Reached{end.z, end.cost} : Reached{};
 }
 
 /// Fit a hypothesis: first to a part of the readings, then to all of them. Return the scaled values at the end.

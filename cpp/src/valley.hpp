@@ -58,13 +58,6 @@ class FewReadings {
   Accumulator accumulator_;
 };
 
-/// Return whether a cost is that of a model that lacks something. Complete models leave a mean square of one noise variance;
-/// the least that was found to have two minima leaves 23.
-inline bool leaves_much(double cost, const FewReadings& few) {
-  constexpr double kMuch = 4.0;  // noise variances
-  return 2.0 * cost > kMuch * few.weight();
-}
-
 /// Damping of a first step, where nothing is known of the valley (Nielsen 1999).
 constexpr double kFirstDamping = 1e-3;
 

@@ -14,7 +14,7 @@ from hexdbb.evidence.marginal import Marginal, marginal, solved
 from hexdbb.evidence.signatures import Signature, signature_of, varying
 from hexdbb.evidence.sums import Block, Sums, Training, squared_error
 from hexdbb.evidence.thinned import Thinned
-from hexdbb.learned import Learned
+from hexdbb.learned import Learned, Variable
 
 Floats = NDArray[np.float64]
 
@@ -49,6 +49,11 @@ class Scored:
     heldout_share: float
     marginal: Marginal
     heldout_left: float = float("nan")
+
+
+def _is_dense(variable: Variable) -> bool:
+    """Check for what is fine where it changes fast, has a fine function of its own, or is known by a period."""
+    return variable.signed or variable.is_log or variable.column in ("time_s", "deflection_mm", "gauge_scale_mm")
 
 
 class Screen:
@@ -100,10 +105,10 @@ class Screen:
             found.append((training, cells, squared_error(self.sums, cells, training.own_values(), None, None)))
         return found
 
-    def learned(self, hypotheses: Sequence[Learned]) -> list[Scored]:
-        """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows, fine enough."""
-        best = self._fine_enough(self.ranked(hypotheses)[: self.criteria.held_out])
-        return self._held_out([self._of(each) for each in best])
+    def learned(self, hypotheses: Sequence[Learned], *, finely: bool = False) -> list[Scored]:
+        """Score learned hypotheses, the largest evidence first: the best of those ranked on few rows, or finer ones."""
+        best = self.ranked(hypotheses)[: self.criteria.held_out]
+        return self._held_out([self._of(each) for each in (self._fine_enough(best) if finely else best)])
 
     def scored(self, hypothesis: Learned) -> Scored:
         """Score one learned hypothesis, held out too."""
@@ -132,9 +137,11 @@ class Screen:
 
         What repeats within a joint's angle is not described by a dozen splines over all of it, and a function of
         another state that resembles it may then have more evidence than the true one. What changes its sign with a rate
-        is dense about zero already: more splines would describe how gradually another function does (`turning.py`).
+        is dense about zero already: more splines would describe how gradually another function does (`turning.py`); so
+        is what is a function of a logarithm. What is narrow along the gauge's scale repeats there; a finer function of
+        time explains whatever drifts.
         """
-        may_be = [each for each in hypotheses if each.variable.may_be_finer and not each.variable.signed]
+        may_be = [each for each in hypotheses if each.variable.may_be_finer and not _is_dense(each.variable)]
         finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]
         few = [each for each in finer if each.components * each.variable.columns <= self.criteria.most_tuned]
         best = {each.name: each for each in reversed(self.ranked([*hypotheses, *varying(few, self.sums.readings)]))}

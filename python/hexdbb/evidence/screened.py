@@ -52,7 +52,8 @@ def screened(search: Search, base: Trial, screen: Screen, *, learns: bool) -> tu
     search.learnable.propose(proposed)
     _add_kin(search, screen.sums.linear, [each.hypothesis for each in proposed], signatures, whose)
     every = [*search.learnable.simple, *(each.hypothesis for each in proposed)]
-    return known, screen.learned(_absent(base, every))
+    # Beside none: what is fine beside another cause describes what its form leaves.
+    return known, screen.learned(_absent(base, every), finely=not base.members)
 
 
 def known_beside(search: Search, base: Trial, screen: Screen) -> list[Scored]:

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.long
         ("carriages_float-d0-x3-calibrate-s0", "learned:vertical:1:velocity"),
         ("plate_warms-d0-x10-calibrate-s0", "learned:platform:time"),
         # A lead error explains 99 %, but a hundredth by its formula: the rest by functions of its form.
-        ("tape_bump-d0-x30-calibrate-s35", "learned:slider:2:fine_position"),
+        ("tape_bump-d0-x30-calibrate-s35", "learned:slider:2:position"),
     ],
 )
 def test_it_is_learned_where_it_is(name: str, learned: str) -> None:
