@@ -139,9 +139,10 @@ class Screen:
         another state that resembles it may then have more evidence than the true one. What changes its sign with a rate
         is dense about zero already: more splines would describe how gradually another function does (`turning.py`); so
         is what is a function of a logarithm. What is narrow along the gauge's scale repeats there; a finer function of
-        time explains whatever drifts.
+        time, or of three axes, explains whatever there is.
         """
-        may_be = [each for each in hypotheses if each.variable.may_be_finer and not _is_dense(each.variable)]
+        alone = [each for each in hypotheses if each.components == 1 and each.variable.may_be_finer]
+        may_be = [each for each in alone if not _is_dense(each.variable)]
         finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]
         few = [each for each in finer if each.components * each.variable.columns <= self.criteria.most_tuned]
         best = {each.name: each for each in reversed(self.ranked([*hypotheses, *varying(few, self.sums.readings)]))}
