@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -233,7 +233,7 @@ class Search:
         kin = self.kin.get(known.name, set())
         if learned.name in kin:
             return True
-        homes = [Learned.parse(name) for name in kin]
+        homes = [_home(name) for name in kin]
         if not learned.variable.instants:
             return any(each.is_but_finer(learned) or each.is_at_the_rail_of(learned) for each in homes)
         return any(each.is_of_time and (each.place, each.element) == (learned.place, learned.element) for each in homes)
@@ -329,6 +329,12 @@ class Search:
             seen = scored.marginal.seen(self.criteria.least_seen, most)
             return Member(scored.hypothesis, seen, scored.marginal.size)
         return Member(scored.hypothesis)
+
+
+@cache
+def _home(name: str) -> Learned:
+    """Return a home by its name: sets are compared thousands of times, by the same few."""
+    return Learned.parse(name)
 
 
 def _alike(search: Search, one: Node, other: Node) -> bool:

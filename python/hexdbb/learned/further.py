@@ -290,7 +290,7 @@ each pull and couple by both parts of the direction."""
 DRAGGED_FASTER = replace(
     DRAGGED, name="course_speed", column="speed_mm_s", unit="mm/s", count=4, words=f"{v.SPEED.words}, along its course"
 )
-"""What drags the more the faster it is moved, as through oil."""
+"""What drags the more the faster it is moved, as through oil. Four splines: two feeds and run-ups are few speeds."""
 LOADS = (
     v.CONSTANT,
     DRAGGED,
