@@ -136,12 +136,24 @@ def _leaves_more(search: Search, node: Node, than: Node, learned: Learned) -> bo
     play of its slider, which left three variances more. But not a free function of time, which leaves less of whatever
     drifts, and predicts none of it.
     """
-    if not node.is_known or len(node.members) > 1:
-        return False
     beyond = explained_beyond(search, than.trial, node.trial)
     is_more = beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
+    if not node.is_known:
+        return is_more and _is_mostly_form(search, node, than)
+    if len(node.members) > 1:
+        return False
     is_last = search.learnable.is_further(learned) and not than.trial.is_of_time
     return is_more and (is_last or explained_by_formulas(search, node) < search.criteria.explained_min)
+
+
+def _is_mostly_form(search: Search, node: Node, than: Node) -> bool:
+    """Check for one known effect, new beside functions, whose formula explains too little of what it does to be one."""
+    new = [each for each in node.members if each.hypothesis not in than.hypotheses]
+    if len(new) != 1 or (form := node.trial.forms[node.members.index(new[0])]) is None:
+        return False
+    without = search.trials.of_fewer(node.without(new[0]), node.trial).left
+    by_formula = without - search.left_by_formula(node.trial, form)
+    return by_formula < search.criteria.explained_min * (without - node.trial.left)
 
 
 def _is_at(one: Hypothesis, learned: Learned) -> bool:

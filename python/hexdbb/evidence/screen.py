@@ -19,6 +19,10 @@ from hexdbb.learned import Learned, Variable
 Floats = NDArray[np.float64]
 
 
+MOST_AXES = 2
+"""Axes along which functions push that may be finer at once."""
+
+
 @dataclass(frozen=True)
 class Known:
     """A hypothesis of the catalogue or of the user's file: an effect and some of its elements."""
@@ -51,7 +55,7 @@ class Scored:
     heldout_left: float = float("nan")
 
 
-def _is_dense(variable: Variable) -> bool:
+def is_dense(variable: Variable) -> bool:
     """Check for what is fine where it changes fast, has a fine function of its own, or is known by a period."""
     return variable.signed or variable.is_log or variable.column in ("time_s", "deflection_mm", "gauge_scale_mm")
 
@@ -139,10 +143,10 @@ class Screen:
         another state that resembles it may then have more evidence than the true one. What changes its sign with a rate
         is dense about zero already: more splines would describe how gradually another function does (`turning.py`); so
         is what is a function of a logarithm. What is narrow along the gauge's scale repeats there; a finer function of
-        time, or of three axes, explains whatever there is.
+        time, or of three axes, explains whatever there is. One carriage that is pushed aside is so along two.
         """
-        alone = [each for each in hypotheses if each.components == 1 and each.variable.may_be_finer]
-        may_be = [each for each in alone if not _is_dense(each.variable)]
+        alone = [each for each in hypotheses if each.components <= MOST_AXES and each.variable.may_be_finer]
+        may_be = [each for each in alone if not is_dense(each.variable)]
         finer = [each.finer(times) for each in may_be for times in self.criteria.finer_at_once]
         few = [each for each in finer if each.components * each.variable.columns <= self.criteria.most_tuned]
         best = {each.name: each for each in reversed(self.ranked([*hypotheses, *varying(few, self.sums.readings)]))}

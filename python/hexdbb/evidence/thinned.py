@@ -69,6 +69,12 @@ class Thinned:
             self._kept[hypothesis] = signature_of(hypothesis, self.readings, table=table)
         return self._kept[hypothesis]
 
+    def scaled(self, hypothesis: Learned) -> Floats:
+        """Return a hypothesis' signature with its prior's factor, of which coefficients are as probable as any."""
+        signature = self.signature(hypothesis)
+        found: Floats = signature.table @ signature.prior_factor(self._roughness)
+        return found
+
     def log_evidences(self, hypotheses: Sequence[Learned], linear: Linear, sizes_mm: Floats, temper: float) -> Floats:
         """Return the log evidence of hypotheses on these rows, with one roughness each (`marginal.py`).
 

@@ -24,6 +24,7 @@ from hexdbb.evidence.rivals import rivals_of
 from hexdbb.evidence.same_state import or_at_another_place, or_at_the_rails
 from hexdbb.evidence.screen import Hypothesis, Known
 from hexdbb.evidence.search import Search
+from hexdbb.evidence.second_alone import or_the_second_alone
 from hexdbb.evidence.settling import explains_nearly, of_forms
 from hexdbb.evidence.simpler import in_simple_words
 from hexdbb.evidence.stand_ins import without_stand_ins
@@ -31,6 +32,7 @@ from hexdbb.evidence.sufficiency import left_over
 from hexdbb.evidence.sure import Grade, graded, is_for_sure
 from hexdbb.evidence.tuned import with_numbers_of, with_tuned_numbers
 from hexdbb.evidence.turning import with_turning
+from hexdbb.evidence.two_elements import or_at_two_elements
 from hexdbb.learned import Learned
 
 
@@ -111,7 +113,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
-    first = _in_sure_words(search, search.run())
+    found = or_the_second_alone(search, search.run())
+    first = _in_sure_words(search, or_at_two_elements(search, found))
     other = or_another_that_predicts(search, first)
     node = in_known_words(search, other)
     if other is not first:

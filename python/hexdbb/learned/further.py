@@ -125,7 +125,9 @@ def _remembered(*variables: Variable) -> Iterator[Variable]:
 LINGERING_ANGLE = tuple(following(v.ANGLE, LINGERING, each) for each in CONSTANTS_S[1:])
 """What warms or cools the bar on one side of the circle; what dies away within less follows at once."""
 HEATED = tuple(following(v.VELOCITY, LINGERING, each) for each in HEATS_S)
-"""A nut or a motor that its own travel heats."""
+"""A nut or a motor that its own travel heats: the slider's place is off, or the leg grows that stands on it."""
+HEATED_THERE = tuple(following(v.POSITION, LINGERING, each) for each in CONSTANTS_S[2:])
+"""What is warmed, or cooled, at one end of the travel, and takes that along."""
 LATE_WARMING = tuple(following(v.WARMING, LAGGED, each) for each in HEATS_S)
 """What is thick warms later than the thermometer."""
 BY_TRAVEL = "travel_direction", "direction of travel"
@@ -325,6 +327,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *SINCE_START,
         *OTHER_DRIVES,
         *HEATED,
+        *HEATED_THERE,
         *SCREW_WAVES,
         POSITION_EACH_WAY,
     ),
@@ -334,6 +337,8 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
         *_remembered(v.FORCE, v.JOINT_ANGLE),
         *SETTLING_POSITION,
         *SINCE_START,
+        *HEATED,
+        *HEATED_THERE,
         *LEG_DIRECTIONS,
         JOINT_ANGLE_EACH_WAY,
     ),

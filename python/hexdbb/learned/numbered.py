@@ -40,8 +40,10 @@ INSTANT_S = 1e-4
 FOLLOWING_SPLINES = 6
 """Splines of what is remembered: springs and rubber bend a little; what they remember is not known in detail."""
 LINGERING_SPLINES = 24
-"""Splines of a turn where what they do lingers. More are not asked for: a lag smooths what is finer, and what readings
-say of it is their noise."""
+"""Splines of a turn, or of a travel, where what they do lingers. More are not asked for: a lag smooths what is finer,
+and what readings say of it is their noise."""
+PLACES = ("sliders_mm",)
+"""Columns that say where something is."""
 VELOCITY_SPLINES = 12
 """Splines over the platform's velocity: as many as a slider's has (`variables.VELOCITY`)."""
 POSITION_SPLINES = 12
@@ -147,10 +149,16 @@ def following(variable: Variable, how: str, constant: float) -> Variable:
         name=f"{variable.name}_{how}@{number}",
         column=f"{variable.column}{OF_MEMORY}{how}@{number}",
         words=BY_NUMBER[how].format(variable.words, float(number), unit=variable.unit).replace("  ", " "),
-        count=variable.count if how == AFTER else LINGERING_SPLINES if variable.period else FOLLOWING_SPLINES,
+        count=variable.count if how == AFTER else _splines_of_memory(variable, how),
         signed=False,
         is_coarse=how == LINGERING,
     )
+
+
+def _splines_of_memory(variable: Variable, how: str) -> int:
+    """Return how many splines a variable has that remembers; many where what lingers is warmed at one place."""
+    is_place = variable.period or (how == LINGERING and variable.column in PLACES)
+    return LINGERING_SPLINES if is_place else FOLLOWING_SPLINES
 
 
 def two_states(variable: Variable, low: float, high: float) -> Variable:

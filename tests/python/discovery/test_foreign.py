@@ -30,6 +30,7 @@ TRUTH = {
     "joint-friction-10x": "joint_friction:2",
 }
 NUMBERS = {"rail-warms": 470.4, "fan-cools": 16.0, "nut-heats": 304.0, "cover-jams": 2.5}
+NUMBERS |= {"motor-heats-foot": 94.6, "end-heats-leg": 18.26}
 NUMBERS |= {"column-sways": 430.0, "mains-hums": 1.0 / 49.963, "post-shakes": 1.0 / 4.63}
 """True value of the number in the name of the cause, by record: s or mm."""
 DIRECTION_DEG = {"hose-pulls": (40.1, 3.0)}
@@ -268,6 +269,12 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("column-sways", "learned:slider:5-6:time_period@", {"circle", "feed", "direction", "lap"}),
         # A drive that cannot feed power back overshoots where it brakes: its load's changes and reversals stood in.
         ("brakes-overshoot", "learned:slider:5:direction_power", {"direction", "lap"}),
+        # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
+        ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
+        # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
+        ("end-heats-leg", "learned:leg:5:position_lingering@", {"circle", "feed", "direction", "lap"}),
+        # The ball's holder falls over as the platform tilts: a joint off its place, which settled it.
+        ("holder-falls-over", "learned:ball:gravity_along@", {"feed", "direction", "lap"}),
         # A rail that rolls outward where its carriages come close: the same function along it said it nearly as well.
         ("rail-rolls", "learned:guideway:3:gap", {"circle", "feed", "direction", "lap"}),
     ],
@@ -313,6 +320,23 @@ def test_the_place_and_the_variable_are_found_where_no_known_effect_is(
 def test_what_no_effect_says_is_found_beside_one(name: str, causes: set[str]) -> None:
     found = found_in(name)
     assert {each.choice.partition("@")[0] for each in found.causes} == causes
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "causes"),
+    [
+        # Two screws that whip, each at a speed of its own: the cup, by the platform's speed and the angle.
+        ("screws-whip", {"learned:slider:3:velocity", "learned:slider:6:velocity"}),
+        # A beam fell on two rails: a bow beside the other dent, of which its formula says nothing.
+        ("two-dents", {"learned:vertical:2:fine_position", "learned:lateral:1:fine_position"}),
+    ],
+)
+def test_two_elements_with_functions_of_their_own_are_found_together(name: str, causes: set[str]) -> None:
+    found = found_in(name)
+    assert found.verdict == "unknown"
+    assert {each.choice.partition("_turning@")[0] for each in found.causes} == causes
+    assert all(each.after_um < 0.2 * each.before_um for each in found.heldout.values())
 
 
 def test_one_leg_that_gives_is_no_sag_of_all() -> None:

@@ -246,6 +246,8 @@ def made(planned: Samples, name: str, function: Callable[[np.ndarray], np.ndarra
         ("learned:platform_joint:5-6:course", lambda x: 0.01 + 0.0 * x, set()),
         ("learned:platform_joint:1:course_speed", lambda x: 0.01 + 1e-4 * x, set()),
         ("learned:slider:3:velocity_lingering@30", lambda x: 1e-5 * x**2, {"period", "phase"}),
+        ("learned:leg:2:velocity_lingering@30", lambda x: 1e-5 * x**2, {"period", "phase"}),
+        ("learned:leg:5:position_lingering@6", lambda x: 1e-4 * (x - x.mean()), set()),
         ("learned:reading:angle_lingering@4.5", lambda x: 0.01 * np.sin(x + 0.3), {"period", "phase"}),
     ],
 )
