@@ -35,8 +35,8 @@ Floats = NDArray[np.float64]
 FITTED = 3
 """Pairs that are fitted in full: the other leg of a pair, or a guideway's other axis, may rank before the true one."""
 NEAR = 0.97
-"""Part of the best pair's evidence to first order that another must have: of four true pairs each was the best, and what
-imitates them at another place had 0.99 of its evidence, or 0.94 and less."""
+"""Part of the best pair's evidence to first order that another must have: of four true pairs each was the best, and
+what imitates them at another place had 0.99 of its evidence, or 0.94 and less."""
 FINER = 6
 """Pairs that are compared with finer functions besides, each of another state."""
 
