@@ -113,8 +113,8 @@ def judge(search: Search, matters_um: float | None = None) -> Verdict:
     before = left_over(search.root.trial, search.trials, search.criteria, matters_um)
     if before.is_sufficient:
         return Verdict("none", (), search.root, None, before, refined_forms(search))
-    found = or_the_second_alone(search, search.run())
-    first = _in_sure_words(search, or_at_two_elements(search, found))
+    searched = or_the_second_alone(search, search.run())
+    first = _in_sure_words(search, or_at_two_elements(search, searched))
     other = or_another_that_predicts(search, first)
     node = in_known_words(search, other)
     if other is not first:
