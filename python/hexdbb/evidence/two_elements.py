@@ -125,7 +125,7 @@ def _families(search: Search) -> Iterable[list[Learned]]:
         is_one = each.element != ALL and each.element not in PAIRS.values() and each.components == 1
         if is_one and each.place in KINDS and not each.is_of_time and not each.variable.of_element:
             found[KINDS[each.place], each.variable.name].append(each)
-    return (each for each in found.values() if len(each) > 1)
+    return (each for each in found.values() if len({one.element for one in each}) > 1)
 
 
 def _width(functions: Iterable[Learned]) -> int:
@@ -148,7 +148,9 @@ class _Pairs:
         cross = together.T @ self._right
         half = cross[:, :-1]
         information, width = together.T @ together - half @ half.T, tables[0].shape[1]
-        pairs = list(combinations(range(len(functions)), 2))
+        every = combinations(range(len(functions)), 2)
+        # The two directions of one guideway are one element.
+        pairs = [(a, b) for a, b in every if functions[a].element != functions[b].element]
         at = np.array([[*range(a * width, (a + 1) * width), *range(b * width, (b + 1) * width)] for a, b in pairs])
         squares = information[at[:, :, None], at[:, None, :]]
         evidence = log_evidences(squares, cross[at, -1], self._sizes_mm, self._temper)
