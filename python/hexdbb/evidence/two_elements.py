@@ -24,6 +24,7 @@ from hexdbb.evidence.screen import Scored, is_dense
 from hexdbb.evidence.settling import predicts
 from hexdbb.evidence.signatures import varying
 from hexdbb.evidence.sums import Sums
+from hexdbb.evidence.tuned import axes_of
 from hexdbb.learned import ALL, Learned
 from hexdbb.learned.places import KINDS, PAIRS
 
@@ -71,6 +72,8 @@ def _stands_before(search: Search, pair: Node, node: Node) -> bool:
     """Check that a pair predicts, needs both, and has more evidence; two functions in place of one leave far less."""
     if pair.score - node.score <= search.criteria.margin_nats:
         return False
+    if pair.trial.is_free_in_time and not (node.trial.is_free_in_time and axes_of(pair) <= axes_of(node)):
+        return False  # two functions of time, with more values than what they replace, describe whatever drifts
     least = search.criteria.far_better if len(node.members) < len(pair.members) else 1.0
     is_less = pair.trial.left - 1.0 < least * (node.trial.left - 1.0)
     return is_less and predicts(search, pair) and needs_all(search, pair)
@@ -118,12 +121,12 @@ def best_pairs(search: Search) -> list[Pair]:
 def _families(search: Search) -> Iterable[list[Learned]]:
     """Return the functions of one state, each of another element of places alike, that push along one axis.
 
-    A guideway that is bent has it in either direction. What is free in time explains whatever drifts.
+    A guideway that is bent has it in either direction.
     """
     found: dict[tuple[str, str], list[Learned]] = defaultdict(list)
     for each in (*search.learnable.simple, *search.learnable.further.values()):
         is_one = each.element != ALL and each.element not in PAIRS.values() and each.components == 1
-        if is_one and each.place in KINDS and not each.is_of_time and not each.variable.of_element:
+        if is_one and each.place in KINDS and not each.variable.of_element:
             found[KINDS[each.place], each.variable.name].append(each)
     return (each for each in found.values() if len({one.element for one in each}) > 1)
 
