@@ -139,6 +139,15 @@ READING_EACH_WAY = (
     *(each_way(each, *BY_CIRCLE) for each in (v.ANGLE, v.BAR_ANGLE)),
     each_way(v.DEFLECTION, "deflection_direction", "sense in which the gauge moves"),
 )
+SINCE_TURN_BY_DEFLECTION = replace(
+    v.SINCE_TURN,
+    name=f"{v.SINCE_TURN.name}_by_deflection",
+    words=f"{v.SINCE_TURN.words}, more or less where it is drawn out",
+    beside=(v.SINCE_TURN.times,),
+    times="deflection_turning_mm",
+)
+"""A lever worn where it is mostly used, a plunger that sticks the more the deeper it goes: without the deflection a
+function of the angle turned, or a cup that moves along three axes, said more."""
 SCREW_WAVES = tuple(
     replace(
         each,
@@ -353,6 +362,7 @@ FURTHER: dict[str, tuple[Variable, ...]] = {
     "reading": (
         *PRODUCTS_OF_READING,
         *READING_EACH_WAY,
+        SINCE_TURN_BY_DEFLECTION,
         *_remembered(v.DEFLECTION),
         *SINCE_START,
         *CROSSTALK,

@@ -41,6 +41,7 @@ TIMES = {
     "course_in_platform": ", along the direction in which the platform moves",
     "deflection_mm": ", for each mm of deflection",
     "deflection_direction": ", its sign turning over with the sense in which the gauge moves",
+    "deflection_turning_mm": ", for each mm of deflection, its sign turning over with the gauge's sense",
     "drive_load": ", for each unit of force along the guideway",
     "leg_force_direction": ", its sign turning over with the sense in which the leg's force changes",
     "drive_load_direction": ", its sign turning over with the sense in which the force along the guideway changes",

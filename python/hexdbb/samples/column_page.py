@@ -68,6 +68,7 @@ OWN = {
     "deflection_mm": ("sample", "mm", "reading predicted by geometry and set-up as the readings determine them"),
     "gauge_scale_mm": ("sample", "mm", "where the gauge stands on its scale: the measured reading, nominal if planned"),
     "deflection_direction": ("sample", "1", "direction in which that changes, +1 or -1; 0: never moved"),
+    "deflection_turning_mm": ("sample", "mm", "deflection times that direction"),
     "deflection_since_turn_mm": ("sample", "mm", "travel of the gauge since it turned; 1e6: likewise"),
     "NAME.lagged@S": ("sample", "1", "column `NAME` behind a first-order lag of `S` seconds, of its shape and unit"),
     "NAME.relaxing@S": ("sample", "1", "column `NAME` less the same"),

@@ -25,6 +25,8 @@ Floats = NDArray[np.float64]
 DEFLECTION = "deflection_mm"
 SCALE = "gauge_scale_mm"
 DIRECTION_AND_TRAVEL = ("deflection_direction", "deflection_since_turn_mm")
+TURNING = "deflection_turning_mm"
+"""The deflection times the sense in which it changes: what a gauge hangs behind, where it does the more drawn out."""
 FITTED_ROWS = 3000
 """Readings that the step is taken from: some tens for each value of geometry and set-up, as in `Criteria.fit_rows`."""
 STEPS = 5

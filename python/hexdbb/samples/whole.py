@@ -25,6 +25,7 @@ from hexdbb.samples.deflection import (
     DIRECTION_AND_TRAVEL,
     LEAST_TURN_MM,
     SCALE,
+    TURNING,
     deflection_mm,
     scale_mm,
 )
@@ -51,7 +52,7 @@ STATE = tuple(column.name for column in _core.state_columns() if column.name not
 """Columns of the engine's state that a table may have; the engine itself numbers the rows of a part."""
 GIVEN = ("time_s", "sweep", "angle_rad")
 """Columns of the state from which, with the sliders, all that the engine derives follows."""
-OF_GAUGE = (DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL)
+OF_GAUGE = (DEFLECTION, SCALE, *DIRECTION_AND_TRAVEL, TURNING)
 """Columns of the gauge."""
 PLANNED = "planned"
 """Takes the place of a record's hash in the mounts of a plan, of which no record exists."""
@@ -156,6 +157,9 @@ class Whole:
             self.columns[name] = self._deflection_mm()
         elif name == SCALE:
             self.columns[name] = scale_mm(*self._known("reading_mm", "nominal_reading_mm"))
+        elif name == TURNING:
+            deflection_mm, direction = self._known(DEFLECTION, DIRECTION_AND_TRAVEL[0])
+            self.columns[name] = deflection_mm * direction
         elif name in DIRECTION_AND_TRAVEL:
             deflection_mm, time_s, sweep, angle_rad = self._known(DEFLECTION, "time_s", "sweep", "angle_rad")
             found = direction_and_travel(deflection_mm, time_s, sweep, angle_rad, LEAST_TURN_MM)

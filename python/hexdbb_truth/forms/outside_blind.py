@@ -239,7 +239,7 @@ def _lever_has_play(draw: Draw) -> Fault:
 
 TABLE: dict[str, Outside] = {
     "ball_chipped": Outside("um", 15.0, 300.0, ("position",), _ball_chipped),
-    "motor_warms": Outside("um", 15.0, 500.0, ("time",), _motor_warms),
+    "motor_warms": Outside("um", 15.0, 500.0, ("time", "velocity_lingering"), _motor_warms),
     "drive_pulls_weaker": Outside("um", 15.0, 800.0, ("velocity",), _drive_pulls_weaker),
     "carriages_tip": Outside("um", 15.0, 500.0, ("leg_force",), _carriages_tip),
     "beam_sags": Outside("um", 30.0, 600.0, ("position", "leg_force"), _beam_sags),

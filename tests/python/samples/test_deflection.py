@@ -60,3 +60,11 @@ def test_planned_samples_deflect_the_gauge_as_the_nominal_machine_does() -> None
     planned = Samples.planned(MACHINE, runs, angle, plan.gauge.bar_length_mm)
     for name in ("deflection_mm", "gauge_scale_mm"):
         np.testing.assert_array_equal(planned[name], planned["nominal_reading_mm"])
+
+
+def test_the_turning_deflection_is_it_with_the_sense_in_which_it_changes() -> None:
+    record = record_of(7)
+    samples = _with_reading(record, _deflected_mm(record))
+    deflection_mm, turning_mm = samples["deflection_mm"], samples["deflection_turning_mm"]
+    np.testing.assert_array_equal(turning_mm, samples["deflection_direction"] * deflection_mm)
+    assert {*np.unique(np.sign(turning_mm * deflection_mm))} >= {-1.0, 1.0}

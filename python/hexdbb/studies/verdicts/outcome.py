@@ -49,6 +49,7 @@ VARIABLES = {
     "joint_rate": ("joint_turning",),
     "joint_since_reversal": ("since_reversal", "joint_turning"),
     "deflection_since_turn": ("deflection", "direction"),
+    "deflection_since_turn_by_deflection": ("deflection", "direction"),
     **{f"{load}_since_turn": ("leg_force", "direction") for load in ("leg_force", "drive_load", "carriage_load")},
     "drive_load": ("leg_force",),
     "carriage_load": ("leg_force",),
