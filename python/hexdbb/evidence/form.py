@@ -7,7 +7,7 @@ a fraction f of the effect's, f half-normal with `Criteria.form_sigma`; f is cho
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from hexdbb.evidence.readings import Linear
 from hexdbb.evidence.screen import Known
 from hexdbb.evidence.signatures import varying
 from hexdbb.learned import ALL, Learned
+from hexdbb.learned.variables import TIME
 from hexdbb.model import Parameter
 
 Floats = NDArray[np.float64]
@@ -178,8 +179,17 @@ class Forms:
 
 
 def _by_variable(groups: Sequence[tuple[Learned, ...]]) -> list[tuple[Learned, ...]]:
-    """Put functions of one variable together: of an effect at several elements each has a form of its own."""
+    """Put functions of one variable together: of an effect at several elements each has a form of its own.
+
+    Those of time have few splines then: six screws, each of which swings as it likes, are a gauge that drifts.
+    """
     found: dict[tuple[str, str], dict[Learned, None]] = {}
     for group in groups:
-        found.setdefault((group[0].place, group[0].variable.name), {}).update(dict.fromkeys(group))
+        few = [_of_few(each) if each.is_of_time else each for each in group]
+        found.setdefault((group[0].place, group[0].variable.name), {}).update(dict.fromkeys(few))
     return [tuple(each) for each in found.values()]
+
+
+def _of_few(learned: Learned) -> Learned:
+    """Return a function of time with no more splines than the simple one has."""
+    return replace(learned, variable=replace(learned.variable, count=min(learned.variable.count, TIME.count)))

@@ -15,8 +15,6 @@ from hexdbb.learned.variable import ELAPSED, LINGERING, Variable, is_growing
 
 SPLINES = 6
 """Splines of a product: what multiplies sets most of its form already."""
-OVER_TIME = 24
-"""The same where the product changes with time: a swing that comes several times in a test of half an hour."""
 CONSTANTS_S = (2.0, 6.0, 20.0, 60.0)
 """Time constants of what remembers, at first: a factor of three apart each contains half of its neighbour; the readings
 then move it. Shorter ones follow at once at usual feeds, longer ones are functions of time."""
@@ -77,7 +75,7 @@ def product(factor: str, variable: Variable) -> Variable:
         variable,
         name=f"{factor}_{variable.name}",
         words=f"{variable.words}, times the {words}",
-        count=OVER_TIME if variable == v.TIME else variable.count if variable.period else SPLINES,
+        count=v.SWINGS if variable == v.TIME else variable.count if variable.period else SPLINES,
         times=column,
         signed=False,
         of_forms=False,

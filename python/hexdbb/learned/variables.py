@@ -106,6 +106,8 @@ LOADS_SINCE_TURN = tuple(
     for load in (FORCE, DRIVE_LOAD, CARRIAGE_LOAD)
 )
 """A bolted joint slips, and a preloaded nut winds up, behind the load: they remember where it turned, not when."""
+SWINGS = 24
+"""Splines over time of what swings several times in a test of half an hour."""
 TIME = Variable("time", "time_s", "s", "time", 10)
 FINE_TIME = Variable("fine_time", "time_s", "s", "time", 40)
 TIME_IN_SWEEP = Variable("time_in_sweep", "time_in_sweep_s", "s", "time since the capture began", 10, is_log=True)
@@ -131,12 +133,13 @@ POSITION_OVER_TIME = Variable(
     "time_s",
     "s",
     "time, times the position of the slider",
-    TIME.count,
+    SWINGS,
     times="sliders_mm",
     from_start=True,
     of_forms=True,
 )
-"""Beside the same: a law of its own in time, in proportion to the position, as free as other functions of time are."""
+"""Beside the same: a law of its own in time, in proportion to the position. A screw whose temperature swings with its
+cooling, every five to fifteen minutes of a test of forty, has no form of ten splines: it was a function of its force."""
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
 SCREW_COS_POSITION, SCREW_SIN_POSITION = (
