@@ -139,7 +139,7 @@ POSITION_OVER_TIME = Variable(
     of_forms=True,
 )
 """Beside the same: a law of its own in time, in proportion to the position. A screw whose temperature swings with its
-cooling, every five to fifteen minutes of a test of forty, has no form of ten splines: it was a function of its force."""
+cooling, every five to fifteen minutes of a test of forty, has no form of ten splines: it was a function of a force."""
 WARMING = Variable("warming", "warming_k", "K", "warming", 6)
 SCREW_PHASE = Variable("screw_phase", "sliders_mm", "mm", "turn of the screw", 12, period=SCREW_LEAD)
 SCREW_COS_POSITION, SCREW_SIN_POSITION = (
