@@ -135,13 +135,15 @@ def _leaves_more(search: Search, node: Node, than: Node, learned: Learned) -> bo
     One that is looked at last was so because known effects left more: what pushes a joint upward after reversals was
     play of its slider, which left three variances more. But not a free function of time, which leaves less of whatever
     drifts, and predicts none of it.
+
+    Beside other functions it is one that leaves more, and of which the formula says little: a dent is no bow.
     """
+    if node.is_known and len(node.members) > 1:
+        return False
     beyond = explained_beyond(search, than.trial, node.trial)
     is_more = beyond > max(must_explain(search, node.trial), NOTHING_LEFT)
     if not node.is_known:
         return is_more and _is_mostly_form(search, node, than)
-    if len(node.members) > 1:
-        return False
     is_last = search.learnable.is_further(learned) and not than.trial.is_of_time
     return is_more and (is_last or explained_by_formulas(search, node) < search.criteria.explained_min)
 
